@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * libsdfgi: real-time global illumination for any Vulkan renderer.
+ *
+ * DOES
+ *   voxelise the host's meshes into cascades around the camera, flood signed distance fields through them,
+ *   trace light probes, and answer "how much indirect light arrives at this point" in the host's own shaders
+ *   (shaders/include/sdfgi.glsl) or as a screen pass (sdfgi_gather).
+ *
+ * DOES NOT
+ *   create a device, own a queue, submit, wait, print, or keep any global state. It records commands into a
+ *   command buffer of the host's and nothing else.
+ *
+ * STEP BY STEP
+ *   1. sdfgi_get_requirements: ask whether a physical device will do and which features to switch on.
+ *   2. sdfgi_create with the host's device; GI starts disabled and holds no device memory.
+ *   3. sdfgi_material_create, sdfgi_mesh_create, sdfgi_instance_create, sdfgi_light_create, sdfgi_set_sky.
+ *   4. sdfgi_set_settings with `enabled` set: the one switch.
+ *   5. Every frame: sdfgi_update(cmd), then draw with the set from sdfgi_get_descriptor_set, or sdfgi_gather.
+ *   6. sdfgi_get_report to see what ran, why, how long it took and whether the light has converged.
+ *
+ * CONVENTIONS
+ *   Units      metres, radians, W/m^2 (irradiance), W/(m^2 sr) (radiance), W/sr (intensity), linear RGB.
+ *   Space      right or left handed, any up axis except for sdfgi_y_scale and the sky, which take +Y as up.
+ *   Positions  cross this interface as double[3] in world space.
+ *   Lifetime   descriptors and what they point to need only outlive the call. Vulkan handles are borrowed and
+ *              must outlive the object that was made from them.
+ *   Defaults   a zero-initialised descriptor is valid unless a field says otherwise; settings are different,
+ *              since 0 means something there: start from sdfgi_settings_default.
+ *   NULL       a destructor accepts NULL; no other pointer may be NULL unless its comment says so.
+ *   Errors     a call that fails changes nothing, writes nothing to its outputs and reports why through the
+ *              log callback. Nothing aborts. After SDFGI_ERROR_DEVICE_LOST only sdfgi_destroy is useful.
+ *   Threading  one context may be used by one thread at a time; different contexts are independent.
+ */
+#ifndef SDFGI_H
+#define SDFGI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan_core.h>
+
+#include <sdfgi/messages.h>
+#include <sdfgi/settings.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#ifndef SDFGI_API
+#define SDFGI_API __attribute__((visibility("default")))
+#endif
+
+enum sdfgi_result {
+    SDFGI_OK = 0,
+    SDFGI_ERROR_INVALID_ARGUMENT = -1, /* the call broke a documented rule; the log names it */
+    SDFGI_ERROR_UNSUPPORTED = -2,      /* the device lacks something sdfgi_get_requirements lists */
+    SDFGI_ERROR_OUT_OF_MEMORY = -3,    /* host or device memory; the previous state is intact */
+    SDFGI_ERROR_DEVICE_LOST = -4,
+};
+
+enum sdfgi_log_level { SDFGI_LOG_ERROR, SDFGI_LOG_WARNING, SDFGI_LOG_INFO };
+
+/* Receives one message: `text` is a single line valid during the call. */
+typedef void (*sdfgi_log_fn)(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text);
+
+struct sdfgi_log {
+    sdfgi_log_fn fn; /* NULL: no messages */
+    void *user;
+};
+
+/* Host memory. Both functions or neither; neither means malloc and free. */
+struct sdfgi_allocator {
+    void *(*alloc)(void *user, size_t size); /* may return NULL: the call then fails cleanly */
+    void (*free)(void *user, void *memory);
+    void *user;
+};
+
+/* ---- Before a device exists ------------------------------------------------------------------------- */
+
+enum { SDFGI_MAX_REASONS = 16, SDFGI_MAX_EXTENSIONS = 4 };
+
+struct sdfgi_requirements {
+    bool supported;
+    uint32_t reason_count; /* why not; 0 when supported */
+    char reasons[SDFGI_MAX_REASONS][96];
+    uint32_t extension_count; /* device extensions to enable: none so far */
+    const char *extensions[SDFGI_MAX_EXTENSIONS];
+    /* Features to enable, and no others are used. Chain them in VkDeviceCreateInfo::pNext, or set the same
+     * bits in structures of your own. The pNext members are NULL. */
+    VkPhysicalDeviceFeatures features;
+    VkPhysicalDeviceVulkan12Features features_12; /* sType set; all unused bits are VK_FALSE */
+};
+
+/* Fills `requirements` for a device of `instance`. `get_instance_proc_addr` is the loader's. */
+SDFGI_API enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysicalDevice physical_device,
+                                                   PFN_vkGetInstanceProcAddr get_instance_proc_addr,
+                                                   struct sdfgi_requirements *requirements);
+
+enum sdfgi_memory_category {
+    SDFGI_MEMORY_VOLUMES,   /* solid bits, distance, albedo, emission, light */
+    SDFGI_MEMORY_PROBES,    /* irradiance, occlusion, running sums, ray cache */
+    SDFGI_MEMORY_SCRATCH,   /* flood pointers and accumulators, shared by all cascades */
+    SDFGI_MEMORY_LISTS,     /* light cells, instances, lights, indirect arguments */
+    SDFGI_MEMORY_READBACK,  /* counters and timestamps, host visible */
+    SDFGI_MEMORY_CATEGORY_COUNT,
+};
+
+struct sdfgi_memory {
+    uint64_t bytes[SDFGI_MEMORY_CATEGORY_COUNT];
+    uint64_t total_bytes;
+};
+
+/* Stable lower-case name of a category, for reports. */
+SDFGI_API const char *sdfgi_memory_category_name(enum sdfgi_memory_category category);
+
+/* Device bytes that a context with these settings will allocate when it is switched on: exactly what
+ * sdfgi_get_report says afterwards. Needs no device. `settings` may be NULL for the defaults. */
+SDFGI_API enum sdfgi_result sdfgi_estimate_memory(const struct sdfgi_settings *settings,
+                                                  uint32_t frames_in_flight, struct sdfgi_memory *memory);
+
+/* ---- Context ---------------------------------------------------------------------------------------- */
+
+struct sdfgi_vulkan {
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    uint32_t queue_family_index; /* of the command buffers given to sdfgi_update: compute, and graphics too
+                                    if the raster voxelizer is chosen */
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+    const VkAllocationCallbacks *allocation_callbacks; /* may be NULL; copied */
+};
+
+struct sdfgi_desc {
+    struct sdfgi_vulkan vulkan;
+    uint32_t frames_in_flight;             /* 1..8; 0: 2. A command buffer recorded by sdfgi_update must have
+                                              finished by the time this many further updates are recorded */
+    const struct sdfgi_settings *settings; /* NULL: defaults, that is, disabled */
+    struct sdfgi_log log;
+    struct sdfgi_allocator allocator;
+};
+
+typedef struct sdfgi sdfgi;
+
+/* Creates a context. Allocates no device memory while settings->enabled is false.
+ * Thread-safety: see THREADING above, for all functions that take a context. */
+SDFGI_API enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out);
+
+/* Destroys the context, and every object made from it. The device must not be using any of them any more. */
+SDFGI_API void sdfgi_destroy(sdfgi *gi);
+
+/* Validates and takes over `settings`. Switching off releases all device memory as soon as the frames in
+ * flight are over; switching on allocates it, and on failure leaves the previous settings in force.
+ * Properties marked "re-create" rebuild everything. */
+SDFGI_API enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *settings);
+
+/* The settings in force, every value as it is really used. */
+SDFGI_API void sdfgi_get_settings(const sdfgi *gi, struct sdfgi_settings *settings);
+
+/* ---- Scene ------------------------------------------------------------------------------------------ */
+
+/* Handles: 0 is never valid. A stale handle is refused with SDFGI_ERROR_INVALID_ARGUMENT. */
+typedef struct { uint32_t id; } sdfgi_mesh;
+typedef struct { uint32_t id; } sdfgi_material;
+typedef struct { uint32_t id; } sdfgi_instance;
+typedef struct { uint32_t id; } sdfgi_light;
+
+/* A texture as the voxeliser samples it. view == VK_NULL_HANDLE: none, the factor alone counts.
+ * The image must be in `layout` whenever a command buffer from sdfgi_update executes. */
+struct sdfgi_texture {
+    VkImageView view;     /* 2D; an sRGB format where the content is sRGB */
+    VkSampler sampler;
+    VkImageLayout layout; /* VK_IMAGE_LAYOUT_UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
+    float uv_transform[6]; /* row-major 2x3, uv' = M * (u, v, 1); all zero: identity */
+};
+
+struct sdfgi_material_desc {
+    float albedo[3];       /* linear diffuse reflectance factor, [0, 1] */
+    float alpha;           /* [0, 1], multiplied by the texture's alpha; only used for alpha_cutoff */
+    float emission[3];     /* radiance, W/(m^2 sr), >= 0 */
+    float alpha_cutoff;    /* > 0: samples with alpha below it are holes */
+    bool double_sided_emission; /* false: emits from the front (counter-clockwise) side only */
+    struct sdfgi_texture albedo_texture;   /* RGB times albedo, A times alpha */
+    struct sdfgi_texture emission_texture; /* RGB times emission */
+};
+
+SDFGI_API enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_material_desc *desc,
+                                                  sdfgi_material *out);
+SDFGI_API enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material material);
+
+/* Triangles in buffers of the host's, which must have VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Offsets and strides
+ * are multiples of 4 bytes. Triangles with a non-finite or out-of-range vertex are skipped and counted. */
+struct sdfgi_mesh_desc {
+    VkBuffer position_buffer;  /* 3 floats per vertex */
+    VkDeviceSize position_offset;
+    uint32_t position_stride;  /* bytes; 0: 12 */
+    VkBuffer uv_buffer;        /* 2 floats per vertex; VK_NULL_HANDLE: (0, 0) */
+    VkDeviceSize uv_offset;
+    uint32_t uv_stride;        /* bytes; 0: 8 */
+    VkBuffer color_buffer;     /* 4 floats per vertex, multiplied into the albedo; VK_NULL_HANDLE: white */
+    VkDeviceSize color_offset;
+    uint32_t color_stride;     /* bytes; 0: 16 */
+    VkBuffer index_buffer;     /* VK_NULL_HANDLE: vertices 0, 1, 2, ... */
+    VkDeviceSize index_offset; /* a multiple of 4 also for 16-bit indices */
+    VkIndexType index_type;    /* VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 */
+    uint32_t vertex_count;     /* > 0 */
+    uint32_t triangle_count;   /* > 0 */
+    float bounds_min[3];       /* object space, containing every vertex; instances are culled by it */
+    float bounds_max[3];
+};
+
+SDFGI_API enum sdfgi_result sdfgi_mesh_create(sdfgi *gi, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out);
+SDFGI_API enum sdfgi_result sdfgi_mesh_destroy(sdfgi *gi, sdfgi_mesh mesh); /* and its instances */
+
+/* Object to world: world = basis * object + translation. basis is column-major 3x3, any finite matrix
+ * (mirrored and sheared too). */
+struct sdfgi_transform {
+    float basis[9];
+    double translation[3];
+};
+
+enum sdfgi_mobility {
+    SDFGI_STATIC = 0, /* in the volumes */
+    SDFGI_EXCLUDED,   /* receives light, neither blocks nor bounces it */
+};
+
+struct sdfgi_instance_desc {
+    sdfgi_mesh mesh;
+    sdfgi_material material;
+    struct sdfgi_transform transform;
+    enum sdfgi_mobility mobility;
+};
+
+SDFGI_API enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_desc *desc,
+                                                  sdfgi_instance *out);
+SDFGI_API enum sdfgi_result sdfgi_instance_set_transform(sdfgi *gi, sdfgi_instance instance,
+                                                         const struct sdfgi_transform *transform);
+SDFGI_API enum sdfgi_result sdfgi_instance_destroy(sdfgi *gi, sdfgi_instance instance);
+
+enum sdfgi_light_type { SDFGI_LIGHT_DIRECTIONAL, SDFGI_LIGHT_POINT, SDFGI_LIGHT_SPOT };
+
+struct sdfgi_light_desc {
+    enum sdfgi_light_type type;
+    double position[3];    /* point, spot */
+    float direction[3];    /* directional, spot: the way the light travels; need not be unit length */
+    float intensity[3];    /* W/sr (point, spot) or irradiance W/m^2 (directional), >= 0 */
+    float range_m;         /* point, spot: no light beyond; 0: unlimited */
+    float inner_angle_rad; /* spot: half angles, 0 <= inner < outer <= pi/2; falloff */
+    float outer_angle_rad; /*   saturate((cos t - cos outer) / (cos inner - cos outer))^2 */
+    float indirect_energy; /* factor on what this light contributes to GI, >= 0: 1 is physical, 0 switches it off there */
+    bool casts_shadow;     /* false: reaches every surface that faces it */
+};
+
+SDFGI_API enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_light_desc *desc, sdfgi_light *out);
+SDFGI_API enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light, const struct sdfgi_light_desc *desc);
+SDFGI_API enum sdfgi_result sdfgi_light_destroy(sdfgi *gi, sdfgi_light light);
+
+/* Sky radiance in direction d (unit, +Y up): lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|).
+ * A uniform sky has three equal colours; all zero, the initial state, is no sky. */
+struct sdfgi_sky {
+    float zenith[3], horizon[3], ground[3]; /* W/(m^2 sr), >= 0 */
+};
+
+SDFGI_API enum sdfgi_result sdfgi_set_sky(sdfgi *gi, const struct sdfgi_sky *sky);
+
+/* Says that the triangles, textures or materials inside a world-space box have changed behind the library's
+ * back. NULL corners are not accepted. Whatever the box touches is voxelised again. */
+SDFGI_API enum sdfgi_result sdfgi_invalidate_box(sdfgi *gi, const double box_min[3], const double box_max[3]);
+
+/* ---- Frame ------------------------------------------------------------------------------------------ */
+
+struct sdfgi_frame_desc {
+    double camera_position[3]; /* cascades are centred on it */
+    double origin[3];          /* world position of (0, 0, 0) in the host's shaders; for worlds of more than a few
+                                  kilometres use a point near the camera */
+    uint64_t frame_index;      /* of the host's; the random sequence depends on it and on seed alone */
+    uint32_t seed;
+    float exposure;            /* > 0: factor that brings scene radiance near 1, so that small formats keep
+                                  their precision; 0: 1. Changing it restarts convergence */
+};
+
+/* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
+ * Afterwards the descriptor set may be used by graphics and compute work later in the same queue: the
+ * barriers are recorded. Records nothing at all while GI is disabled. */
+SDFGI_API enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc);
+
+/* True when lookups give light: GI is enabled and at least one update has been recorded. */
+SDFGI_API bool sdfgi_is_active(const sdfgi *gi);
+
+/* Layout and set for shaders/include/sdfgi.glsl. The layout lives as long as the context. The set is
+ * VK_NULL_HANDLE while GI is disabled, and may change whenever settings change: fetch it every frame. */
+SDFGI_API VkDescriptorSetLayout sdfgi_get_descriptor_set_layout(const sdfgi *gi);
+SDFGI_API VkDescriptorSet sdfgi_get_descriptor_set(const sdfgi *gi);
+
+/* Indirect diffuse light for a whole screen: irradiance E (W/m^2, not times albedo) per pixel.
+ *
+ *   image    format                          layout on entry and exit       usage
+ *   depth    any sampled depth/float, 0..1   SHADER_READ_ONLY or GENERAL    SAMPLED
+ *   normal   any sampled float, xyz unit     SHADER_READ_ONLY or GENERAL    SAMPLED
+ *   output   R16G16B16A16_SFLOAT             GENERAL                        STORAGE
+ */
+struct sdfgi_gather_desc {
+    VkImageView depth, normal, output;
+    VkImageLayout input_layout;    /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
+    uint32_t width, height;        /* pixels of all three */
+    float inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin */
+    float background_depth;        /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
+};
+
+/* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must be
+ * made visible to compute shader reads by the host; the output is made visible to later compute and fragment
+ * reads. Does nothing and returns SDFGI_OK while GI is not active. */
+SDFGI_API enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc);
+
+/* ---- Report ----------------------------------------------------------------------------------------- */
+
+enum { SDFGI_MAX_PASSES = 40 };
+
+struct sdfgi_pass_report {
+    const char *name;            /* static; shader, label and timer have the same */
+    bool ran;                    /* in the last recorded frame */
+    const char *reason;          /* static: the condition of the scene that called for it, or why it was skipped */
+    uint32_t dispatches;         /* recorded in the last frame */
+    uint64_t work;               /* units of the pass's domain processed (cells, probes, rays, ...) in the last frame
+                                    known; for passes with indirect size this is read back, frames_in_flight late */
+    const char *work_unit;       /* static */
+    uint64_t gpu_ns;             /* of the last frame read back in which it ran; 0: not known */
+    bool gpu_ns_valid;           /* a new timing arrived with the last update */
+};
+
+struct sdfgi_health {
+    enum sdfgi_message code;
+    uint64_t count;
+    const char *hint;            /* static */
+};
+
+struct sdfgi_report {
+    uint64_t update_count;       /* frames recorded so far while enabled */
+    bool active;
+    bool converged;              /* nothing more will change unless the scene does; no GI work is recorded */
+    float converged_fraction;    /* [0, 1]: estimated share of the way */
+    uint32_t pass_count;
+    struct sdfgi_pass_report passes[SDFGI_MAX_PASSES];
+    uint32_t command_count;      /* Vulkan commands the library recorded in the last sdfgi_update */
+    struct sdfgi_memory memory;  /* device bytes held now */
+    uint32_t health_count;
+    struct sdfgi_health health[SDFGI_MESSAGE_COUNT];
+};
+
+/* State after the last sdfgi_update. GPU figures are those of the newest frame known to be finished. */
+SDFGI_API void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
