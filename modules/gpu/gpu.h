@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The thinnest Vulkan layer the passes need: functions of an imported device, buffers, images, pipelines, a recorder
+ * that counts commands and places barriers, timestamps. Knows nothing of lighting. Functions that can fail return a
+ * VkResult; destructors accept objects that were never or only half created.
+ */
+#ifndef GPU_H
+#define GPU_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan_core.h>
+
+#define GPU_INSTANCE_FUNCTIONS(X)                                                                               \
+    X(GetDeviceProcAddr)                                                                                        \
+    X(GetPhysicalDeviceMemoryProperties)                                                                        \
+    X(GetPhysicalDeviceProperties)                                                                              \
+    X(GetPhysicalDeviceFeatures2)                                                                               \
+    X(GetPhysicalDeviceFormatProperties)                                                                        \
+    X(GetPhysicalDeviceQueueFamilyProperties)
+
+#define GPU_DEVICE_FUNCTIONS(X)                                                                                 \
+    X(AllocateDescriptorSets)                                                                                   \
+    X(AllocateMemory)                                                                                           \
+    X(BindBufferMemory)                                                                                         \
+    X(BindImageMemory)                                                                                          \
+    X(CmdBeginRenderPass)                                                                                       \
+    X(CmdBindDescriptorSets)                                                                                    \
+    X(CmdBindPipeline)                                                                                          \
+    X(CmdCopyBuffer)                                                                                            \
+    X(CmdDispatch)                                                                                              \
+    X(CmdDispatchIndirect)                                                                                      \
+    X(CmdDraw)                                                                                                  \
+    X(CmdEndRenderPass)                                                                                         \
+    X(CmdFillBuffer)                                                                                            \
+    X(CmdPipelineBarrier)                                                                                       \
+    X(CmdPushConstants)                                                                                         \
+    X(CmdResetQueryPool)                                                                                        \
+    X(CmdUpdateBuffer)                                                                                          \
+    X(CmdWriteTimestamp)                                                                                        \
+    X(CreateBuffer)                                                                                             \
+    X(CreateComputePipelines)                                                                                   \
+    X(CreateDescriptorPool)                                                                                     \
+    X(CreateDescriptorSetLayout)                                                                                \
+    X(CreateFramebuffer)                                                                                        \
+    X(CreateGraphicsPipelines)                                                                                  \
+    X(CreateImage)                                                                                              \
+    X(CreateImageView)                                                                                          \
+    X(CreatePipelineLayout)                                                                                     \
+    X(CreateQueryPool)                                                                                          \
+    X(CreateRenderPass)                                                                                         \
+    X(CreateSampler)                                                                                            \
+    X(CreateShaderModule)                                                                                       \
+    X(DestroyBuffer)                                                                                            \
+    X(DestroyDescriptorPool)                                                                                    \
+    X(DestroyDescriptorSetLayout)                                                                               \
+    X(DestroyFramebuffer)                                                                                       \
+    X(DestroyImage)                                                                                             \
+    X(DestroyImageView)                                                                                         \
+    X(DestroyPipeline)                                                                                          \
+    X(DestroyPipelineLayout)                                                                                    \
+    X(DestroyQueryPool)                                                                                         \
+    X(DestroyRenderPass)                                                                                        \
+    X(DestroySampler)                                                                                           \
+    X(DestroyShaderModule)                                                                                      \
+    X(FreeDescriptorSets)                                                                                       \
+    X(FreeMemory)                                                                                               \
+    X(GetBufferMemoryRequirements)                                                                              \
+    X(GetImageMemoryRequirements)                                                                               \
+    X(GetQueryPoolResults)                                                                                      \
+    X(InvalidateMappedMemoryRanges)                                                                             \
+    X(MapMemory)                                                                                                \
+    X(UpdateDescriptorSets)
+
+struct gpu_functions {
+#define GPU_DECLARE(name) PFN_vk##name name;
+    GPU_INSTANCE_FUNCTIONS(GPU_DECLARE)
+    GPU_DEVICE_FUNCTIONS(GPU_DECLARE)
+#undef GPU_DECLARE
+    /* NULL unless the host enabled VK_EXT_debug_utils. */
+    PFN_vkSetDebugUtilsObjectNameEXT SetDebugUtilsObjectNameEXT;
+    PFN_vkCmdBeginDebugUtilsLabelEXT CmdBeginDebugUtilsLabelEXT;
+    PFN_vkCmdEndDebugUtilsLabelEXT CmdEndDebugUtilsLabelEXT;
+};
+
+/* A device of the host's. */
+struct gpu_device {
+    struct gpu_functions fn;
+    VkDevice handle;
+    const VkAllocationCallbacks *callbacks; /* may be NULL */
+    VkPhysicalDeviceMemoryProperties memory;
+    VkPhysicalDeviceLimits limits;
+    uint32_t timestamp_bits; /* of the queue family; 0: no timestamps */
+};
+
+/* Loads functions of an instance; false if one is missing. */
+bool gpu_functions_load_instance(struct gpu_functions *fn, VkInstance instance, PFN_vkGetInstanceProcAddr get);
+
+/* Imports a device. VK_ERROR_INITIALIZATION_FAILED if a core function is missing. */
+VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysicalDevice physical, VkDevice handle,
+                         uint32_t queue_family, PFN_vkGetInstanceProcAddr get, const VkAllocationCallbacks *callbacks);
+
+/* Names an object for debuggers; does nothing without VK_EXT_debug_utils. */
+void gpu_object_name(const struct gpu_device *device, VkObjectType type, uint64_t handle, const char *name);
+
+/* ---- Memory: gpu_memory.c */
+
+struct gpu_buffer {
+    VkBuffer handle;
+    VkDeviceMemory memory;
+    uint64_t size;
+    void *mapped; /* host-visible buffers only */
+    bool coherent;
+};
+
+struct gpu_image {
+    VkImage handle;
+    VkImageView view;
+    VkDeviceMemory memory;
+};
+
+enum gpu_placement { GPU_DEVICE_LOCAL, GPU_HOST_READ };
+
+VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
+                         VkBufferUsageFlags usage, enum gpu_placement placement, const char *name);
+void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer);
+
+/* Makes what the device wrote to a host-visible buffer visible to the host. */
+VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer);
+
+/* A 2D array image, device local, with a view of all layers. */
+VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format, uint32_t width,
+                        uint32_t height, uint32_t layers, VkImageUsageFlags usage, const char *name);
+void gpu_image_finish(const struct gpu_device *device, struct gpu_image *image);
+
+/* ---- Pipelines: gpu_pipeline.c */
+
+struct gpu_shader {
+    const uint32_t *code;
+    size_t size; /* bytes */
+};
+
+VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu_shader shader, VkPipelineLayout layout,
+                                     const char *name, VkPipeline *pipeline);
+
+/* Triangles into a render pass without attachments, `extent` pixels a side, neither culled nor clipped in depth. */
+VkResult gpu_raster_pipeline_create(const struct gpu_device *device, struct gpu_shader vertex, struct gpu_shader fragment,
+                                    VkPipelineLayout layout, VkRenderPass render_pass, uint32_t extent, const char *name,
+                                    VkPipeline *pipeline);
+
+/* ---- Recording: gpu_recorder.c */
+
+/* What a command does with the resources it names. */
+enum gpu_usage {
+    GPU_USAGE_COMPUTE,  /* shader reads and writes */
+    GPU_USAGE_GRAPHICS, /* the same, from vertex and fragment shaders */
+    GPU_USAGE_TRANSFER, /* fills, updates and copies */
+    GPU_USAGE_INDIRECT, /* indirect arguments, besides compute */
+    GPU_USAGE_COUNT,
+};
+
+/* Resources are bits of a mask, chosen by the caller. A barrier is placed before a command whose reads meet earlier
+ * writes, or whose writes meet earlier reads or writes. */
+struct gpu_recorder {
+    const struct gpu_device *device;
+    VkCommandBuffer cmd;
+    uint32_t command_count;
+    bool begun;              /* the barrier against earlier work has been placed */
+    uint64_t reads, writes;  /* since the last barrier */
+    VkPipelineStageFlags stages;
+    VkAccessFlags write_access;
+};
+
+void gpu_recorder_begin(struct gpu_recorder *rec, const struct gpu_device *device, VkCommandBuffer cmd);
+
+/* Makes all that was written visible to anything later in the queue. */
+void gpu_recorder_end(struct gpu_recorder *rec);
+
+/* Declares what the next command touches. */
+void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes);
+
+void gpu_label_begin(struct gpu_recorder *rec, const char *name);
+void gpu_label_end(struct gpu_recorder *rec);
+void gpu_fill(struct gpu_recorder *rec, const struct gpu_buffer *buffer, uint64_t offset, uint64_t size, uint32_t value);
+/* Any size that is a multiple of 4; recorded inline, so `data` may be freed afterwards. */
+void gpu_update(struct gpu_recorder *rec, const struct gpu_buffer *buffer, uint64_t offset, uint64_t size,
+                const void *data);
+void gpu_copy(struct gpu_recorder *rec, const struct gpu_buffer *from, uint64_t from_offset,
+              const struct gpu_buffer *to, uint64_t to_offset, uint64_t size);
+void gpu_image_to_general(struct gpu_recorder *rec, const struct gpu_image *image, uint32_t layers);
+void gpu_bind_pipeline(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipeline pipeline);
+void gpu_bind_set(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipelineLayout layout, uint32_t index,
+                  VkDescriptorSet set);
+void gpu_push(struct gpu_recorder *rec, VkPipelineLayout layout, uint32_t size, const void *data);
+void gpu_dispatch(struct gpu_recorder *rec, uint32_t x, uint32_t y, uint32_t z);
+void gpu_dispatch_indirect(struct gpu_recorder *rec, const struct gpu_buffer *arguments, uint64_t offset);
+void gpu_draw(struct gpu_recorder *rec, uint32_t vertices);
+
+/* ---- Timestamps: gpu_timer.c */
+
+enum { GPU_TIMER_SPANS = 256 }; /* timed spans per frame; further ones are not timed */
+
+struct gpu_timer_span {
+    uint32_t tag;    /* the caller's */
+    uint64_t ns;
+};
+
+/* Query slots of the frames in flight. */
+struct gpu_timer {
+    VkQueryPool pool; /* null: no timestamps on this queue */
+    uint32_t slots, slot;
+    uint32_t count;                       /* spans begun in the current slot */
+    uint32_t *tags;                       /* slots * GPU_TIMER_SPANS */
+    uint32_t *counts;                     /* per slot */
+};
+
+/* `tags` holds slots * GPU_TIMER_SPANS and `counts` slots elements; both stay the caller's. */
+VkResult gpu_timer_init(const struct gpu_device *device, struct gpu_timer *timer, uint32_t slots, uint32_t *tags,
+                        uint32_t *counts);
+void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer);
+
+/* Reads the spans last recorded in `slot`, whose frame must be over. Returns how many were written to `spans`. */
+uint32_t gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
+                        struct gpu_timer_span spans[GPU_TIMER_SPANS]);
+
+/* Starts recording into `slot`, forgetting what it held. */
+void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot);
+void gpu_timer_begin(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t tag);
+void gpu_timer_end(struct gpu_timer *timer, struct gpu_recorder *rec);
+
+#endif

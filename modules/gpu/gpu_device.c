@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+#include "gpu.h"
+
+#include <string.h>
+
+bool gpu_functions_load_instance(struct gpu_functions *fn, VkInstance instance, PFN_vkGetInstanceProcAddr get)
+{
+    bool complete = true;
+#define LOAD(name)                                                                                           \
+    fn->name = (PFN_vk##name)get(instance, "vk" #name);                                                      \
+    complete = complete && fn->name;
+    GPU_INSTANCE_FUNCTIONS(LOAD)
+#undef LOAD
+    fn->SetDebugUtilsObjectNameEXT =
+        (PFN_vkSetDebugUtilsObjectNameEXT)get(instance, "vkSetDebugUtilsObjectNameEXT");
+    fn->CmdBeginDebugUtilsLabelEXT =
+        (PFN_vkCmdBeginDebugUtilsLabelEXT)get(instance, "vkCmdBeginDebugUtilsLabelEXT");
+    fn->CmdEndDebugUtilsLabelEXT =
+        (PFN_vkCmdEndDebugUtilsLabelEXT)get(instance, "vkCmdEndDebugUtilsLabelEXT");
+    return complete;
+}
+
+static bool load_device(struct gpu_functions *fn, VkDevice device)
+{
+    bool complete = true;
+#define LOAD(name)                                                                                           \
+    fn->name = (PFN_vk##name)fn->GetDeviceProcAddr(device, "vk" #name);                                      \
+    complete = complete && fn->name;
+    GPU_DEVICE_FUNCTIONS(LOAD)
+#undef LOAD
+    return complete;
+}
+
+static uint32_t timestamp_bits(const struct gpu_functions *fn, VkPhysicalDevice physical, uint32_t family)
+{
+    VkQueueFamilyProperties families[16];
+    uint32_t count = 16;
+    fn->GetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
+    return family < count ? families[family].timestampValidBits : 0;
+}
+
+VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysicalDevice physical,
+                         VkDevice handle, uint32_t queue_family, PFN_vkGetInstanceProcAddr get,
+                         const VkAllocationCallbacks *callbacks)
+{
+    memset(device, 0, sizeof *device);
+    if (!gpu_functions_load_instance(&device->fn, instance, get) || !load_device(&device->fn, handle))
+        return VK_ERROR_INITIALIZATION_FAILED;
+    device->handle = handle;
+    device->callbacks = callbacks;
+    device->fn.GetPhysicalDeviceMemoryProperties(physical, &device->memory);
+    VkPhysicalDeviceProperties properties;
+    device->fn.GetPhysicalDeviceProperties(physical, &properties);
+    device->limits = properties.limits;
+    device->timestamp_bits = timestamp_bits(&device->fn, physical, queue_family);
+    return VK_SUCCESS;
+}
+
+void gpu_object_name(const struct gpu_device *device, VkObjectType type, uint64_t handle, const char *name)
+{
+    if (!device->fn.SetDebugUtilsObjectNameEXT)
+        return;
+    device->fn.SetDebugUtilsObjectNameEXT(device->handle,
+                                          &(VkDebugUtilsObjectNameInfoEXT){
+                                              .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                              .objectType = type,
+                                              .objectHandle = handle,
+                                              .pObjectName = name,
+                                          });
+}

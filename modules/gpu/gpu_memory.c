@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+#include "gpu.h"
+
+#include <string.h>
+
+static const struct {
+    VkMemoryPropertyFlags required, preferred;
+} placements[] = {
+    [GPU_DEVICE_LOCAL] = { 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT },
+    [GPU_HOST_READ] = { VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT,
+                        VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT },
+};
+
+/* Index of a memory type with the required flags, if possible with the preferred ones; UINT32_MAX if there is
+ * none. */
+static uint32_t memory_type(const struct gpu_device *device, uint32_t allowed, enum gpu_placement placement)
+{
+    uint32_t found = UINT32_MAX;
+    for (uint32_t i = device->memory.memoryTypeCount; i-- > 0;) {
+        const VkMemoryPropertyFlags flags = device->memory.memoryTypes[i].propertyFlags;
+        const VkMemoryPropertyFlags required = placements[placement].required;
+        const VkMemoryPropertyFlags both = required | placements[placement].preferred;
+        if (!(allowed >> i & 1) || (flags & required) != required)
+            continue;
+        if (found == UINT32_MAX || (flags & both) == both)
+            found = i;
+    }
+    return found;
+}
+
+static VkResult allocate(const struct gpu_device *device, const VkMemoryRequirements *needs,
+                         enum gpu_placement placement, VkDeviceMemory *memory, uint32_t *type)
+{
+    *type = memory_type(device, needs->memoryTypeBits, placement);
+    if (*type == UINT32_MAX)
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    return device->fn.AllocateMemory(device->handle,
+                                     &(VkMemoryAllocateInfo){
+                                         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                         .allocationSize = needs->size,
+                                         .memoryTypeIndex = *type,
+                                     },
+                                     device->callbacks, memory);
+}
+
+static VkResult buffer_back(const struct gpu_device *device, struct gpu_buffer *buffer,
+                            enum gpu_placement placement)
+{
+    VkMemoryRequirements needs;
+    device->fn.GetBufferMemoryRequirements(device->handle, buffer->handle, &needs);
+    uint32_t type;
+    VkResult result = allocate(device, &needs, placement, &buffer->memory, &type);
+    if (result != VK_SUCCESS)
+        return result;
+    buffer->coherent = device->memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    result = device->fn.BindBufferMemory(device->handle, buffer->handle, buffer->memory, 0);
+    if (result != VK_SUCCESS || placement == GPU_DEVICE_LOCAL)
+        return result;
+    return device->fn.MapMemory(device->handle, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped);
+}
+
+VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
+                         VkBufferUsageFlags usage, enum gpu_placement placement, const char *name)
+{
+    memset(buffer, 0, sizeof *buffer);
+    buffer->size = size;
+    VkResult result = device->fn.CreateBuffer(device->handle,
+                                              &(VkBufferCreateInfo){
+                                                  .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                                  .size = size,
+                                                  .usage = usage,
+                                                  .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                              },
+                                              device->callbacks, &buffer->handle);
+    if (result == VK_SUCCESS)
+        result = buffer_back(device, buffer, placement);
+    if (result != VK_SUCCESS) {
+        gpu_buffer_finish(device, buffer);
+        return result;
+    }
+    gpu_object_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)buffer->handle, name);
+    return VK_SUCCESS;
+}
+
+void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer)
+{
+    device->fn.DestroyBuffer(device->handle, buffer->handle, device->callbacks);
+    device->fn.FreeMemory(device->handle, buffer->memory, device->callbacks);
+    memset(buffer, 0, sizeof *buffer);
+}
+
+VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer)
+{
+    if (buffer->coherent)
+        return VK_SUCCESS;
+    return device->fn.InvalidateMappedMemoryRanges(device->handle, 1,
+                                                   &(VkMappedMemoryRange){
+                                                       .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
+                                                       .memory = buffer->memory,
+                                                       .size = VK_WHOLE_SIZE,
+                                                   });
+}
+
+static VkResult image_view(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
+                           uint32_t layers)
+{
+    return device->fn.CreateImageView(device->handle,
+                                      &(VkImageViewCreateInfo){
+                                          .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                          .image = image->handle,
+                                          .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
+                                          .format = format,
+                                          .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers },
+                                      },
+                                      device->callbacks, &image->view);
+}
+
+static VkResult image_back(const struct gpu_device *device, struct gpu_image *image)
+{
+    VkMemoryRequirements needs;
+    device->fn.GetImageMemoryRequirements(device->handle, image->handle, &needs);
+    uint32_t type;
+    const VkResult result = allocate(device, &needs, GPU_DEVICE_LOCAL, &image->memory, &type);
+    if (result != VK_SUCCESS)
+        return result;
+    return device->fn.BindImageMemory(device->handle, image->handle, image->memory, 0);
+}
+
+VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
+                        uint32_t width, uint32_t height, uint32_t layers, VkImageUsageFlags usage,
+                        const char *name)
+{
+    memset(image, 0, sizeof *image);
+    VkResult result = device->fn.CreateImage(device->handle,
+                                             &(VkImageCreateInfo){
+                                                 .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                                 .imageType = VK_IMAGE_TYPE_2D,
+                                                 .format = format,
+                                                 .extent = { width, height, 1 },
+                                                 .mipLevels = 1,
+                                                 .arrayLayers = layers,
+                                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                                 .usage = usage,
+                                             },
+                                             device->callbacks, &image->handle);
+    if (result == VK_SUCCESS)
+        result = image_back(device, image);
+    if (result == VK_SUCCESS)
+        result = image_view(device, image, format, layers);
+    if (result != VK_SUCCESS) {
+        gpu_image_finish(device, image);
+        return result;
+    }
+    gpu_object_name(device, VK_OBJECT_TYPE_IMAGE, (uint64_t)(uintptr_t)image->handle, name);
+    return VK_SUCCESS;
+}
+
+void gpu_image_finish(const struct gpu_device *device, struct gpu_image *image)
+{
+    device->fn.DestroyImageView(device->handle, image->view, device->callbacks);
+    device->fn.DestroyImage(device->handle, image->handle, device->callbacks);
+    device->fn.FreeMemory(device->handle, image->memory, device->callbacks);
+    memset(image, 0, sizeof *image);
+}
