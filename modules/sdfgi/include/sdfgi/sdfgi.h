@@ -3,7 +3,7 @@
  * libsdfgi: real-time global illumination for any Vulkan renderer.
  *
  * DOES
- *   voxelise the host's meshes into cascades around the camera, flood signed distance fields through them,
+ *   voxelise the host's meshes into cascades around the camera, make distance fields of them,
  *   trace light probes, and answer "how much indirect light arrives at this point" in the host's own shaders
  *   (shaders/include/sdfgi.glsl) or as a screen pass (sdfgi_gather).
  *
@@ -101,7 +101,7 @@ SDFGI_API enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysic
 enum sdfgi_memory_category {
     SDFGI_MEMORY_VOLUMES,   /* solid bits, distance, albedo, emission, light */
     SDFGI_MEMORY_PROBES,    /* irradiance, occlusion, running sums, ray cache */
-    SDFGI_MEMORY_SCRATCH,   /* flood pointers and accumulators, shared by all cascades */
+    SDFGI_MEMORY_SCRATCH,   /* flood pointers, accumulators, occupancy: shared by all cascades */
     SDFGI_MEMORY_LISTS,     /* light cells, instances, lights, indirect arguments */
     SDFGI_MEMORY_READBACK,  /* counters and timestamps, host visible */
     SDFGI_MEMORY_CATEGORY_COUNT,

@@ -17,7 +17,8 @@ extern "C" {
 #endif
 
 enum sdfgi_y_scale { SDFGI_Y_SCALE_50 = 0, SDFGI_Y_SCALE_75 = 1, SDFGI_Y_SCALE_100 = 2 };
-enum sdfgi_visibility { SDFGI_VISIBILITY_CELL_MASK = 0, SDFGI_VISIBILITY_PROBE_DEPTH = 1 };
+enum sdfgi_visibility { SDFGI_VISIBILITY_CELL_MASK = 0, SDFGI_VISIBILITY_PROBE_DEPTH = 1, SDFGI_VISIBILITY_TRACED = 2 };
+enum sdfgi_sdf_method { SDFGI_SDF_EXACT = 0, SDFGI_SDF_FLOOD = 1 };
 enum sdfgi_voxelizer { SDFGI_VOXELIZER_COMPUTE = 0, SDFGI_VOXELIZER_RASTER = 1 };
 
 /* Every field is a row of the table: `sdfgi properties` prints range, unit, cost and benefit of each. */
@@ -37,6 +38,7 @@ struct sdfgi_settings {
     uint32_t frames_to_update_lights; /* sdfgi_frames_to_update_lights, [1, 16] */
     uint32_t resolution;           /* sdfgi_resolution, cells along a side: 32, 64, 128 or 256 */
     enum sdfgi_visibility visibility; /* sdfgi_visibility */
+    enum sdfgi_sdf_method sdf_method; /* sdfgi_sdf_method */
     enum sdfgi_voxelizer voxelizer;   /* sdfgi_voxelizer */
 };
 
@@ -47,7 +49,7 @@ struct sdfgi_property_info {
     enum sdfgi_property_type type;
     double default_value, minimum, maximum;
     const char *unit;          /* "" for none */
-    const char *choices;       /* enums: names separated by commas, in order of value; else "" */
+    const char *choices;       /* allowed values separated by commas, of enums in order of value; "" if any in range */
     const char *buys, *costs;  /* what more of it buys and what it costs */
     bool recreates;            /* true: a change rebuilds everything; false: live */
     bool derived;              /* computed from others; setting it changes those */

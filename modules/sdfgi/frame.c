@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: MIT
+ * A frame, from top to bottom. docs/frame.md tells the same story with reasons. */
+#include "internal.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *frame_problem(const struct sdfgi_frame_desc *d)
+{
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(d->camera_position[i]) || !isfinite(d->origin[i]))
+            return "camera_position or origin is not finite";
+    if (!(isfinite(d->exposure) && d->exposure >= 0))
+        return "exposure is negative or not finite";
+    return NULL;
+}
+
+/* Cascades follow the camera; one that moves is generated again. */
+static void place_cascades(struct sdfgi *gi, const double camera[3])
+{
+    static const double y_scales[] = { 0.5, 0.75, 1.0 };
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        struct cascade *cascade = &gi->cascades[c];
+        for (int i = 0; i < 3; i++)
+            cascade->cell_size[i] =
+                ldexp(gi->settings.min_cell_size_m, (int)c) * (i == 1 ? y_scales[gi->settings.y_scale] : 1.0);
+        if (cascade_place(cascade, gi->settings.resolution, camera))
+            cascade->dirty = true;
+    }
+}
+
+/* Takes over what the host says about the frame. */
+static void take_frame(struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
+{
+    const float exposure = desc->exposure > 0 ? desc->exposure : 1.0f;
+    memcpy(gi->origin, desc->origin, sizeof gi->origin);
+    if (exposure != gi->exposure) {
+        gi->exposure = exposure;
+        gi->lights_changed = true;
+        light_disturb(gi);
+    }
+    if (desc->seed != gi->seed) {
+        gi->seed = desc->seed;
+        for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+            gi->cascades[c].dirty = true;
+    }
+    place_cascades(gi, desc->camera_position);
+}
+
+static bool any_dirty(const struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (gi->cascades[c].dirty)
+            return true;
+    return false;
+}
+
+/* The coarsest dirty cascade: rays of finer ones may end in it. */
+static uint32_t coarsest_dirty(const struct sdfgi *gi)
+{
+    uint32_t coarsest = 0;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (gi->cascades[c].dirty)
+            coarsest = c;
+    return coarsest;
+}
+
+static bool all_published(const struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (!gi->cascades[c].published)
+            return false;
+    return true;
+}
+
+static bool ring_ends(const struct sdfgi *gi)
+{
+    return gi->ring_frame + 1 == ring_frames(&gi->settings);
+}
+
+/* A ring that starts over has no samples yet, and what it measures is not mixed with what was before. */
+static void restart_ring(struct sdfgi *gi)
+{
+    gi->ring++;
+    gi->ring_frame = 0;
+    gi->converged = false;
+    gi->disturbed_ring = gi->ring - 1;
+}
+
+static void make_plan(struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (gi->cascades[c].dirty)
+            gi->cascades[c].published = false;
+    const bool due = (gi->ring_frame + 1) % gi->settings.frames_to_update_lights == 0;
+    const struct situation situation = {
+        .enabled = true,
+        .any_dirty = any_dirty(gi),
+        .has_geometry = gi->scene.instances.count > 0,
+        .has_lights = gi->scene.lights.count > 0,
+        .converged = gi->converged,
+        .lights_changed = gi->lights_changed,
+        .publish = due || ring_ends(gi) || !all_published(gi),
+        .raster = gi->settings.voxelizer == SDFGI_VOXELIZER_RASTER,
+        .flood = gi->settings.sdf_method == SDFGI_SDF_FLOOD,
+        .occlusion = gi->settings.use_occlusion && gi->settings.visibility == SDFGI_VISIBILITY_PROBE_DEPTH,
+        .masks = gi->settings.use_occlusion && gi->settings.visibility != SDFGI_VISIBILITY_PROBE_DEPTH,
+    };
+    plan_make(&situation, gi->plan);
+}
+
+/* ---- Phases */
+
+/* Builds the volumes of cascades that moved or whose geometry changed. */
+static void generate(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        if (!gi->cascades[c].dirty)
+            continue;
+        gi->cascades[c].fresh = true;
+        voxelize_record(frame, c);
+        distance_field_record(frame, c);
+        probe_place_record(frame, c);
+        occlusion_record(frame, c);
+        light_cache_list_record(frame, c);
+    }
+}
+
+/* Forgets rays that may end in a new cascade, and what this ring has summed so far. */
+static void forget(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    const uint32_t coarsest = coarsest_dirty(gi);
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        probe_reset_record(frame, c, c <= coarsest);
+}
+
+/* Direct light where surfaces or lights are new; finer cascades too, into which coarser geometry throws
+ * shadows. */
+static void light_directly(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    const uint32_t last = gi->lights_changed ? gi->settings.cascades - 1 : coarsest_dirty(gi);
+    for (uint32_t c = 0; c <= last; c++)
+        light_cache_direct_record(frame, c);
+}
+
+static void light_surfaces(struct frame *frame)
+{
+    for (uint32_t c = 0; c < frame->gi->settings.cascades; c++)
+        light_cache_bounce_record(frame, c);
+}
+
+/* Sends this frame's rays, and publishes what the probes have gathered. */
+static void light_probes(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        probe_trace_record(frame, c);
+    if (!gi->plan[PASS_PROBE_BLEND].run)
+        return;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        probe_blend_record(frame, c, ring_ends(gi));
+        gi->cascades[c].published = true;
+        gi->cascades[c].fresh = gi->cascades[c].fresh && !ring_ends(gi);
+    }
+}
+
+static void clear_counters(struct frame *frame, uint32_t first, uint32_t count)
+{
+    gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(COUNTERS));
+    gpu_fill(&frame->rec, &frame->gi->resources->buffers[RESOURCE_COUNTERS], 4 * first, 4 * count, 0);
+}
+
+static void prepare_atlas(struct frame *frame)
+{
+    struct resources *r = frame->gi->resources;
+    if (r->atlas_ready)
+        return;
+    gpu_image_to_general(&frame->rec, &r->irradiance, frame->gi->settings.cascades);
+    r->atlas_ready = true;
+}
+
+/* Moves on in the ring. At its end, decides from the newest ring known whether light has settled. */
+static void advance_ring(struct sdfgi *gi)
+{
+    struct frame_slot *slot = &gi->slots[gi->frame % gi->frames_in_flight];
+    slot->ring = gi->ring;
+    slot->ring_ends = ring_ends(gi);
+    if (!ring_ends(gi)) {
+        gi->ring_frame++;
+        return;
+    }
+    if (gi->known_ring > gi->disturbed_ring && gi->known_change < SDFGI_CONVERGED_CHANGE)
+        gi->converged = true;
+    gi->ring++;
+    gi->ring_frame = 0;
+}
+
+static void record_work(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    prepare_atlas(frame);
+    if (gi->plan[PASS_VOXEL_RESOLVE].run) {
+        clear_counters(frame, 0, SDFGI_COUNTER_LIGHT_CELLS);
+        generate(frame);
+        forget(frame);
+    } else if (gi->ring_frame == 0) {
+        clear_counters(frame, SDFGI_COUNTER_VALUES_CLAMPED, SDFGI_COUNTER_MAX_IRRADIANCE);
+    }
+    if (gi->plan[PASS_LIGHT_DIRECT].run)
+        light_directly(frame);
+    if (gi->plan[PASS_LIGHT_DIRECT].run || gi->plan[PASS_VOXEL_RESOLVE].run)
+        light_surfaces(frame);
+    if (gi->plan[PASS_PROBE_TRACE].run)
+        light_probes(frame);
+    if (gi->plan[PASS_PROBE_BLEND].run)
+        light_surfaces(frame);
+    readback_record(frame);
+}
+
+static void record_frame(struct sdfgi *gi, struct frame *frame)
+{
+    if (any_dirty(gi))
+        restart_ring(gi);
+    make_plan(gi);
+    upload_params(gi);
+    upload_record(gi, &frame->rec);
+    if (!gi->converged) {
+        record_work(frame);
+        advance_ring(gi);
+    }
+    gpu_recorder_end(&frame->rec);
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+        gi->cascades[c].dirty = c < gi->settings.cascades ? false : gi->cascades[c].dirty;
+    gi->lights_changed = false;
+    gi->command_count = frame->rec.command_count;
+    gi->active = true;
+    gi->update_count++;
+}
+
+static void begin_report(struct sdfgi *gi)
+{
+    for (int i = 0; i < PASS_COUNT; i++) {
+        gi->passes[i].dispatches = 0;
+        gi->passes[i].work = 0;
+        gi->passes[i].gpu_ns_valid = false;
+    }
+    gi->gathers = 0;
+    gi->command_count = 0;
+}
+
+enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc)
+{
+    const char *problem = frame_problem(desc);
+    if (problem)
+        return invalid(gi, "sdfgi_update: %s", problem);
+    if (gi->device_lost)
+        return SDFGI_ERROR_DEVICE_LOST;
+    gi->frame++;
+    resources_collect(gi, false);
+    scene_collect(gi);
+    begin_report(gi);
+    if (!gi->resources) {
+        plan_make(&(struct situation){ .enabled = false }, gi->plan);
+        return SDFGI_OK;
+    }
+    struct frame frame = { .gi = gi, .slot = (uint32_t)(gi->frame % gi->frames_in_flight) };
+    readback_read(gi, frame.slot);
+    gpu_recorder_begin(&frame.rec, &gi->device, cmd);
+    gpu_timer_begin_frame(&gi->resources->timer, frame.slot);
+    gi->slots[frame.slot].timed = true;
+    take_frame(gi, desc);
+    record_frame(gi, &frame);
+    return SDFGI_OK;
+}

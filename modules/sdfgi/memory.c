@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT
+ * How large everything is. Needs no device. */
+#include "internal.h"
+
+#include <string.h>
+
+/* Light cells a list holds, in layers of n^2 cells: surfaces grow with the square of the resolution. It
+ * brings the defaults to just under 64 MiB a cascade, scratch included. */
+#define LIGHT_CELL_LAYERS 19
+
+uint32_t ring_samples(const struct sdfgi_settings *settings)
+{
+    const uint32_t rays = settings->ray_count * settings->frames_to_converge;
+    return (rays + SDFGI_IRRADIANCE_COUNT - 1) / SDFGI_IRRADIANCE_COUNT * SDFGI_IRRADIANCE_COUNT;
+}
+
+uint32_t ring_frames(const struct sdfgi_settings *settings)
+{
+    return (ring_samples(settings) + settings->ray_count - 1) / settings->ray_count;
+}
+
+struct extent extent_from_settings(const struct sdfgi_settings *settings)
+{
+    const uint64_t n = settings->resolution;
+    const uint64_t side = n / SDFGI_PROBE_SPACING + 1;
+    struct extent e = {
+        .cells = n * n * n,
+        .blocks = n * n * n / 8,
+        .probes = side * side * side,
+        .probes_per_side = side,
+        .light_cells = LIGHT_CELL_LAYERS * n * n,
+        .cascades = settings->cascades,
+        .ring_samples = ring_samples(settings),
+        .occlusion = 4,
+        .atlas_width = (uint32_t)side * SDFGI_IRRADIANCE_STRIDE,
+        .atlas_height = (uint32_t)(side * side) * SDFGI_IRRADIANCE_STRIDE,
+    };
+    const uint64_t pointers = 2 * 4 * e.cells, accumulators = (uint64_t)SDFGI_ACCUM_PLANES * 4 * e.blocks;
+    e.scratch = pointers > accumulators ? pointers : accumulators;
+    if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
+        e.occlusion = e.probes * e.cascades * SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE * 4;
+    return e;
+}
+
+uint64_t resource_size(enum resource resource, const struct extent *s)
+{
+    switch (resource) {
+#define SIZE(id, category, size, lifetime)                                                                   \
+    case RESOURCE_##id:                                                                                      \
+        return size;
+        SDFGI_BUFFERS(SIZE)
+#undef SIZE
+    case RESOURCE_IRRADIANCE:
+        return (uint64_t)s->atlas_width * s->atlas_height * s->cascades * 8;
+    case RESOURCE_COUNT:
+        break;
+    }
+    return 0;
+}
+
+static const struct {
+    const char *name;
+    enum sdfgi_memory_category category;
+} rows[RESOURCE_COUNT] = {
+#define ROW(id, category, size, lifetime) [RESOURCE_##id] = { "sdfgi " #id, SDFGI_MEMORY_##category },
+    SDFGI_BUFFERS(ROW)
+#undef ROW
+        [RESOURCE_IRRADIANCE] = { "sdfgi IRRADIANCE", SDFGI_MEMORY_PROBES },
+};
+
+const char *resource_name(enum resource resource)
+{
+    return rows[resource].name;
+}
+
+enum sdfgi_memory_category resource_category(enum resource resource)
+{
+    return rows[resource].category;
+}
+
+VkDescriptorType resource_descriptor(enum resource resource)
+{
+    return resource == RESOURCE_FRAME ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+uint64_t readback_size(uint32_t frames_in_flight)
+{
+    return (uint64_t)frames_in_flight * SDFGI_COUNTER_COUNT * sizeof(uint32_t);
+}
+
+const char *sdfgi_memory_category_name(enum sdfgi_memory_category category)
+{
+    static const char *const names[SDFGI_MEMORY_CATEGORY_COUNT] = {
+        [SDFGI_MEMORY_VOLUMES] = "volumes",   [SDFGI_MEMORY_PROBES] = "probes",
+        [SDFGI_MEMORY_SCRATCH] = "scratch",   [SDFGI_MEMORY_LISTS] = "lists",
+        [SDFGI_MEMORY_READBACK] = "readback",
+    };
+    return (unsigned)category < SDFGI_MEMORY_CATEGORY_COUNT ? names[category] : "";
+}
+
+enum sdfgi_result sdfgi_estimate_memory(const struct sdfgi_settings *settings, uint32_t frames_in_flight,
+                                        struct sdfgi_memory *memory)
+{
+    struct sdfgi_settings resolved;
+    sdfgi_settings_default(&resolved);
+    if (settings)
+        resolved = *settings;
+    if (!sdfgi_settings_validate(&resolved, NULL, 0) || frames_in_flight > SDFGI_MAX_FRAMES_IN_FLIGHT)
+        return SDFGI_ERROR_INVALID_ARGUMENT;
+    const struct extent extent = extent_from_settings(&resolved);
+    memset(memory, 0, sizeof *memory);
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        memory->bytes[resource_category((enum resource)i)] += resource_size((enum resource)i, &extent);
+    memory->bytes[SDFGI_MEMORY_READBACK] = readback_size(frames_in_flight ? frames_in_flight : 2);
+    for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
+        memory->total_bytes += memory->bytes[i];
+    return SDFGI_OK;
+}

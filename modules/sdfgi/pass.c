@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ * Recording of passes: label, timer, barrier, pipeline, push constants, dispatch, all from the tables. */
+#include "internal.h"
+
+void pass_begin(struct frame *frame, enum pass pass)
+{
+    struct sdfgi *gi = frame->gi;
+    gpu_label_begin(&frame->rec, pass_name(pass));
+    gpu_timer_begin(&gi->resources->timer, &frame->rec, (uint32_t)pass);
+    if (pass == PASS_VOXELIZE || pass == PASS_VOXELIZE_RASTER || pass == PASS_GATHER)
+        return; /* they bind pipelines and sets of their own */
+    gpu_bind_pipeline(&frame->rec, VK_PIPELINE_BIND_POINT_COMPUTE, gi->pipelines.passes[pass]);
+    gpu_bind_set(&frame->rec, VK_PIPELINE_BIND_POINT_COMPUTE, gi->pipelines.layout, 0, gi->resources->set);
+}
+
+void pass_end(struct frame *frame)
+{
+    gpu_timer_end(&frame->gi->resources->timer, &frame->rec);
+    gpu_label_end(&frame->rec);
+}
+
+static void pass_prepare(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+{
+    gpu_push(&frame->rec, frame->gi->pipelines.layout, sizeof *args, args);
+    frame->gi->passes[pass].dispatches++;
+}
+
+void pass_dispatch(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args, uint32_t x,
+                   uint32_t y, uint32_t z)
+{
+    gpu_use(&frame->rec, GPU_USAGE_COMPUTE, pass_reads(pass), pass_writes(pass));
+    pass_prepare(frame, pass, args);
+    gpu_dispatch(&frame->rec, x, y, z);
+}
+
+void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+{
+    const uint32_t groups = frame->gi->settings.resolution / SDFGI_GROUP_CELLS;
+    pass_dispatch(frame, pass, args, groups, groups, groups);
+    frame->gi->passes[pass].work += frame->gi->resources->extent.cells;
+}
+
+void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+{
+    gpu_use(&frame->rec, GPU_USAGE_INDIRECT, pass_reads(pass) | RESOURCE_BIT(INDIRECT), pass_writes(pass));
+    pass_prepare(frame, pass, args);
+    gpu_dispatch_indirect(&frame->rec, &frame->gi->resources->buffers[RESOURCE_INDIRECT], 16 * args->cascade);
+    /* How many cells that is was read back from the frame that listed them. */
+    frame->gi->passes[pass].work += frame->gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT
+ * What a frame calls for. Each need has one row: a condition on the situation, why it runs, why it is
+ * skipped. */
+#include "internal.h"
+
+struct need_row {
+    bool (*holds)(const struct situation *s);
+    const char *why;     /* it runs */
+    const char *why_not; /* it is skipped although GI is enabled */
+};
+
+static bool needs_voxels(const struct situation *s)
+{
+    return s->any_dirty && s->has_geometry && !s->raster;
+}
+
+static bool needs_voxels_raster(const struct situation *s)
+{
+    return s->any_dirty && s->has_geometry && s->raster;
+}
+
+static bool needs_generate(const struct situation *s)
+{
+    return s->any_dirty;
+}
+
+static bool needs_exact(const struct situation *s)
+{
+    return s->any_dirty && !s->flood;
+}
+
+static bool needs_flood(const struct situation *s)
+{
+    return s->any_dirty && s->flood;
+}
+
+static bool needs_occlusion(const struct situation *s)
+{
+    return s->any_dirty && s->occlusion;
+}
+
+static bool needs_masks(const struct situation *s)
+{
+    return s->any_dirty && s->masks;
+}
+
+static bool needs_direct(const struct situation *s)
+{
+    return (s->any_dirty && s->has_lights) || s->lights_changed;
+}
+
+static bool needs_light(const struct situation *s)
+{
+    return !s->converged && (s->publish || s->any_dirty || s->lights_changed);
+}
+
+static bool needs_trace(const struct situation *s)
+{
+    return !s->converged;
+}
+
+static bool needs_blend(const struct situation *s)
+{
+    return !s->converged && s->publish;
+}
+
+static bool needs_gather(const struct situation *s)
+{
+    return s->gathers;
+}
+
+static const struct need_row needs[NEED_COUNT] = {
+    [NEED_VOXELS] = { needs_voxels, "geometry in a cascade is new", "no geometry in a cascade changed" },
+    [NEED_VOXELS_RASTER] = { needs_voxels_raster, "geometry in a cascade is new",
+                             "sdfgi_voxelizer is compute, or no geometry in a cascade changed" },
+    [NEED_GENERATE] = { needs_generate, "a cascade moved or its geometry changed", "no cascade changed" },
+    [NEED_EXACT] = { needs_exact, "a cascade changed and sdfgi_sdf_method is exact",
+                     "sdfgi_sdf_method is flood, or no cascade changed" },
+    [NEED_FLOOD] = { needs_flood, "a cascade changed and sdfgi_sdf_method is flood",
+                     "sdfgi_sdf_method is exact, or no cascade changed" },
+    [NEED_OCCLUSION] = { needs_occlusion, "a cascade changed and sdfgi_visibility is probe_depth",
+                         "sdfgi_visibility is not probe_depth, or no cascade changed" },
+    [NEED_MASKS] = { needs_masks, "a cascade changed and lookups read cell masks",
+                     "lookups read no cell masks, or no cascade changed" },
+    [NEED_DIRECT] = { needs_direct, "lights or the surfaces they reach changed",
+                      "no light and no surface changed" },
+    [NEED_LIGHT] = { needs_light, "light has not settled", "light has settled, or is due in a later frame" },
+    [NEED_TRACE] = { needs_trace, "light has not settled", "light has settled" },
+    [NEED_BLEND] = { needs_blend, "light has not settled", "light has settled, or is due in a later frame" },
+    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
+};
+
+static const enum need pass_needs[PASS_COUNT] = {
+#define ROW(id, file, unit, reads, writes, need) [PASS_##id] = NEED_##need,
+    SDFGI_PASSES(ROW)
+#undef ROW
+};
+
+void plan_make(const struct situation *situation, struct decision plan[PASS_COUNT])
+{
+    for (int i = 0; i < PASS_COUNT; i++) {
+        const struct need_row *row = &needs[pass_needs[i]];
+        if (!situation->enabled)
+            plan[i] = (struct decision){ false, "GI is switched off" };
+        else if (row->holds(situation))
+            plan[i] = (struct decision){ true, row->why };
+        else
+            plan[i] = (struct decision){ false, row->why_not };
+    }
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT
+ * Stage 7: places the probes of a cascade, traces this frame's rays, publishes irradiance. */
+#include "internal.h"
+
+void probe_place_record(struct frame *frame, uint32_t c)
+{
+    const uint32_t probes = (uint32_t)frame->gi->resources->extent.probes;
+    const struct sdfgi_pass_args args = { .cascade = c };
+    pass_begin(frame, PASS_PROBE_PLACE);
+    pass_dispatch(frame, PASS_PROBE_PLACE, &args, (probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1,
+                  1);
+    frame->gi->passes[PASS_PROBE_PLACE].work += probes;
+    pass_end(frame);
+}
+
+static void clear_part(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes)
+{
+    gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << resource);
+    gpu_fill(&frame->rec, &frame->gi->resources->buffers[resource], offset, bytes, 0);
+}
+
+void probe_reset_record(struct frame *frame, uint32_t c, bool rays_too)
+{
+    const struct extent *e = &frame->gi->resources->extent;
+    const uint64_t rays = 4 * e->probes * e->ring_samples,
+                   sums = (uint64_t)16 * SDFGI_IRRADIANCE_COUNT * e->probes;
+    if (rays_too)
+        clear_part(frame, RESOURCE_RAYS, c * rays, rays);
+    clear_part(frame, RESOURCE_SUMS, c * sums, sums);
+    if (frame->gi->cascades[c].fresh)
+        clear_part(frame, RESOURCE_PREVIOUS, c * sums / 2, sums / 2);
+}
+
+void probe_trace_record(struct frame *frame, uint32_t c)
+{
+    struct sdfgi *gi = frame->gi;
+    const struct sdfgi_pass_args args = { .cascade = c, .fresh = gi->cascades[c].fresh };
+    pass_begin(frame, PASS_PROBE_TRACE);
+    pass_dispatch(frame, PASS_PROBE_TRACE, &args, (uint32_t)gi->resources->extent.probes, 1, 1);
+    gi->passes[PASS_PROBE_TRACE].work += gi->resources->extent.probes * gi->params.ring.x;
+    pass_end(frame);
+}
+
+void probe_blend_record(struct frame *frame, uint32_t c, bool ring_ends)
+{
+    struct sdfgi *gi = frame->gi;
+    const struct sdfgi_pass_args args = { .cascade = c, .step = ring_ends, .fresh = gi->cascades[c].fresh };
+    pass_begin(frame, PASS_PROBE_BLEND);
+    pass_dispatch(frame, PASS_PROBE_BLEND, &args, (uint32_t)gi->resources->extent.probes, 1, 1);
+    gi->passes[PASS_PROBE_BLEND].work += gi->resources->extent.probes;
+    pass_end(frame);
+}

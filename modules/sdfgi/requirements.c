@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT
+ * What a device must have, as tables. */
+#include "internal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void refuse(struct sdfgi_requirements *r, const char *format, const char *what, uint64_t have,
+                   uint64_t need)
+{
+    if (r->reason_count < SDFGI_MAX_REASONS)
+        snprintf(r->reasons[r->reason_count++], sizeof r->reasons[0], format, what, (unsigned long long)have,
+                 (unsigned long long)need);
+}
+
+static void check_limits(const VkPhysicalDeviceLimits *limits, struct sdfgi_requirements *r)
+{
+    const struct {
+        const char *name;
+        uint64_t have, need;
+    } rows[] = {
+        { "maxPerStageDescriptorStorageBuffers", limits->maxPerStageDescriptorStorageBuffers,
+          RESOURCE_BUFFER_COUNT + 4 },
+        { "maxStorageBufferRange", limits->maxStorageBufferRange, UINT64_C(64) << 20 },
+        { "maxPushConstantsSize", limits->maxPushConstantsSize, sizeof(struct sdfgi_voxelize_args) },
+        { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, 64 },
+        { "maxComputeSharedMemorySize", limits->maxComputeSharedMemorySize, 12288 },
+        { "maxBoundDescriptorSets", limits->maxBoundDescriptorSets, 3 },
+        { "maxImageDimension2D", limits->maxImageDimension2D, 2048 },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].have < rows[i].need)
+            refuse(r, "%s is %llu, needed are %llu", rows[i].name, rows[i].have, rows[i].need);
+}
+
+static void check_formats(const struct gpu_functions *fn, VkPhysicalDevice physical,
+                          struct sdfgi_requirements *r)
+{
+    const VkFormatFeatureFlags need = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT |
+                                      VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                      VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    VkFormatProperties properties;
+    fn->GetPhysicalDeviceFormatProperties(physical, VK_FORMAT_R16G16B16A16_SFLOAT, &properties);
+    if ((properties.optimalTilingFeatures & need) != need)
+        refuse(r, "%s: features %#llx, needed are %#llx", "R16G16B16A16_SFLOAT",
+               properties.optimalTilingFeatures, need);
+}
+
+enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysicalDevice physical,
+                                         PFN_vkGetInstanceProcAddr get, struct sdfgi_requirements *r)
+{
+    struct gpu_functions fn;
+    memset(&fn, 0, sizeof fn);
+    memset(r, 0, sizeof *r);
+    r->features_12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    if (!gpu_functions_load_instance(&fn, instance, get))
+        return SDFGI_ERROR_INVALID_ARGUMENT;
+    VkPhysicalDeviceProperties properties;
+    fn.GetPhysicalDeviceProperties(physical, &properties);
+    if (properties.apiVersion < VK_API_VERSION_1_2)
+        refuse(r, "%s 1.%llu, needed is 1.%llu", "Vulkan", VK_API_VERSION_MINOR(properties.apiVersion), 2);
+    VkPhysicalDeviceFeatures2 features = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2 };
+    fn.GetPhysicalDeviceFeatures2(physical, &features);
+    /* Only the raster voxeliser stores from fragment shaders; devices without it use the compute one. */
+    r->features.fragmentStoresAndAtomics = features.features.fragmentStoresAndAtomics;
+    r->features.vertexPipelineStoresAndAtomics = features.features.vertexPipelineStoresAndAtomics;
+    check_limits(&properties.limits, r);
+    check_formats(&fn, physical, r);
+    r->supported = r->reason_count == 0;
+    return SDFGI_OK;
+}

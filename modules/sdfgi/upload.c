@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT
+ * Small data that changes on the CPU: frame parameters, lights, materials. Recorded inline, so that frames in
+ * flight never meet. */
+#include "internal.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double y_scales[] = {
+    [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1.0
+};
+
+static uint32_t log2_of(uint32_t power)
+{
+    uint32_t bits = 0;
+    while (power >> (bits + 1))
+        bits++;
+    return bits;
+}
+
+static struct sdfgi_cascade_params cascade_params(const struct sdfgi *gi, uint32_t c)
+{
+    const struct cascade *cascade = &gi->cascades[c], *first = &gi->cascades[0];
+    const int64_t n = gi->settings.resolution, side = n / SDFGI_PROBE_SPACING + 1;
+    double origin[3], shift[3];
+    int32_t wrap[3], probe_wrap[3], probe_base[3];
+    for (int i = 0; i < 3; i++) {
+        const int64_t probe = floor_div(cascade->origin[i], SDFGI_PROBE_SPACING);
+        origin[i] = (double)cascade->origin[i] * cascade->cell_size[i] - gi->origin[i];
+        wrap[i] = (int32_t)floor_mod(cascade->origin[i], n);
+        probe_wrap[i] = (int32_t)floor_mod(probe, side);
+        probe_base[i] = (int32_t)(uint32_t)(uint64_t)probe;
+        /* Cell space of cascade c = (cell space of cascade 0 + first origin) / 2^c - own origin. */
+        shift[i] = ldexp((double)first->origin[i], -(int)c) - (double)cascade->origin[i];
+    }
+    return (struct sdfgi_cascade_params){
+        .origin_rel = { (float)origin[0], (float)origin[1], (float)origin[2], (float)cascade->cell_size[0] },
+        .wrap = { wrap[0], wrap[1], wrap[2], 0 },
+        .probe_wrap = { probe_wrap[0], probe_wrap[1], probe_wrap[2], 0 },
+        .from_first = { (float)shift[0], (float)shift[1], (float)shift[2], ldexpf(1.0f, -(int)c) },
+        .probe_base = { probe_base[0], probe_base[1], probe_base[2], 0 },
+    };
+}
+
+static vec4 scaled(const float color[3], float factor)
+{
+    return (vec4){ color[0] * factor, color[1] * factor, color[2] * factor, 0 };
+}
+
+static uint32_t shader_visibility(const struct sdfgi_settings *settings)
+{
+    static const uint32_t methods[] = {
+        [SDFGI_VISIBILITY_CELL_MASK] = SDFGI_SHADER_VISIBILITY_CELL_MASK,
+        [SDFGI_VISIBILITY_PROBE_DEPTH] = SDFGI_SHADER_VISIBILITY_PROBE_DEPTH,
+        [SDFGI_VISIBILITY_TRACED] = SDFGI_SHADER_VISIBILITY_TRACED,
+    };
+    return settings->use_occlusion ? methods[settings->visibility] : SDFGI_SHADER_VISIBILITY_NONE;
+}
+
+void upload_params(struct sdfgi *gi)
+{
+    const struct sdfgi_settings *s = &gi->settings;
+    const float sky = s->read_sky_light ? gi->exposure : 0.0f;
+    struct sdfgi_frame_params p;
+    memset(&p, 0, sizeof p);
+    for (uint32_t c = 0; c < s->cascades; c++)
+        p.cascades[c] = cascade_params(gi, c);
+    p.sky_zenith = scaled(gi->scene.sky.zenith, sky);
+    p.sky_horizon = scaled(gi->scene.sky.horizon, sky);
+    p.sky_ground = scaled(gi->scene.sky.ground, sky);
+    p.scale = (vec4){ (float)y_scales[s->y_scale], gi->exposure, 1.0f / gi->exposure, s->energy };
+    p.bias = (vec4){ s->normal_bias_cells, s->probe_bias_cells, s->bounce_feedback,
+                     gi->emission_unit * gi->exposure };
+    p.size = (uvec4){ s->resolution, log2_of(s->resolution), s->resolution / SDFGI_PROBE_SPACING + 1,
+                      s->cascades };
+    p.light =
+        (uvec4){ gi->scene.lights.count, gi->resources ? (uint32_t)gi->resources->extent.light_cells : 0,
+                 shader_visibility(s), gi->seed };
+    const uint32_t samples = ring_samples(s), first = gi->ring_frame * s->ray_count;
+    uint32_t brightest;
+    memcpy(&brightest, &gi->known_brightest, sizeof brightest);
+    p.ring = (uvec4){ first + s->ray_count <= samples ? s->ray_count : samples - first, first, samples,
+                      brightest };
+    if (gi->converged)
+        p.ring = gi->params.ring; /* nobody reads it: no reason to upload anything */
+    if (memcmp(&p, &gi->params, sizeof p) != 0) {
+        gi->params = p;
+        gi->params_changed = true;
+    }
+}
+
+static struct sdfgi_light_params light_params(const struct sdfgi *gi, const struct sdfgi_light_desc *l)
+{
+    /* Squares of floats fit a double, however long or short the vector. */
+    const double x = (double)l->direction[0], y = (double)l->direction[1], z = (double)l->direction[2];
+    const double length = sqrt(x * x + y * y + z * z), unit = length > 0 ? 1 / length : 0;
+    const float cos_inner = cosf(l->inner_angle_rad), cos_outer = cosf(l->outer_angle_rad);
+    struct sdfgi_light_params p = {
+        .position = { (float)(l->position[0] - gi->origin[0]), (float)(l->position[1] - gi->origin[1]),
+                      (float)(l->position[2] - gi->origin[2]), l->range_m },
+        .direction = { (float)(x * unit), (float)(y * unit), (float)(z * unit), cos_outer },
+        .intensity = scaled(l->intensity, l->indirect_energy * gi->exposure),
+        .kind = { (uint32_t)l->type | (l->casts_shadow ? SDFGI_LIGHT_CASTS_SHADOW : 0), 0, 0, 0 },
+    };
+    p.intensity.w = 1 / fmaxf(cos_inner - cos_outer, 1e-4f);
+    return p;
+}
+
+static void record_lights(struct sdfgi *gi, struct gpu_recorder *rec)
+{
+    struct sdfgi_light_params batch[64];
+    uint32_t filled = 0, done = 0;
+    const struct pool *lights = &gi->scene.lights;
+    for (uint32_t i = 0; i < lights->end; i++) {
+        const struct light *light = pool_at(lights, i);
+        if (light)
+            batch[filled++] = light_params(gi, &light->desc);
+        if (filled == 64 || (i + 1 == lights->end && filled > 0)) {
+            gpu_update(rec, &gi->resources->buffers[RESOURCE_LIGHTS], done * sizeof *batch,
+                       filled * sizeof *batch, batch);
+            done += filled;
+            filled = 0;
+        }
+    }
+}
+
+static void uv_rows(const float m[6], vec4 rows[2])
+{
+    static const float identity[6] = { 1, 0, 0, 0, 1, 0 };
+    bool zero = true;
+    for (int i = 0; i < 6; i++)
+        zero = zero && m[i] == 0;
+    const float *use = zero ? identity : m;
+    rows[0] = (vec4){ use[0], use[1], use[2], 0 };
+    rows[1] = (vec4){ use[3], use[4], use[5], 0 };
+}
+
+static struct sdfgi_material_params material_params(const struct sdfgi *gi,
+                                                    const struct sdfgi_material_desc *m)
+{
+    struct sdfgi_material_params p = {
+        .albedo = { m->albedo[0], m->albedo[1], m->albedo[2], m->alpha },
+        .emission = scaled(m->emission, gi->emission_unit > 0 ? 1 / gi->emission_unit : 0),
+        .flags = { (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
+                       (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
+                       (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0),
+                   0, 0, 0 },
+    };
+    p.emission.w = m->alpha_cutoff;
+    uv_rows(m->albedo_texture.uv_transform, p.albedo_uv);
+    uv_rows(m->emission_texture.uv_transform, p.emission_uv);
+    return p;
+}
+
+static void record_materials(struct sdfgi *gi, struct gpu_recorder *rec)
+{
+    const struct pool *materials = &gi->scene.materials;
+    for (uint32_t i = 0; i < materials->end; i++) {
+        const struct material *material = pool_at(materials, i);
+        if (!material)
+            continue;
+        const struct sdfgi_material_params p = material_params(gi, &material->desc);
+        gpu_update(rec, &gi->resources->buffers[RESOURCE_MATERIALS], i * sizeof p, sizeof p, &p);
+    }
+}
+
+void upload_record(struct sdfgi *gi, struct gpu_recorder *rec)
+{
+    if (gi->params_changed) {
+        gpu_use(rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(FRAME));
+        gpu_update(rec, &gi->resources->buffers[RESOURCE_FRAME], 0, sizeof gi->params, &gi->params);
+    }
+    if (gi->plan[PASS_LIGHT_DIRECT].run && gi->scene.lights.count > 0) {
+        gpu_use(rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(LIGHTS));
+        record_lights(gi, rec);
+    }
+    if (gi->materials_changed) {
+        gpu_use(rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(MATERIALS));
+        record_materials(gi, rec);
+    }
+    gi->params_changed = gi->materials_changed = false;
+}

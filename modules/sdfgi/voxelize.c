@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT
+ * Stage 3: draws or dispatches every instance that touches a cascade into its solid bits, and resolves
+ * albedo, emission and normals. */
+#include "internal.h"
+
+#include <math.h>
+
+/* Workgroups along x; Vulkan guarantees 65535. */
+enum { GROUP_WIDTH = 32768, MAX_SLICES = 64 };
+/* Columns that one thread walks before another one is worth its share of the triangle's set-up. */
+#define COLUMNS_PER_THREAD 8
+
+/* Sub-voxel columns that a triangle of the mesh is likely to cover: the largest side of its box, shared out
+ * evenly. */
+static double columns_per_triangle(const struct cascade *cascade, uint32_t resolution,
+                                   const struct instance *instance, uint32_t triangles)
+{
+    double size[3], largest = 0;
+    for (int i = 0; i < 3; i++)
+        size[i] =
+            fmin((instance->bounds.max[i] - instance->bounds.min[i]) / cascade->cell_size[i], resolution) *
+                SDFGI_SUBVOXELS +
+            1;
+    for (int i = 0; i < 3; i++)
+        largest = fmax(largest, size[i] * size[(i + 1) % 3]);
+    return 4 * largest / triangles;
+}
+
+static void share_out(struct sdfgi_voxelize_args *args, double columns)
+{
+    args->threads = args->slices = 1;
+    while (args->threads < SDFGI_GROUP_TRIANGLE && args->threads * COLUMNS_PER_THREAD < columns)
+        args->threads *= 2;
+    while (args->slices < MAX_SLICES && args->slices * args->threads * COLUMNS_PER_THREAD < columns)
+        args->slices *= 2;
+}
+
+static double determinant(const float m[9])
+{
+    return (double)m[0] * (m[4] * m[8] - m[5] * m[7]) - (double)m[3] * (m[1] * m[8] - m[2] * m[7]) +
+           (double)m[6] * (m[1] * m[5] - m[2] * m[4]);
+}
+
+/* Object space to sub-voxels of the cascade; differences of large numbers are taken in double. */
+static void fill_rows(const struct cascade *cascade, const struct sdfgi_transform *t, vec4 rows[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const double scale = SDFGI_SUBVOXELS / cascade->cell_size[i];
+        const double low = (double)cascade->origin[i] * cascade->cell_size[i];
+        rows[i] = (vec4){ (float)(t->basis[i] * scale), (float)(t->basis[3 + i] * scale),
+                          (float)(t->basis[6 + i] * scale), (float)((t->translation[i] - low) * scale) };
+    }
+}
+
+static uint32_t mesh_flags(const struct sdfgi_mesh_desc *d)
+{
+    uint32_t flags = !d->index_buffer                        ? SDFGI_MESH_INDEX_NONE
+                     : d->index_type == VK_INDEX_TYPE_UINT32 ? SDFGI_MESH_INDEX_32
+                                                             : SDFGI_MESH_INDEX_16;
+    flags |= d->uv_buffer ? SDFGI_MESH_HAS_UV : 0;
+    flags |= d->color_buffer ? SDFGI_MESH_HAS_COLOR : 0;
+    return flags;
+}
+
+static struct sdfgi_voxelize_args voxelize_args(const struct sdfgi *gi, uint32_t c,
+                                                const struct instance *instance, const struct mesh *mesh)
+{
+    const struct sdfgi_mesh_desc *d = &mesh->desc;
+    struct sdfgi_voxelize_args args = {
+        .cascade = c,
+        .triangle_count = d->triangle_count,
+        .material = pool_index(instance->desc.material.id),
+        .flags = mesh_flags(d),
+        .position_offset = (uint32_t)(d->position_offset / 4),
+        .position_stride = d->position_stride / 4,
+        .uv_offset = (uint32_t)(d->uv_offset / 4),
+        .uv_stride = d->uv_stride / 4,
+        .color_offset = (uint32_t)(d->color_offset / 4),
+        .color_stride = d->color_stride / 4,
+        .index_offset = (uint32_t)(d->index_offset / 4),
+        .vertex_count = d->vertex_count,
+        .group_width = GROUP_WIDTH,
+    };
+    share_out(&args,
+              columns_per_triangle(&gi->cascades[c], gi->settings.resolution, instance, d->triangle_count));
+    fill_rows(&gi->cascades[c], &instance->desc.transform, args.rows);
+    if (determinant(instance->desc.transform.basis) < 0)
+        args.flags |= SDFGI_MESH_MIRRORED;
+    return args;
+}
+
+/* What is bound, so that neighbours in the list that share it bind it once. */
+struct binder {
+    struct frame *frame;
+    VkPipelineBindPoint point;
+    VkPipeline plain, textured, bound;
+    VkDescriptorSet mesh, material;
+};
+
+static void bind_set(struct binder *b, uint32_t index, VkDescriptorSet set, VkDescriptorSet *bound)
+{
+    if (!set || *bound == set)
+        return;
+    gpu_bind_set(&b->frame->rec, b->point, b->frame->gi->pipelines.voxelize_layout, index, set);
+    *bound = set;
+}
+
+static void draw_instance(struct binder *b, uint32_t cascade, const struct instance *instance)
+{
+    struct sdfgi *gi = b->frame->gi;
+    const struct mesh *mesh = pool_get(&gi->scene.meshes, instance->desc.mesh.id);
+    const struct material *material = pool_get(&gi->scene.materials, instance->desc.material.id);
+    const VkPipeline pipeline = material->set ? b->textured : b->plain;
+    if (pipeline != b->bound)
+        gpu_bind_pipeline(&b->frame->rec, b->point, pipeline);
+    b->bound = pipeline;
+    bind_set(b, 1, mesh->set, &b->mesh);
+    bind_set(b, 2, material->set, &b->material);
+    const struct sdfgi_voxelize_args args = voxelize_args(gi, cascade, instance, mesh);
+    gpu_push(&b->frame->rec, gi->pipelines.voxelize_layout, sizeof args, &args);
+    const uint32_t triangles = args.triangle_count;
+    enum pass pass = PASS_VOXELIZE;
+    if (b->point == VK_PIPELINE_BIND_POINT_GRAPHICS) {
+        gpu_draw(&b->frame->rec, 3 * triangles);
+        pass = PASS_VOXELIZE_RASTER;
+    } else {
+        const uint32_t per_group = SDFGI_GROUP_TRIANGLE / args.threads;
+        const uint32_t groups = triangles / per_group + (triangles % per_group != 0);
+        const uint32_t width = groups < GROUP_WIDTH ? groups : GROUP_WIDTH;
+        gpu_dispatch(&b->frame->rec, width, args.slices, (groups + GROUP_WIDTH - 1) / GROUP_WIDTH);
+    }
+    gi->passes[pass].dispatches++;
+    gi->passes[pass].work += triangles;
+}
+
+static void draw_instances(struct binder *b, uint32_t c)
+{
+    struct sdfgi *gi = b->frame->gi;
+    const struct box box = cascade_box(&gi->cascades[c], gi->settings.resolution);
+    const struct pool *instances = &gi->scene.instances;
+    gpu_bind_set(&b->frame->rec, b->point, gi->pipelines.voxelize_layout, 0, gi->resources->set);
+    for (uint32_t i = 0; i < instances->end; i++) {
+        const struct instance *instance = pool_at(instances, i);
+        if (instance && instance->desc.mobility == SDFGI_STATIC && box_overlaps(&instance->bounds, &box))
+            draw_instance(b, c, instance);
+    }
+}
+
+static void record_compute(struct frame *frame, uint32_t c)
+{
+    struct pipelines *p = &frame->gi->pipelines;
+    struct binder b = { .frame = frame,
+                        .point = VK_PIPELINE_BIND_POINT_COMPUTE,
+                        .plain = p->passes[PASS_VOXELIZE],
+                        .textured = p->voxelize_textured };
+    pass_begin(frame, PASS_VOXELIZE);
+    gpu_use(&frame->rec, GPU_USAGE_COMPUTE, pass_reads(PASS_VOXELIZE), pass_writes(PASS_VOXELIZE));
+    draw_instances(&b, c);
+    pass_end(frame);
+}
+
+static void record_raster(struct frame *frame, uint32_t c)
+{
+    struct sdfgi *gi = frame->gi;
+    struct resources *r = gi->resources;
+    struct binder b = { .frame = frame,
+                        .point = VK_PIPELINE_BIND_POINT_GRAPHICS,
+                        .plain = r->raster_pipelines[0],
+                        .textured = r->raster_pipelines[1] };
+    const uint32_t extent = gi->settings.resolution * SDFGI_SUBVOXELS;
+    pass_begin(frame, PASS_VOXELIZE_RASTER);
+    gpu_use(&frame->rec, GPU_USAGE_GRAPHICS, pass_reads(PASS_VOXELIZE_RASTER),
+            pass_writes(PASS_VOXELIZE_RASTER));
+    gi->device.fn.CmdBeginRenderPass(
+        frame->rec.cmd,
+        &(VkRenderPassBeginInfo){ .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                  .renderPass = r->raster_pass,
+                                  .framebuffer = r->raster_target,
+                                  .renderArea = { { 0, 0 }, { extent, extent } } },
+        VK_SUBPASS_CONTENTS_INLINE);
+    draw_instances(&b, c);
+    gi->device.fn.CmdEndRenderPass(frame->rec.cmd);
+    frame->rec.command_count += 2;
+    pass_end(frame);
+}
+
+/* Zeroes a cascade's part of a volume of `bytes` per cascade. */
+static void clear_part(struct frame *frame, enum resource resource, uint32_t c, uint64_t bytes)
+{
+    gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << resource);
+    gpu_fill(&frame->rec, &frame->gi->resources->buffers[resource], c * bytes, bytes, 0);
+}
+
+void voxelize_record(struct frame *frame, uint32_t c)
+{
+    struct sdfgi *gi = frame->gi;
+    const struct extent *e = &gi->resources->extent;
+    clear_part(frame, RESOURCE_BITS, c, 8 * e->cells);
+    clear_part(frame, RESOURCE_LIGHT, c, 8 * e->cells);
+    clear_part(frame, RESOURCE_MASKS, c, e->cells);
+    clear_part(frame, RESOURCE_SCRATCH, 0, (uint64_t)SDFGI_ACCUM_PLANES * 4 * e->blocks);
+    if (gi->plan[PASS_VOXELIZE].run)
+        record_compute(frame, c);
+    if (gi->plan[PASS_VOXELIZE_RASTER].run)
+        record_raster(frame, c);
+
+    const struct sdfgi_pass_args args = { .cascade = c };
+    pass_begin(frame, PASS_VOXEL_RESOLVE);
+    pass_dispatch(frame, PASS_VOXEL_RESOLVE, &args, (uint32_t)(e->blocks / SDFGI_GROUP_LINEAR), 1, 1);
+    gi->passes[PASS_VOXEL_RESOLVE].work += e->blocks;
+    pass_end(frame);
+    /* The emissive bits have been read: the volume now belongs to light. */
+    clear_part(frame, RESOURCE_LIGHT, c, 8 * e->cells);
+}

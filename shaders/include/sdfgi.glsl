@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ * What a host includes in its own shaders:
+ *
+ *     #define SDFGI_SET 1            // where the set from sdfgi_get_descriptor_set is bound
+ *     #include "sdfgi.glsl"          // needs GL_GOOGLE_include_directive
+ *     radiance += albedo / PI * sdfgi_irradiance(position, normal, to_eye);
+ *
+ * Positions are in metres relative to sdfgi_frame_desc::origin of the last sdfgi_update. */
+#ifndef SDFGI_GLSL
+#define SDFGI_GLSL
+
+#include "sdfgi_lookup.glsl"
+
+/* Indirect diffuse irradiance E (W/m^2) at a surface point with unit normal. `to_eye` leads to the viewer, in metres, and
+ * must be unobstructed; where there is no viewer, a short way along the normal will do. A Lambertian surface reflects
+ * albedo * E / pi. Light that comes straight from the sky and from emissive surfaces is included; the host's own lights
+ * arriving directly are not. */
+vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
+{
+    const float to_watts = 3.14159265 * sdfgi_frame.scale.z * sdfgi_frame.scale.w;
+    return lookup_irradiance(first_from_position(position), normal, to_eye) * to_watts;
+}
+
+#endif

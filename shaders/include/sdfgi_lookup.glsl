@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT
+ * Irradiance from the eight probes around a point: trilinear, facing and visibility weights (Majercik et al. 2019,
+ * "Dynamic Diffuse Global Illumination", section 3), normalised after visibility, so that a constant field is returned
+ * exactly however few probes are visible. */
+#ifndef SDFGI_LOOKUP_GLSL
+#define SDFGI_LOOKUP_GLSL
+
+#include "sdfgi_space.glsl"
+#include "sdfgi_trace.glsl"
+#include "../lib/octahedral.glsl"
+#include "../lib/sky.glsl"
+#include "../lib/rgbe.glsl"
+#include "../lib/light_pack.glsl"
+
+/* Weight shares of the eight probes of a cage; probe k stands at offset (k & 1, k >> 1 & 1, k >> 2). */
+struct lookup_visibility {
+    float of_probe[8];
+};
+
+ivec3 lookup_corner(int k)
+{
+    return ivec3(k & 1, k >> 1 & 1, k >> 2);
+}
+
+/* The cage that holds a position. */
+ivec3 lookup_cage(vec3 pos)
+{
+    const int last = int(sdfgi_frame.size.z) - 2;
+    return clamp(ivec3(floor(pos / float(SDFGI_PROBE_SPACING))), ivec3(0), ivec3(last));
+}
+
+vec3 lookup_probe_irradiance(uint cascade, ivec3 probe, vec3 normal)
+{
+    const ivec2 corner = probe_atlas_corner(cascade, probe);
+    const vec2 uv = octahedral_encode(normal) * 0.5 + 0.5;
+    const vec2 texel = vec2(corner) + 1.5 + uv * float(SDFGI_IRRADIANCE_TEXELS - 1);
+    const vec2 size = vec2(textureSize(sdfgi_irradiance_atlas, 0).xy);
+    return textureLod(sdfgi_irradiance_atlas, vec3(texel / size, float(cascade)), 0.0).rgb;
+}
+
+/* Sum of probes times weights in rgb, sum of weights in a. */
+vec4 lookup_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, lookup_visibility visibility)
+{
+    const vec3 f = clamp(pos / float(SDFGI_PROBE_SPACING) - vec3(cage), 0.0, 1.0);
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 8; k++) {
+        if (visibility.of_probe[k] <= 0.0)
+            continue;
+        const ivec3 corner = lookup_corner(k);
+        const ivec3 probe = cage + corner;
+        const uint state = sdfgi_probes[probe_index(cascade, probe)];
+        if (probe_is_dead(state))
+            continue;
+        const vec3 t = mix(1.0 - f, f, vec3(corner));
+        const vec3 way = metric_from_cells(probe_position(probe, state) - pos);
+        const float range = length(way);
+        /* Probes behind the surface count little, but not nothing: they may be all there is. On a probe the direction
+         * is undefined and its facing weight is that of a probe straight above. */
+        const float facing = range > 1e-4 ? 0.5 + 0.5 * dot(way, normal) / range : 1.0;
+        const float weight = (t.x * t.y * t.z + 1e-4) * max(facing * facing, 1e-2) * visibility.of_probe[k];
+        sum += vec4(lookup_probe_irradiance(cascade, probe, normal), 1.0) * weight;
+    }
+    return sum;
+}
+
+/* Radiance at the end of a ray: the sky's, or that of the light cell before the surface it hits. */
+vec3 lookup_ray_light(trace_hit hit, vec3 dir)
+{
+    if (!hit.hit)
+        return sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
+    if (!hit.has_cell)
+        return vec3(0.0);
+    return light_unpack_axis(sdfgi_light[cell_index(hit.cascade, hit.cell)], hit.axis);
+}
+
+/* Irradiance over pi by rays, for the few points that none of the eight probes can see, behind a pillar or in a niche: a
+ * cosine-distributed spiral around the normal. `pos` must be in the open. */
+vec4 lookup_rays(uint cascade, vec3 pos, vec3 normal)
+{
+    const int RAYS = 16;
+    const vec3 side = normalize(abs(normal.y) < 0.9 ? vec3(-normal.z, 0.0, normal.x) : vec3(0.0, normal.z, -normal.y));
+    const vec3 up = cross(normal, side);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < RAYS; i++) {
+        const float r2 = (float(i) + 0.5) / float(RAYS), turn = float(i) * 2.39996323; /* golden angle */
+        const vec3 dir = sqrt(r2) * (cos(turn) * side + sin(turn) * up) + sqrt(1.0 - r2) * normal;
+        sum += lookup_ray_light(trace_ray(cascade, sdfgi_frame.size.w - 1u, pos, dir, 1e9), dir);
+    }
+    return vec4(sum / float(RAYS), 1.0);
+}
+
+lookup_visibility lookup_from_mask(uint mask)
+{
+    lookup_visibility v;
+    for (int k = 0; k < 8; k++)
+        v.of_probe[k] = float(mask >> k & 1u);
+    return v;
+}
+
+lookup_visibility lookup_traced(uint cascade, ivec3 cage, vec3 pos)
+{
+    lookup_visibility v;
+    for (int k = 0; k < 8; k++) {
+        const ivec3 probe = cage + lookup_corner(k);
+        const uint state = sdfgi_probes[probe_index(cascade, probe)];
+        v.of_probe[k] = !probe_is_dead(state) && trace_visible(cascade, pos, probe_position(probe, state)) ? 1.0 : 0.0;
+    }
+    return v;
+}
+
+bool lookup_cell_empty(uint cascade, ivec3 cell)
+{
+    return cell_inside(cell) && cell_bits(cascade, cell) == uvec2(0u);
+}
+
+/* The light cell that stands for a surface point: the one that holds the biased position, else the nearest of its
+ * neighbours from which `open`, a point on the way to the viewer, can be seen. The viewer tells the two sides of a thin wall
+ * apart, which the point alone, lying inside the wall's sub-voxels, cannot. */
+bool lookup_anchor(uint cascade, vec3 pos, vec3 biased, vec3 normal, vec3 open, out ivec3 anchor)
+{
+    const ivec3 base = ivec3(floor(biased));
+    anchor = base;
+    if (trace_is_light_cell(cascade, base))
+        return true;
+    float nearest = 1e30;
+    for (int i = 0; i < 64; i++) {
+        /* Three of the four values of each pair of bits. */
+        const ivec3 offset = ivec3(i & 3, i >> 2 & 3, i >> 4) - 1;
+        const ivec3 cell = base + offset;
+        if (any(greaterThan(offset, ivec3(1))))
+            continue;
+        const vec3 centre = vec3(cell) + 0.5;
+        const vec3 gap = metric_from_cells(centre - biased);
+        if (dot(gap, gap) >= nearest || dot(metric_from_cells(centre - pos), normal) <= 0.0 ||
+            !trace_is_light_cell(cascade, cell) || !trace_visible(cascade, centre, open))
+            continue;
+        nearest = dot(gap, gap);
+        anchor = cell;
+    }
+    return nearest < 1e30;
+}
+
+/* Trilinear share of each probe's visible bit over the light cells around a position that can be reached from its
+ * anchor through empty cells. Cells of a neighbouring cage speak for the probes they share with this one. */
+lookup_visibility lookup_cell_masks(uint cascade, ivec3 cage, ivec3 anchor, vec3 biased)
+{
+    lookup_visibility v;
+    float total[8];
+    for (int k = 0; k < 8; k++) {
+        v.of_probe[k] = 0.0;
+        total[k] = 0.0;
+    }
+    const vec3 p = clamp(biased, vec3(anchor), vec3(anchor) + 1.0) - 0.5;
+    const ivec3 base = ivec3(floor(p));
+    const vec3 f = p - vec3(base);
+    const ivec3 side = 2 * base + 1 - 2 * anchor; /* -1 or 1: where the other cells of the support lie */
+    const bvec3 open = bvec3(lookup_cell_empty(cascade, anchor + ivec3(side.x, 0, 0)),
+                             lookup_cell_empty(cascade, anchor + ivec3(0, side.y, 0)),
+                             lookup_cell_empty(cascade, anchor + ivec3(0, 0, side.z)));
+    for (int i = 0; i < 8; i++) {
+        const ivec3 cell = base + lookup_corner(i);
+        const bvec3 moved = notEqual(cell, anchor);
+        const bool reachable = !any(moved) || (moved.x && open.x) || (moved.y && open.y) || (moved.z && open.z);
+        if (!reachable || !trace_is_light_cell(cascade, cell))
+            continue;
+        const uint mask = cell_mask(cascade, cell);
+        const vec3 t = mix(1.0 - f, f, vec3(lookup_corner(i)));
+        const float weight = t.x * t.y * t.z;
+        const ivec3 shift = cage - cell / SDFGI_PROBE_SPACING;
+        for (int k = 0; k < 8; k++) {
+            const ivec3 corner = lookup_corner(k) + shift;
+            if (any(lessThan(corner, ivec3(0))) || any(greaterThan(corner, ivec3(1))))
+                continue;
+            total[k] += weight;
+            v.of_probe[k] += weight * float(mask >> (corner.x + 2 * corner.y + 4 * corner.z) & 1u);
+        }
+    }
+    for (int k = 0; k < 8; k++)
+        v.of_probe[k] = total[k] > 0.0 ? v.of_probe[k] / total[k] : 0.0;
+    return v;
+}
+
+vec2 lookup_depth_texel(uint probe, ivec2 coord)
+{
+    const uint stride = uint(SDFGI_OCCLUSION_STRIDE);
+    return unpackUnorm2x16(sdfgi_occlusion[probe * stride * stride + uint(coord.y + 1) * stride + uint(coord.x + 1)]);
+}
+
+/* Chebyshev's inequality on a probe's depths (Donnelly and Lauritzen 2006, "Variance shadow maps"), cubed for contrast
+ * as in DDGI. `dir` points from the probe to the receiver, `range` is in cells. */
+float lookup_chebyshev(uint probe, vec3 dir, float range)
+{
+    const vec2 t = (octahedral_encode(dir) * 0.5 + 0.5) * float(SDFGI_OCCLUSION_TEXELS) - 0.5;
+    const ivec2 base = ivec2(floor(t));
+    const vec2 f = t - vec2(base);
+    const vec2 low = mix(lookup_depth_texel(probe, base), lookup_depth_texel(probe, base + ivec2(1, 0)), f.x);
+    const vec2 high = mix(lookup_depth_texel(probe, base + ivec2(0, 1)), lookup_depth_texel(probe, base + ivec2(1)), f.x);
+    const vec2 moments = mix(low, high, f.y) * vec2(SDFGI_OCCLUSION_RANGE, SDFGI_OCCLUSION_RANGE * SDFGI_OCCLUSION_RANGE);
+    const float gap = range - sdfgi_frame.bias.y - moments.x;
+    if (gap <= 0.0)
+        return 1.0;
+    /* unorm16 of the range resolves variances of 0.02 cells^2 (HARD_CASES row 43). */
+    const float variance = max(moments.y - moments.x * moments.x, 0.02);
+    const float p = variance / (variance + gap * gap);
+    return p * p * p;
+}
+
+lookup_visibility lookup_probe_depth(uint cascade, ivec3 cage, vec3 pos)
+{
+    lookup_visibility v;
+    for (int k = 0; k < 8; k++) {
+        const ivec3 probe = cage + lookup_corner(k);
+        const uint index = probe_index(cascade, probe);
+        const vec3 way = metric_from_cells(pos - probe_position(probe, sdfgi_probes[index]));
+        const float range = length(way);
+        v.of_probe[k] = range > 1e-4 ? lookup_chebyshev(index, way / range, range) : 1.0;
+    }
+    return v;
+}
+
+/* How far towards the viewer, in cells, a point is taken to be open space. */
+#define LOOKUP_OPEN_CELLS 4.0
+
+/* Sum over the cage of a surface point. The point is biased off the surface along its normal and, half as far, towards
+ * the viewer, who is known to be on its open side (Majercik et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global
+ * Illumination", section 3.2). `to_eye` is in cells. */
+vec4 lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
+{
+    const float range = length(to_eye);
+    const vec3 eye = to_eye / max(range, 1e-6);
+    const vec3 biased = pos + cells_from_metric(normal + 0.5 * eye) * sdfgi_frame.bias.x;
+    const vec3 open = pos + cells_from_metric(eye * min(range, LOOKUP_OPEN_CELLS) + 0.25 * normal);
+    const ivec3 cage = lookup_cage(biased);
+    const uint method = sdfgi_frame.light.z;
+    lookup_visibility v;
+    ivec3 anchor;
+    vec3 seen_from = open;
+    if (method == SDFGI_SHADER_VISIBILITY_NONE)
+        v = lookup_from_mask(0xffu);
+    else if (method == SDFGI_SHADER_VISIBILITY_PROBE_DEPTH)
+        v = lookup_probe_depth(cascade, cage, biased);
+    else if (method == SDFGI_SHADER_VISIBILITY_CELL_MASK && lookup_anchor(cascade, pos, biased, normal, open, anchor)) {
+        v = lookup_cell_masks(cascade, cage, anchor, biased);
+        seen_from = clamp(biased, vec3(anchor) + 0.05, vec3(anchor) + 0.95);
+    } else
+        v = lookup_traced(cascade, cage, pos + cells_from_metric(normal + eye) * 0.25);
+    const vec4 sum = lookup_sum(cascade, cage, biased, normal, v);
+    return sum.a > 1e-6 ? sum : lookup_rays(cascade, seen_from, normal);
+}
+
+/* Sum over the cage of a light cell's centre; `mask` is its own. Where it sees no probe, the light cell of a coarser cascade
+ * at the same place may. Rays to other light cells are out of the question: those change in the same pass. */
+vec4 lookup_light_cell(uint cascade, ivec3 cell, vec3 normal, uint mask)
+{
+    const vec3 first = first_from_cascade(cascade, vec3(cell) + 0.5);
+    const uint method = sdfgi_frame.light.z;
+    for (uint c = cascade; c < sdfgi_frame.size.w; c++) {
+        const vec3 pos = cascade_from_first(c, first);
+        const ivec3 at = ivec3(floor(pos));
+        if (c > cascade && !trace_is_light_cell(c, at))
+            continue;
+        const ivec3 cage = lookup_cage(pos);
+        const uint bits = method == SDFGI_SHADER_VISIBILITY_NONE ? 0xffu : (c == cascade ? mask : cell_mask(c, at));
+        const vec4 sum = method == SDFGI_SHADER_VISIBILITY_PROBE_DEPTH
+                             ? lookup_sum(c, cage, pos, normal, lookup_probe_depth(c, cage, pos))
+                             : lookup_sum(c, cage, pos, normal, lookup_from_mask(bits));
+        if (sum.a > 1e-6)
+            return sum;
+    }
+    return vec4(0.0);
+}
+
+/* How much of a cascade's answer to use at a position: 1 inside, falling to 0 over one probe before its border. */
+float lookup_cascade_share(vec3 pos)
+{
+    const vec3 size = vec3(float(space_resolution()));
+    const vec3 edge = min(pos, size - pos);
+    return clamp((min(edge.x, min(edge.y, edge.z)) - 1.0) / float(SDFGI_PROBE_SPACING), 0.0, 1.0);
+}
+
+/* Irradiance over pi times exposure at a position in cell space of cascade 0. The finest cascade answers; near its
+ * border the next coarser one takes over; outside the last the sky does. */
+vec3 lookup_irradiance(vec3 pos_first, vec3 normal, vec3 to_eye)
+{
+    const vec3 eye_first = to_eye / sdfgi_frame.cascades[0].origin_rel.w;
+    vec3 result = vec3(0.0);
+    float rest = 1.0;
+    for (uint c = 0u; c < sdfgi_frame.size.w && rest > 0.0; c++) {
+        const vec3 pos = cascade_from_first(c, pos_first);
+        const float share = lookup_cascade_share(pos);
+        if (share <= 0.0)
+            continue;
+        const vec4 sum = lookup_surface(c, pos, normal, eye_first * sdfgi_frame.cascades[c].from_first.w);
+        result += rest * share * sum.rgb / sum.a;
+        rest *= 1.0 - share;
+    }
+    const vec3 sky = sky_irradiance(normal, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb,
+                                    sdfgi_frame.sky_ground.rgb);
+    return result + rest * sky;
+}
+
+#endif

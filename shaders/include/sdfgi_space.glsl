@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT
+ * Cells, sub-voxels and probes: where they are and where they are stored. */
+#ifndef SDFGI_SPACE_GLSL
+#define SDFGI_SPACE_GLSL
+
+#include "sdfgi_resources.glsl"
+
+int space_resolution()
+{
+    return int(sdfgi_frame.size.x);
+}
+
+/* Height of a cell over its width. */
+float space_y_scale()
+{
+    return sdfgi_frame.scale.x;
+}
+
+/* Metric lengths of a vector in cell space, in cell widths, and back. */
+vec3 metric_from_cells(vec3 v)
+{
+    return vec3(v.x, v.y * space_y_scale(), v.z);
+}
+
+vec3 cells_from_metric(vec3 v)
+{
+    return vec3(v.x, v.y / space_y_scale(), v.z);
+}
+
+bool cell_inside(ivec3 cell)
+{
+    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(space_resolution())));
+}
+
+/* Texel of a local cell: volumes are toroidal. */
+uvec3 cell_texel(uint cascade, ivec3 cell)
+{
+    return uvec3(cell + sdfgi_frame.cascades[cascade].wrap.xyz) & (sdfgi_frame.size.x - 1u);
+}
+
+uint texel_index(uvec3 texel)
+{
+    const uint bits = sdfgi_frame.size.y;
+    return texel.x | texel.y << bits | texel.z << (2u * bits);
+}
+
+/* Index of a local cell in buffers with one element per cell, all cascades one after another. */
+uint cell_index(uint cascade, ivec3 cell)
+{
+    return texel_index(cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.size.y);
+}
+
+ivec3 cell_from_texel(uint cascade, uvec3 texel)
+{
+    return ivec3((texel - uvec3(sdfgi_frame.cascades[cascade].wrap.xyz)) & (sdfgi_frame.size.x - 1u));
+}
+
+uvec3 texel_from_index(uint index)
+{
+    const uint bits = sdfgi_frame.size.y;
+    return uvec3(index, index >> bits, index >> (2u * bits)) & (sdfgi_frame.size.x - 1u);
+}
+
+/* Index of the albedo block (2x2x2 cells) that holds a cell, within its cascade. */
+uint block_index(uint cascade, ivec3 cell)
+{
+    const uvec3 block = cell_texel(cascade, cell) >> 1u;
+    const uint bits = sdfgi_frame.size.y - 1u;
+    return block.x | block.y << bits | block.z << (2u * bits);
+}
+
+uint block_count()
+{
+    return 1u << (3u * (sdfgi_frame.size.y - 1u));
+}
+
+uvec2 cell_bits(uint cascade, ivec3 cell)
+{
+    return sdfgi_bits[cell_index(cascade, cell)];
+}
+
+/* Steps per cell width of stored distances: the longest, N sqrt(3) cells, still fits 16 bits. */
+float distance_steps()
+{
+    return float(32768u >> sdfgi_frame.size.y);
+}
+
+/* Never more than 0.1 cell above the distance to the nearest set sub-voxel. */
+float cell_distance(uint cascade, ivec3 cell)
+{
+    const uint index = cell_index(cascade, cell);
+    const uint pair = sdfgi_distances[index >> 1u];
+    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) / distance_steps();
+}
+
+uint cell_mask(uint cascade, ivec3 cell)
+{
+    const uint index = cell_index(cascade, cell);
+    return sdfgi_masks[index >> 2u] >> (8u * (index & 3u)) & 0xffu;
+}
+
+vec3 cascade_from_first(uint cascade, vec3 pos_first)
+{
+    const vec4 map = sdfgi_frame.cascades[cascade].from_first;
+    return map.xyz + map.w * pos_first;
+}
+
+vec3 first_from_cascade(uint cascade, vec3 pos_cascade)
+{
+    const vec4 map = sdfgi_frame.cascades[cascade].from_first;
+    return (pos_cascade - map.xyz) / map.w;
+}
+
+/* Position relative to the host's origin in metres to cell space of cascade 0. */
+vec3 first_from_position(vec3 position)
+{
+    const vec4 origin = sdfgi_frame.cascades[0].origin_rel;
+    return cells_from_metric((position - origin.xyz) / origin.w);
+}
+
+vec3 position_from_cascade(uint cascade, vec3 pos_cascade)
+{
+    const vec4 origin = sdfgi_frame.cascades[cascade].origin_rel;
+    return origin.xyz + metric_from_cells(pos_cascade) * origin.w;
+}
+
+/* ---- Probes: probe k of a cascade stands on the corner of cells 8 k, k in [0, probes_per_side). */
+
+/* Slot of a local probe: probes are toroidal too. */
+ivec3 probe_slot(uint cascade, ivec3 probe)
+{
+    const ivec3 slot = probe + sdfgi_frame.cascades[cascade].probe_wrap.xyz;
+    const int side = int(sdfgi_frame.size.z);
+    return slot - side * ivec3(greaterThanEqual(slot, ivec3(side)));
+}
+
+uint probe_index(uint cascade, ivec3 probe)
+{
+    const int side = int(sdfgi_frame.size.z);
+    const ivec3 slot = probe_slot(cascade, probe);
+    return uint(slot.x + side * (slot.y + side * (slot.z + side * int(cascade))));
+}
+
+#define SDFGI_PROBE_DEAD 0x80000000u
+#define SDFGI_PROBE_MOVED 0x40000000u
+
+/* A probe's state: moved ones stand in the centre of the cell at offset (5 bits each, biased by 16) of its corner. */
+uint probe_pack_moved(ivec3 offset)
+{
+    const uvec3 o = uvec3(offset + 16);
+    return SDFGI_PROBE_MOVED | o.x | o.y << 5u | o.z << 10u;
+}
+
+bool probe_is_dead(uint state)
+{
+    return (state & SDFGI_PROBE_DEAD) != 0u;
+}
+
+/* Position in cell space. */
+vec3 probe_position(ivec3 probe, uint state)
+{
+    const vec3 corner = vec3(probe * SDFGI_PROBE_SPACING);
+    if ((state & SDFGI_PROBE_MOVED) == 0u)
+        return corner;
+    return corner + vec3(ivec3(uvec3(state, state >> 5u, state >> 10u) & 31u) - 16) + 0.5;
+}
+
+/* Low corner of a probe's square in the irradiance atlas, in texels. */
+ivec2 probe_atlas_corner(uint cascade, ivec3 probe)
+{
+    const ivec3 slot = probe_slot(cascade, probe);
+    return ivec2(slot.x, slot.y + int(sdfgi_frame.size.z) * slot.z) * SDFGI_IRRADIANCE_STRIDE;
+}
+
+#endif

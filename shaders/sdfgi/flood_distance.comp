@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ * Turns pointers into distances, rounded down. One thread per pair of cells that share a word. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_DISTANCE
+#include "flood.glsl"
+
+uint encode_distance(ivec3 cell)
+{
+    const uint pointer = sdfgi_scratch[flood_slot(args.source, cell)];
+    if (pointer == NEAREST_NONE)
+        return 0xffffu;
+    return encode_nearest(nearest_distance2(cell, nearest_unpack(pointer)));
+}
+
+void main()
+{
+    /* Volumes wrap at multiples of 8 cells, so that pairs of cells are pairs of texels. */
+    const ivec3 cell = ivec3(gl_GlobalInvocationID) * ivec3(2, 1, 1);
+    if (!cell_inside(cell))
+        return;
+    const uint low = encode_distance(cell), high = encode_distance(cell + ivec3(1, 0, 0));
+    sdfgi_distances[cell_index(args.cascade, cell) >> 1u] = low | high << 16u;
+}

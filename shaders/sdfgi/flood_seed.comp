@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ * Points every occupied cell at its own nearest sub-voxel. One thread per cell. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "flood.glsl"
+
+void main()
+{
+    const ivec3 cell = ivec3(gl_GlobalInvocationID);
+    uint best = NEAREST_NONE;
+    float best2 = 1e30;
+    nearest_offer(cell, cell, best, best2);
+    sdfgi_scratch[flood_slot(0u, cell)] = best;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ * One jump: every cell looks at the pointers of its 26 neighbours at args.step cells. One thread per cell. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "flood.glsl"
+
+/* Pointer of a neighbour; none outside the volume. */
+uint neighbour(ivec3 cell, ivec3 offset)
+{
+    const ivec3 other = cell + offset * int(args.step);
+    return cell_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
+}
+
+/* The nearest of the sub-voxels that neighbours point at. */
+uint nearest_pointer(ivec3 cell, out float best2)
+{
+    uint best = NEAREST_NONE;
+    best2 = 1e30;
+    for (int z = -1; z <= 1; z++)
+        for (int y = -1; y <= 1; y++)
+            for (int x = -1; x <= 1; x++) {
+                const uint pointer = neighbour(cell, ivec3(x, y, z));
+                const float d2 = pointer == NEAREST_NONE ? 1e30 : nearest_distance2(cell, nearest_unpack(pointer));
+                best = d2 < best2 ? pointer : best;
+                best2 = min(best2, d2);
+            }
+    return best;
+}
+
+void main()
+{
+    const ivec3 cell = ivec3(gl_GlobalInvocationID);
+    /* One distance per neighbour leaves few cells worth a closer look. */
+    float best2;
+    uint best = nearest_pointer(cell, best2);
+    uint looked_at = NEAREST_NONE;
+    if (best != NEAREST_NONE)
+        for (int z = -1; z <= 1; z++)
+            for (int y = -1; y <= 1; y++)
+                for (int x = -1; x <= 1; x++) {
+                    const uint pointer = neighbour(cell, ivec3(x, y, z));
+                    const uint holder = pointer & NEAREST_CELL_MASK;
+                    if (pointer == NEAREST_NONE || holder == looked_at)
+                        continue;
+                    looked_at = holder;
+                    nearest_offer(cell, nearest_unpack(pointer) >> 2, best, best2);
+                }
+    sdfgi_scratch[flood_slot(1u - args.source, cell)] = best;
+}

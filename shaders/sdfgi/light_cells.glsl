@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT
+ * The list of light cells: empty cells next to occupied ones. Three words each: where it is (texel index) and which of
+ * its probes it sees, then the direct light packed as in lib/light_pack.glsl. */
+#ifndef SDFGI_LIGHT_CELLS_GLSL
+#define SDFGI_LIGHT_CELLS_GLSL
+
+#include "surface.glsl"
+#include "../lib/light_pack.glsl"
+#include "../lib/random.glsl"
+
+layout(std430, set = 0, binding = SDFGI_BINDING_LIGHT_CELLS) buffer sdfgi_light_cells_buffer
+{
+    uint sdfgi_light_cells[];
+};
+
+uint light_cell_count(uint cascade)
+{
+    return min(sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + cascade], sdfgi_frame.light.y);
+}
+
+/* Fixed for a place in the world, whatever texel holds it. */
+uint light_cell_hash(uint cascade, ivec3 cell)
+{
+    const ivec3 base = sdfgi_frame.cascades[cascade].probe_base.xyz * SDFGI_PROBE_SPACING;
+    return random_hash3(base + cell, cascade);
+}
+
+/* First word of an entry. Texel indices have at most 24 bits, masks 8. */
+uint light_cell_slot(uint cascade, uint entry)
+{
+    return 3u * (cascade * sdfgi_frame.light.y + entry);
+}
+
+ivec3 light_cell_position(uint cascade, uint packed)
+{
+    return cell_from_texel(cascade, texel_from_index(packed & 0xffffffu));
+}
+
+uvec2 light_cell_direct(uint slot)
+{
+    return uvec2(sdfgi_light_cells[slot + 1u], sdfgi_light_cells[slot + 2u]);
+}
+
+void light_cell_store_direct(uint slot, uvec2 light)
+{
+    sdfgi_light_cells[slot + 1u] = light.x;
+    sdfgi_light_cells[slot + 2u] = light.y;
+}
+
+/* Bit per axis: the cell behind that axis is solid, so a surface faces along it. */
+uint light_cell_facing(uint cascade, ivec3 cell)
+{
+    uint facing = 0u;
+    for (uint axis = 0u; axis < 6u; axis++) {
+        const ivec3 behind = cell - surface_axis_step(axis);
+        if (cell_inside(behind) && cell_bits(cascade, behind) != uvec2(0u))
+            facing |= 1u << axis;
+    }
+    return facing;
+}
+
+/* Axes along which no surface faces take the mean of those along which one does: a hit on the side of a sub-voxel
+ * step then reads the slope's light instead of black. */
+void light_fill_axes(uint facing, inout vec3 axes[6])
+{
+    vec3 mean = vec3(0.0);
+    for (int a = 0; a < 6; a++)
+        mean += (facing >> a & 1u) != 0u ? axes[a] : vec3(0.0);
+    mean /= float(max(bitCount(facing), 1));
+    for (int a = 0; a < 6; a++)
+        axes[a] = (facing >> a & 1u) != 0u ? axes[a] : mean;
+}
+
+#endif

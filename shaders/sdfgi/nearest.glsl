@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT
+ * The sub-voxel of a cell nearest to another cell's centre: boxes first, bits only where a box may win. Sub-voxels are
+ * packed 10 bits per axis. */
+#ifndef SDFGI_NEAREST_GLSL
+#define SDFGI_NEAREST_GLSL
+
+#include "pass.glsl"
+
+layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+
+const uint NEAREST_NONE = 0xffffffffu;
+const uint NEAREST_CELL_MASK = 0x3fcff3fcu; /* drops the two low bits of each coordinate */
+
+uint nearest_pack(ivec3 sub)
+{
+    return uint(sub.x) | uint(sub.y) << 10u | uint(sub.z) << 20u;
+}
+
+ivec3 nearest_unpack(uint pointer)
+{
+    return ivec3(uvec3(pointer, pointer >> 10u, pointer >> 20u) & 1023u);
+}
+
+/* Squared distance in cell widths from the centre of `cell` to a sub-voxel's centre. */
+float nearest_distance2(ivec3 cell, ivec3 sub)
+{
+    const vec3 way = metric_from_cells((vec3(sub - cell * SDFGI_SUBVOXELS) - 1.5) * 0.25);
+    return dot(way, way);
+}
+
+/* Lower bound of nearest_distance2 over the sub-voxels of another cell that lie in [low, high]. */
+float nearest_bound2(ivec3 cell, ivec3 other, vec3 low, vec3 high)
+{
+    const vec3 centre = vec3((cell - other) * SDFGI_SUBVOXELS) + 1.5;
+    const vec3 gap = metric_from_cells(max(max(low - centre, centre - high), 0.0) * 0.25);
+    return dot(gap, gap);
+}
+
+/* Bit per slab that holds a set bit: x, y and z. */
+uvec3 nearest_slabs(uvec2 bits)
+{
+    const uint all_z = bits.x | bits.y;
+    const uint layer = (all_z | all_z >> 16u) & 0xffffu;
+    const uint column = layer | layer >> 8u;
+    const uint rows = layer | layer >> 1u | layer >> 2u | layer >> 3u; /* bit 4 y: any of row y */
+    const uint y = (rows & 1u) | (rows >> 3u & 2u) | (rows >> 6u & 4u) | (rows >> 9u & 8u);
+    const uint z = uint((bits.x & 0xffffu) != 0u) | uint(bits.x >> 16u != 0u) << 1u |
+                   uint((bits.y & 0xffffu) != 0u) << 2u | uint(bits.y >> 16u != 0u) << 3u;
+    return uvec3((column | column >> 4u) & 15u, y, z);
+}
+
+/* Least of dx2 over the set bits of four rows, plus dy2, for one layer of 16 bits. */
+float nearest_layer2(uint layer, vec4 dx2, vec4 dy2)
+{
+    const uvec4 rows = uvec4(layer) >> uvec4(0u, 4u, 8u, 12u);
+    vec4 d = mix(vec4(1e30), vec4(dx2.x), notEqual(rows & 1u, uvec4(0u)));
+    d = min(d, mix(vec4(1e30), vec4(dx2.y), notEqual(rows & 2u, uvec4(0u))));
+    d = min(d, mix(vec4(1e30), vec4(dx2.z), notEqual(rows & 4u, uvec4(0u))));
+    d = min(d, mix(vec4(1e30), vec4(dx2.w), notEqual(rows & 8u, uvec4(0u)))) + dy2;
+    return min(min(d.x, d.y), min(d.z, d.w));
+}
+
+/* Squared distance in cell widths from a point to the nearest set sub-voxel of a cell; `at` is the point in sub-voxels from
+ * the centre of the cell's first. Without a loop: software drivers stop a shader after 65,535 iterations. */
+float nearest_in_cell2(uvec2 bits, vec3 at)
+{
+    const vec3 size = metric_from_cells(vec3(0.25));
+    const vec4 steps = vec4(0.0, 1.0, 2.0, 3.0);
+    const vec4 dx = (steps - at.x) * size.x, dy = (steps - at.y) * size.y, dz = (steps - at.z) * size.z;
+    const vec4 dx2 = dx * dx, dy2 = dy * dy, dz2 = dz * dz;
+    return min(min(nearest_layer2(bits.x & 0xffffu, dx2, dy2) + dz2.x, nearest_layer2(bits.x >> 16u, dx2, dy2) + dz2.y),
+               min(nearest_layer2(bits.y & 0xffffu, dx2, dy2) + dz2.z, nearest_layer2(bits.y >> 16u, dx2, dy2) + dz2.w));
+}
+
+/* Offers the sub-voxels of `other` to `cell`: the box around the cell first, then around its bits, then the bits. Most
+ * candidates fall to a box, which is what makes measuring to 64 sub-voxels affordable. */
+void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
+{
+    if (nearest_bound2(cell, other, vec3(0.0), vec3(3.0)) >= best2)
+        return;
+    const uvec2 bits = cell_bits(args.cascade, other);
+    const uvec3 slabs = nearest_slabs(bits);
+    if (nearest_bound2(cell, other, vec3(findLSB(slabs)), vec3(findMSB(slabs))) >= best2)
+        return;
+    const ivec3 low = other * SDFGI_SUBVOXELS;
+    for (int word = 0; word < 2; word++) {
+        uint rest = bits[word];
+        for (int i = 0; i < 32 && rest != 0u; i++) {
+            const int bit = findLSB(rest);
+            rest &= rest - 1u;
+            const ivec3 sub = low + ivec3(bit & 3, bit >> 2 & 3, (bit >> 4) + 2 * word);
+            const float d2 = nearest_distance2(cell, sub);
+            if (d2 < best2) {
+                best2 = d2;
+                best = nearest_pack(sub);
+            }
+        }
+    }
+}
+
+/* Stored form of a squared distance: rounded down, by a hair more than floats may have rounded up. */
+uint encode_nearest(float d2)
+{
+    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * distance_steps()), 0xffffu) : 0xffffu;
+}
+
+#endif

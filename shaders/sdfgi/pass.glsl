@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ * What every pass of the library includes: push constants, counters and the resources only passes touch. */
+#ifndef SDFGI_PASS_GLSL
+#define SDFGI_PASS_GLSL
+
+#include "../include/sdfgi_space.glsl"
+#include "../shared/args.h"
+
+/* Flood pointers (two halves of one uint per cell) or accumulators (planes of one uint per block). */
+layout(std430, set = 0, binding = SDFGI_BINDING_SCRATCH) buffer sdfgi_scratch_buffer
+{
+    uint sdfgi_scratch[];
+};
+
+layout(std430, set = 0, binding = SDFGI_BINDING_COUNTERS) buffer sdfgi_counters_buffer
+{
+    uint sdfgi_counters[];
+};
+
+void counter_add(uint counter, uint value)
+{
+    atomicAdd(sdfgi_counters[counter], value);
+}
+
+#endif

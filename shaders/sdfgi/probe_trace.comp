@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT
+ * Traces this frame's rays of each probe, or takes their hits from the ray cache, reads the light there and adds it to
+ * the running sums of the 25 texels: L max(0, n.w) weight, and the weights apart (each ray weighted by the solid angle
+ * its jitter stands for), so that a constant field is exact. One workgroup per probe.
+ * Shared memory: 128 rays of 32 bytes. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "probe_common.glsl"
+#include "../include/sdfgi_trace.glsl"
+#include "../lib/rgbe.glsl"
+#include "../lib/light_pack.glsl"
+#include "../lib/sky.glsl"
+
+layout(local_size_x = SDFGI_GROUP_PROBE) in;
+layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+
+/* Per probe and sample: where its ray ends. Cell texel, cascade and axis of the light it reads, plus 1; or a code. */
+layout(std430, set = 0, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer { uint sdfgi_rays[]; };
+
+const uint MAX_RAYS = 128u;
+shared vec4 ray_dir[MAX_RAYS];   /* w: solid angle */
+shared vec3 ray_light[MAX_RAYS];
+shared uint group_traced;
+
+uint cache_pack(trace_hit hit)
+{
+    if (!hit.hit)
+        return SDFGI_RAY_SKY;
+    if (!hit.has_cell)
+        return SDFGI_RAY_UNLIT;
+    const uint cell_bits_count = 3u * sdfgi_frame.size.y;
+    const uint where = texel_index(cell_texel(hit.cascade, hit.cell)) | hit.cascade << cell_bits_count;
+    return (where | hit.axis << (cell_bits_count + 3u)) + 1u;
+}
+
+vec3 cache_light(uint code, vec3 dir)
+{
+    if (code == SDFGI_RAY_SKY)
+        return sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
+    if (code == SDFGI_RAY_UNLIT)
+        return vec3(0.0);
+    const uint bits = 3u * sdfgi_frame.size.y + 3u;
+    const uint cell = (code - 1u) & ((1u << bits) - 1u);
+    return light_unpack_axis(sdfgi_light[cell], (code - 1u) >> bits);
+}
+
+uint trace_sample(ivec3 probe, uint state, vec3 dir)
+{
+    const trace_hit hit = trace_ray(args.cascade, sdfgi_frame.size.w - 1u, probe_position(probe, state), dir, 1e9);
+    if (hit.capped)
+        counter_add(SDFGI_COUNTER_TRACE_CAPS, 1u);
+    atomicAdd(group_traced, 1u);
+    return cache_pack(hit);
+}
+
+void main()
+{
+    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
+    const uint slot = probe_index(args.cascade, probe);
+    const uint state = sdfgi_probes[slot];
+    if (probe_is_dead(state))
+        return;
+    const uint rays = min(sdfgi_frame.ring.x, MAX_RAYS);
+    if (gl_LocalInvocationIndex == 0u)
+        group_traced = 0u;
+    barrier();
+
+    for (uint i = gl_LocalInvocationIndex; i < rays; i += uint(SDFGI_GROUP_PROBE)) {
+        const uint s = sdfgi_frame.ring.y + i;
+        float solid_angle;
+        const vec3 dir = probe_sample_direction(args.cascade, probe, s, solid_angle);
+        const uint at = slot * sdfgi_frame.ring.z + s;
+        uint code = sdfgi_rays[at];
+        if (code == SDFGI_RAY_UNKNOWN) {
+            code = trace_sample(probe, state, dir);
+            sdfgi_rays[at] = code;
+        }
+        if (code == SDFGI_RAY_UNLIT)
+            counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
+        ray_dir[i] = vec4(dir, solid_angle);
+        ray_light[i] = cache_light(code, dir);
+    }
+    barrier();
+
+    if (gl_LocalInvocationIndex < uint(SDFGI_IRRADIANCE_COUNT)) {
+        const vec3 normal = probe_texel_direction(gl_LocalInvocationIndex);
+        vec4 sum = vec4(0.0);
+        for (uint i = 0u; i < rays; i++) {
+            const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
+            sum += vec4(ray_light[i], 1.0) * weight;
+        }
+        sdfgi_sums[slot * uint(SDFGI_IRRADIANCE_COUNT) + gl_LocalInvocationIndex] += sum;
+    }
+    if (gl_LocalInvocationIndex == 0u && group_traced > 0u)
+        counter_add(SDFGI_COUNTER_RAYS_TRACED, group_traced);
+}

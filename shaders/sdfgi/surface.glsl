@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT
+ * What the volumes know of surfaces: albedo, emission and normals per block of 2x2x2 cells. A pass defines
+ * SDFGI_WRITES_SURFACE to write them. */
+#ifndef SDFGI_SURFACE_GLSL
+#define SDFGI_SURFACE_GLSL
+
+#include "pass.glsl"
+#include "../lib/rgbe.glsl"
+
+#ifdef SDFGI_WRITES_SURFACE
+#define SDFGI_ACCESS_SURFACE
+#else
+#define SDFGI_ACCESS_SURFACE readonly
+#endif
+
+/* unorm8 RGB. */
+layout(std430, set = 0, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
+{
+    uint sdfgi_albedo[];
+};
+
+/* x: RGB9E5 mean of the emissive samples in units of the scene's brightest emission; y: per axis 5 bits, the share of
+ * what is seen from that side that emits. */
+layout(std430, set = 0, binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
+{
+    uvec2 sdfgi_emission[];
+};
+
+/* Mean normals of the triangles whose dominant axis is x, y or z: ten bits each, two slopes of 5 bits in [-1, 1];
+ * a first slope of 31 says there are none. */
+layout(std430, set = 0, binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
+{
+    uint sdfgi_normals[];
+};
+
+const uint SURFACE_NO_NORMAL = 31u;
+
+ivec3 surface_axis_step(uint axis)
+{
+    ivec3 result = ivec3(0);
+    result[axis >> 1u] = (axis & 1u) == 0u ? 1 : -1;
+    return result;
+}
+
+/* Mean unit normal of class `axis` / 2 turned towards `axis`; false if the block has no such triangles. */
+bool surface_class_normal(uint packed, uint axis, out vec3 normal)
+{
+    const uint major = axis >> 1u;
+    const uint slopes = packed >> (10u * major);
+    normal = vec3(surface_axis_step(axis));
+    if ((slopes & 31u) == SURFACE_NO_NORMAL)
+        return false;
+    const vec2 slope = vec2(slopes & 31u, slopes >> 5u & 31u) / 15.0 - 1.0;
+    vec3 n = vec3(0.0);
+    n[major] = 1.0;
+    n[(major + 1u) % 3u] = slope.x;
+    n[(major + 2u) % 3u] = slope.y;
+    normal = normalize((axis & 1u) == 0u ? n : -n);
+    return true;
+}
+
+/* The normal of the surface that faces `axis` in a block: of the triangles that face this way most, else of those of
+ * another class that lean towards it. */
+vec3 surface_normal(uint block, uint axis)
+{
+    const uint packed = sdfgi_normals[block];
+    vec3 normal;
+    if (surface_class_normal(packed, axis, normal))
+        return normal;
+    const vec3 towards = vec3(surface_axis_step(axis));
+    vec3 best = towards;
+    float best_height = 0.2;
+    for (uint other = 0u; other < 6u; other += 2u) {
+        vec3 candidate;
+        if (!surface_class_normal(packed, other, candidate))
+            continue;
+        const float height = dot(candidate, towards);
+        if (abs(height) > best_height) {
+            best_height = abs(height);
+            best = height > 0.0 ? candidate : -candidate;
+        }
+    }
+    return best;
+}
+
+vec3 surface_albedo(uint block)
+{
+    return unpackUnorm4x8(sdfgi_albedo[block]).rgb;
+}
+
+/* Emitted radiance times exposure towards `axis`. */
+vec3 surface_emission(uint block, uint axis)
+{
+    const uvec2 packed = sdfgi_emission[block];
+    return rgbe_decode(packed.x) * (float(packed.y >> (5u * axis) & 31u) / 31.0) * sdfgi_frame.bias.w;
+}
+
+/* Index of the block of a cell in these buffers. */
+uint surface_block(uint cascade, ivec3 cell)
+{
+    return block_index(cascade, cell) + cascade * block_count();
+}
+
+#endif

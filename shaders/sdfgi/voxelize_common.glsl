@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT
+ * Voxelisation of one triangle, shared by the compute and the raster voxeliser, which differ only in who visits the
+ * columns: both set the same bits.
+ *
+ * A sub-voxel is set if the triangle crosses one of the three axis-parallel unit segments through its centre: the
+ * 6-separating set (Schwarz and Seidel 2010, "Fast parallel surface and solid voxelization"; Huang et al. 1998). A step
+ * between the centres of two 6-neighbours that crosses a closed mesh crosses it on one of those segments, hence no
+ * 6-connected walk gets through. Along the triangle's dominant axis there is one candidate per column. */
+#define SDFGI_WRITES_BITS
+#define SDFGI_WRITES_LIGHT
+#include "pass.glsl"
+
+layout(push_constant) uniform sdfgi_push { sdfgi_voxelize_args args; };
+
+layout(std430, set = 0, binding = SDFGI_BINDING_MATERIALS) readonly buffer sdfgi_materials_buffer
+{
+    sdfgi_material_params sdfgi_materials[];
+};
+layout(std430, set = 1, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions { float positions[]; };
+layout(std430, set = 1, binding = SDFGI_BINDING_MESH_UVS) readonly buffer mesh_uvs { float uvs[]; };
+layout(std430, set = 1, binding = SDFGI_BINDING_MESH_COLORS) readonly buffer mesh_colors { float colors[]; };
+layout(std430, set = 1, binding = SDFGI_BINDING_MESH_INDICES) readonly buffer mesh_indices { uint indices[]; };
+
+#ifdef SDFGI_VOXELIZE_TEXTURED
+layout(set = 2, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
+layout(set = 2, binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
+#endif
+
+/* Inclusive edges: sub-voxels within this distance (sub-voxels) outside an edge are set too, so that rounding cannot
+ * open a seam between triangles that share it. */
+const float EDGE_MARGIN = 1.0 / 256.0;
+/* Surfaces exactly between two sub-voxels go to the upper one, however the transform rounds. */
+const float TIE_BIAS = 1.0 / 1024.0;
+/* Beyond this (sub-voxels) floats cannot place an edge to within a sub-voxel. */
+const float MAX_COORDINATE = 1e9;
+
+struct triangle {
+    vec3 v[3];        /* sub-voxels, axes permuted: z is the dominant axis */
+    vec2 slope;       /* dz/dx, dz/dy */
+    vec3 edges[3];    /* inside where dot(edge, (x, y, 1)) >= 0, in sub-voxels */
+    vec3 bary_x, bary_y, bary_0; /* barycentric coordinates = bary_0 + x bary_x + y bary_y */
+    vec3 normal;      /* metric, unit, front side */
+    int axis;         /* dominant one */
+    uint index[3];
+    ivec4 columns;    /* low xy, high zw, inclusive */
+    bool tiny;        /* smaller than a sub-voxel: sets the one its centre lies in, whatever it crosses */
+    float lod_area;   /* sub-voxels^2 in the dominant plane */
+};
+
+vec3 permute(vec3 p, int axis)
+{
+    return axis == 0 ? p.yzx : (axis == 1 ? p.zxy : p.xyz);
+}
+
+ivec3 unpermute(ivec3 p, int axis)
+{
+    return axis == 0 ? p.zxy : (axis == 1 ? p.yzx : p.xyz);
+}
+
+uint mesh_index(uint i)
+{
+    const uint kind = args.flags & 3u;
+    if (kind == SDFGI_MESH_INDEX_32)
+        return indices[args.index_offset + i];
+    if (kind == SDFGI_MESH_INDEX_16)
+        return indices[args.index_offset + (i >> 1u)] >> (16u * (i & 1u)) & 0xffffu;
+    return i;
+}
+
+vec3 mesh_position(uint vertex)
+{
+    const uint at = args.position_offset + vertex * args.position_stride;
+    const vec4 p = vec4(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
+    return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
+}
+
+/* False, and counted, if a vertex is out of range or not finite. */
+bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
+{
+    for (int i = 0; i < 3; i++) {
+        index[i] = mesh_index(3u * t + uint(i));
+        if (index[i] >= args.vertex_count)
+            return false;
+        v[i] = mesh_position(index[i]);
+        if (!(max(abs(v[i].x), max(abs(v[i].y), abs(v[i].z))) < MAX_COORDINATE))
+            return false;
+    }
+    return true;
+}
+
+/* Sets up everything that does not depend on the column. False if the triangle has no area or misses the volume. */
+bool triangle_setup(inout triangle t, vec3 v[3])
+{
+    const float size = float(space_resolution() * SDFGI_SUBVOXELS);
+    const vec3 low = min(v[0], min(v[1], v[2]));
+    const vec3 high = max(v[0], max(v[1], v[2]));
+    if (any(lessThan(high, vec3(-0.5))) || any(greaterThan(low, vec3(size + 0.5))))
+        return false;
+    const vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
+    const vec3 height = abs(normal);
+    const float largest = max(height.x, max(height.y, height.z));
+    if (!(largest > 1e-12))
+        return false;
+    t.axis = height.x >= largest ? 0 : (height.y >= largest ? 1 : 2);
+    const vec3 n = permute(normal, t.axis);
+    t.slope = -n.xy / n.z;
+    for (int i = 0; i < 3; i++)
+        t.v[i] = permute(v[i], t.axis);
+    for (int i = 0; i < 3; i++) {
+        const vec2 a = t.v[i].xy;
+        const vec2 along = t.v[(i + 1) % 3].xy - a;
+        vec2 inward = vec2(-along.y, along.x) * sign(n.z);
+        inward /= max(length(inward), 1e-20);
+        t.edges[i] = vec3(inward, -dot(inward, a));
+    }
+    const vec2 a = t.v[0].xy, ab = t.v[1].xy - a, ac = t.v[2].xy - a;
+    const float det = ab.x * ac.y - ab.y * ac.x;
+    const vec2 to_b = vec2(ac.y, -ac.x) / det, to_c = vec2(-ab.y, ab.x) / det;
+    t.bary_x = vec3(-to_b.x - to_c.x, to_b.x, to_c.x);
+    t.bary_y = vec3(-to_b.y - to_c.y, to_b.y, to_c.y);
+    t.bary_0 = vec3(1.0, 0.0, 0.0) - a.x * t.bary_x - a.y * t.bary_y;
+    t.lod_area = abs(det);
+
+    /* Cells are y_scale as high as wide: back to metric lengths, and to the side that the mesh calls front. */
+    const vec3 metric = normal / vec3(1.0, space_y_scale(), 1.0);
+    t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_MIRRORED) != 0u ? -1.0 : 1.0);
+
+    const vec3 plow = permute(low, t.axis), phigh = permute(high, t.axis);
+    t.tiny = all(lessThan(phigh - plow, vec3(1.0)));
+    /* A column's centre, or a point half a sub-voxel beside it along x or y, must be inside. */
+    t.columns = ivec4(max(ivec2(ceil(plow.xy - 1.0 - EDGE_MARGIN)), ivec2(0)),
+                      min(ivec2(floor(phigh.xy + EDGE_MARGIN)), ivec2(int(size) - 1)));
+    return t.columns.x <= t.columns.z && t.columns.y <= t.columns.w;
+}
+
+bool triangle_inside(triangle t, vec2 p)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(dot(t.edges[i], vec3(p, 1.0)) >= -EDGE_MARGIN))
+            return false;
+    return true;
+}
+
+float triangle_height(triangle t, vec2 p)
+{
+    return t.v[0].z + dot(t.slope, p - t.v[0].xy);
+}
+
+/* The sub-voxel (permuted axes) that the triangle sets in a column, if any. */
+bool triangle_column(triangle t, ivec2 column, out ivec3 sub)
+{
+    const vec2 centre = vec2(column) + 0.5;
+    const float z = triangle_height(t, centre);
+    sub = ivec3(column, int(floor(z + TIE_BIAS)));
+    if (t.tiny && all(equal(column, ivec2(floor((t.v[0].xy + t.v[1].xy + t.v[2].xy) / 3.0)))))
+        return true;
+    if (triangle_inside(t, centre))
+        return true;
+    /* The segments along the two minor axes meet the plane where its height is the sub-voxel's centre. */
+    const vec2 offset = (float(sub.z) + 0.5 - z) / t.slope;
+    return (abs(offset.x) <= 0.5 + EDGE_MARGIN && triangle_inside(t, centre + vec2(offset.x, 0.0))) ||
+           (abs(offset.y) <= 0.5 + EDGE_MARGIN && triangle_inside(t, centre + vec2(0.0, offset.y)));
+}
+
+struct surface_sample {
+    vec4 albedo;
+    vec3 emission;
+    uint flags;
+};
+
+vec2 mesh_uv(triangle t, vec3 bary)
+{
+    vec2 uv = vec2(0.0);
+    for (int i = 0; i < 3; i++) {
+        const uint at = args.uv_offset + t.index[i] * args.uv_stride;
+        uv += bary[i] * vec2(uvs[at], uvs[at + 1u]);
+    }
+    return uv;
+}
+
+vec4 mesh_color(triangle t, vec3 bary)
+{
+    vec4 color = vec4(0.0);
+    for (int i = 0; i < 3; i++) {
+        const uint at = args.color_offset + t.index[i] * args.color_stride;
+        color += bary[i] * vec4(colors[at], colors[at + 1u], colors[at + 2u], colors[at + 3u]);
+    }
+    return color;
+}
+
+#ifdef SDFGI_VOXELIZE_TEXTURED
+/* Level at which one texel covers about one sub-voxel. */
+float texture_level(triangle t, vec4 rows[2], vec2 size)
+{
+    const vec2 a = mesh_uv(t, vec3(1.0, 0.0, 0.0));
+    const vec2 b = mesh_uv(t, vec3(0.0, 1.0, 0.0)) - a, c = mesh_uv(t, vec3(0.0, 0.0, 1.0)) - a;
+    const float scale = abs(rows[0].x * rows[1].y - rows[0].y * rows[1].x);
+    const float texels = abs(b.x * c.y - b.y * c.x) * scale * size.x * size.y;
+    return 0.5 * log2(max(texels / max(t.lod_area, 1e-6), 1.0));
+}
+
+vec2 texture_uv(vec4 rows[2], vec2 uv)
+{
+    return vec2(dot(rows[0].xyz, vec3(uv, 1.0)), dot(rows[1].xyz, vec3(uv, 1.0)));
+}
+#endif
+
+surface_sample triangle_sample(triangle t, ivec2 column)
+{
+    const sdfgi_material_params m = sdfgi_materials[args.material];
+    const vec2 p = vec2(column) + 0.5;
+    vec3 bary = clamp(t.bary_0 + p.x * t.bary_x + p.y * t.bary_y, 0.0, 1.0);
+    bary /= max(bary.x + bary.y + bary.z, 1e-20);
+    surface_sample s = surface_sample(m.albedo, m.emission.rgb, m.flags.x);
+    if ((args.flags & SDFGI_MESH_HAS_COLOR) != 0u)
+        s.albedo *= mesh_color(t, bary);
+#ifdef SDFGI_VOXELIZE_TEXTURED
+    const vec2 uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u ? mesh_uv(t, bary) : vec2(0.0);
+    const bool has_uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u;
+    if ((m.flags.x & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
+        const float level = has_uv ? texture_level(t, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;
+        s.albedo *= textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level);
+    }
+    if ((m.flags.x & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
+        const float level = has_uv ? texture_level(t, m.emission_uv, vec2(textureSize(emission_texture, 0))) : 0.0;
+        s.emission *= textureLod(emission_texture, texture_uv(m.emission_uv, uv), level).rgb;
+    }
+#endif
+    return s;
+}
+
+void accumulate(uint plane, uint block, uint value)
+{
+    if (value != 0u)
+        atomicAdd(sdfgi_scratch[plane * block_count() + block], value);
+}
+
+/* Means are taken from integer sums, which do not depend on the order of additions. */
+void accumulate_surface(triangle t, uint block, surface_sample s)
+{
+    const uvec3 albedo = uvec3(clamp(s.albedo.rgb, 0.0, 1.0) * 255.0 + 0.5);
+    for (uint i = 0u; i < 3u; i++)
+        accumulate(SDFGI_ACCUM_ALBEDO + i, block, albedo[i]);
+
+    const vec3 height = abs(t.normal);
+    const uint major = height.x >= height.y && height.x >= height.z ? 0u : (height.y >= height.z ? 1u : 2u);
+    const float side = t.normal[major] < 0.0 ? -1.0 : 1.0;
+    accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
+    for (uint i = 1u; i <= 2u; i++) {
+        const float slope = t.normal[(major + i) % 3u] * side / height[major];
+        accumulate(SDFGI_ACCUM_NORMAL + 3u * major + i, block, uint(int(round(slope * SDFGI_SLOPE_STEPS))));
+    }
+}
+
+void accumulate_emission(triangle t, uint block, uint cell, uint bit, surface_sample s)
+{
+    const uvec3 emission = uvec3(clamp(s.emission, 0.0, 1.0) * SDFGI_EMISSION_STEPS + 0.5);
+    if (emission == uvec3(0u))
+        return;
+    for (uint i = 0u; i < 3u; i++)
+        accumulate(SDFGI_ACCUM_EMISSION + i, block, emission[i]);
+    accumulate(SDFGI_ACCUM_EMISSION_COUNT, block, 1u);
+    uint facing = 0u;
+    for (uint axis = 0u; axis < 6u; axis++) {
+        const float height = t.normal[axis >> 1u] * ((axis & 1u) == 0u ? 1.0 : -1.0);
+        if (height > 0.2 || (height < -0.2 && (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u))
+            facing |= 1u << axis;
+    }
+    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * block_count() + block], facing);
+    /* Until the light cells are listed, the light volume holds which sub-voxels emit. */
+    if (bit < 32u)
+        atomicOr(sdfgi_light[cell].x, 1u << bit);
+    else
+        atomicOr(sdfgi_light[cell].y, 1u << (bit - 32u));
+}
+
+/* Tests one column and stores what it finds. */
+void triangle_store_column(triangle t, ivec2 column)
+{
+    ivec3 permuted;
+    if (!triangle_column(t, column, permuted))
+        return;
+    const ivec3 sub = unpermute(permuted, t.axis);
+    const ivec3 cell = sub >> 2;
+    if (!cell_inside(cell))
+        return;
+    const surface_sample s = triangle_sample(t, column);
+    if (s.albedo.a < sdfgi_materials[args.material].emission.w)
+        return;
+    const uint index = cell_index(args.cascade, cell);
+    const ivec3 inner = sub & 3;
+    const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
+    const uint word_bit = 1u << (bit & 31u);
+    /* Testing first spares contended atomics where many triangles share a sub-voxel (HARD_CASES row 17). */
+    if (bit < 32u) {
+        if ((sdfgi_bits[index].x & word_bit) == 0u)
+            atomicOr(sdfgi_bits[index].x, word_bit);
+    } else if ((sdfgi_bits[index].y & word_bit) == 0u) {
+        atomicOr(sdfgi_bits[index].y, word_bit);
+    }
+    const uint block = block_index(args.cascade, cell);
+    accumulate_surface(t, block, s);
+    accumulate_emission(t, block, index, bit, s);
+}

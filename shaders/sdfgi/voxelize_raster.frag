@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * One fragment per column of a triangle's dominant plane: the same test and the same stores as voxelize.comp. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "voxelize_common.glsl"
+
+layout(location = 0) flat in uint in_triangle;
+
+void main()
+{
+    vec3 v[3];
+    triangle t;
+    if (triangle_fetch(in_triangle, v, t.index) && triangle_setup(t, v)) {
+        const ivec2 column = ivec2(gl_FragCoord.xy);
+        if (all(greaterThanEqual(column, t.columns.xy)) && all(lessThanEqual(column, t.columns.zw)))
+            triangle_store_column(t, column);
+    }
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ * Push constants, at most 128 bytes each, and material constants. */
+#ifndef SDFGI_SHARED_ARGS_H
+#define SDFGI_SHARED_ARGS_H
+
+#include "types.h"
+
+#define SDFGI_MESH_INDEX_NONE 0u
+#define SDFGI_MESH_INDEX_16 1u
+#define SDFGI_MESH_INDEX_32 2u
+#define SDFGI_MESH_HAS_UV 4u
+#define SDFGI_MESH_HAS_COLOR 8u
+#define SDFGI_MESH_MIRRORED 16u /* the transform turns triangles inside out */
+
+struct sdfgi_voxelize_args {
+    vec4 rows[3];        /* object space to sub-voxels of the cascade: row-major 3x4 */
+    uint cascade;
+    uint triangle_count;
+    uint threads;        /* of a workgroup that share a triangle: a power of two up to SDFGI_GROUP_TRIANGLE */
+    uint slices;         /* workgroups that share it then, where all threads do */
+    uint material;
+    uint flags;          /* SDFGI_MESH_* */
+    uint position_offset, position_stride; /* in words, as all that follow */
+    uint uv_offset, uv_stride;
+    uint color_offset, color_stride;
+    uint index_offset;
+    uint vertex_count;
+    uint group_width;    /* workgroups along x */
+    uint reserved;
+};
+SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 112);
+
+#define SDFGI_MATERIAL_ALBEDO_TEXTURE 1u
+#define SDFGI_MATERIAL_EMISSION_TEXTURE 2u
+#define SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION 4u
+
+struct sdfgi_material_params {
+    vec4 albedo;          /* w: alpha */
+    vec4 emission;        /* in units of the scene's brightest emission; w: alpha cutoff, 0: opaque */
+    vec4 albedo_uv[2];    /* rows of uv' = M (u, v, 1); w unused */
+    vec4 emission_uv[2];
+    uvec4 flags;          /* x: SDFGI_MATERIAL_* */
+};
+SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
+
+/* Passes over cells, probes and light cells. */
+struct sdfgi_pass_args {
+    uint cascade;
+    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring */
+    uint source;          /* flood: which of the two pointer halves is read */
+    uint fresh;           /* probe passes: 1 if no earlier ring counts */
+};
+SDFGI_ASSERT_SIZE(sdfgi_pass_args, 16);
+
+struct sdfgi_gather_args {
+    vec4 inverse_view_projection[4]; /* columns */
+    uint width, height;
+    float background_depth;
+    uint reserved;
+};
+SDFGI_ASSERT_SIZE(sdfgi_gather_args, 80);
+
+#endif

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT
+ * Sizes and codes that C and GLSL must agree on. */
+#ifndef SDFGI_SHARED_CONSTANTS_H
+#define SDFGI_SHARED_CONSTANTS_H
+
+#define SDFGI_MAX_CASCADES 8
+#define SDFGI_PROBE_SPACING 8 /* cells between probes */
+#define SDFGI_SUBVOXELS 4     /* sub-voxels along a side of a cell: 64 bits per cell */
+
+/* Probes: an octahedron of this many texels a side, plus a border of one for bilinear filtering. */
+#define SDFGI_IRRADIANCE_TEXELS 5
+#define SDFGI_IRRADIANCE_STRIDE 7
+#define SDFGI_IRRADIANCE_COUNT 25
+#define SDFGI_OCCLUSION_TEXELS 16
+#define SDFGI_OCCLUSION_STRIDE 18
+/* A probe is read from within its cage, whose diagonal is 8 sqrt(3) = 13.9 cells; depths beyond tell nothing more. */
+#define SDFGI_OCCLUSION_RANGE 14.0
+
+/* Every loop has a cap. The longest path through a cascade of 256 cells crosses 3 * 256 cells; distance steps are
+ * longer, so a ray that needs more than this grazes a surface and counts as a hit (HARD_CASES row 10). */
+#define SDFGI_TRACE_STEP_CAP 512
+
+/* Codes in the ray cache besides packed hits. */
+#define SDFGI_RAY_UNKNOWN 0u
+#define SDFGI_RAY_SKY 0xffffffffu
+#define SDFGI_RAY_UNLIT 0xfffffffeu
+
+/* Second word of a light cell: it is one. */
+#define SDFGI_LIGHT_VALID 0x40000000u
+
+/* Longest contractive loop: HARD_CASES row 34. */
+#define SDFGI_MAX_BOUNCE_GAIN 0.95
+
+/* Workgroup sizes. */
+#define SDFGI_GROUP_CELLS 4        /* 4x4x4: one thread per cell */
+#define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
+#define SDFGI_GROUP_TRIANGLE 32    /* threads that share one triangle */
+#define SDFGI_GROUP_PROBE 32       /* threads that share one probe */
+#define SDFGI_GROUP_OCCLUSION 64   /* threads that share one probe's 256 depths */
+#define SDFGI_GROUP_PIXELS 8       /* 8x8: one thread per pixel */
+
+/* Accumulators per albedo block (2x2x2 cells), planes of one uint per block in the scratch buffer. */
+#define SDFGI_ACCUM_ALBEDO 0       /* 3: sum of albedo in 1/255 */
+#define SDFGI_ACCUM_EMISSION 3     /* 3: sum of emission in SDFGI_EMISSION_STEPS of the scene's brightest */
+#define SDFGI_ACCUM_EMISSION_COUNT 6
+#define SDFGI_ACCUM_EMISSION_FACING 7 /* OR of a bit per axis +x -x +y -y +z -z that emission is seen from */
+#define SDFGI_ACCUM_NORMAL 8       /* 3 classes (dominant axis x, y, z) of (count, slope, slope) */
+#define SDFGI_ACCUM_PLANES 17
+#define SDFGI_EMISSION_STEPS 65535.0
+#define SDFGI_SLOPE_STEPS 127.0
+
+/* Atomic counters, read back every frame. */
+#define SDFGI_COUNTER_TRIANGLES_SKIPPED 0
+#define SDFGI_COUNTER_VALUES_CLAMPED 1
+#define SDFGI_COUNTER_BOUNCE_CLAMPED 2
+#define SDFGI_COUNTER_TRACE_CAPS 3
+#define SDFGI_COUNTER_UNLIT_HITS 4
+#define SDFGI_COUNTER_RAYS_TRACED 5
+#define SDFGI_COUNTER_MAX_CHANGE 6     /* float bits: largest relative change of a probe texel over a ring */
+#define SDFGI_COUNTER_MAX_IRRADIANCE 7 /* float bits: brightest probe texel of the last ring */
+#define SDFGI_COUNTER_DEAD_PROBES 8
+#define SDFGI_COUNTER_VOXELS 9         /* sub-voxel samples that the voxeliser accepted */
+#define SDFGI_COUNTER_LIGHT_CELLS 16   /* per cascade, unclamped */
+#define SDFGI_COUNTER_COUNT 32
+
+/* Lights. */
+#define SDFGI_LIGHT_KIND_DIRECTIONAL 0u
+#define SDFGI_LIGHT_KIND_POINT 1u
+#define SDFGI_LIGHT_KIND_SPOT 2u
+#define SDFGI_LIGHT_CASTS_SHADOW 4u
+
+/* Visibility methods, as enum sdfgi_visibility; NONE when sdfgi_use_occlusion is off. */
+#define SDFGI_SHADER_VISIBILITY_CELL_MASK 0u
+#define SDFGI_SHADER_VISIBILITY_PROBE_DEPTH 1u
+#define SDFGI_SHADER_VISIBILITY_TRACED 2u
+#define SDFGI_SHADER_VISIBILITY_NONE 3u
+
+#endif
