@@ -36,7 +36,7 @@ struct gltf_texture {
 };
 
 /* A material's use of a texture. `uv_transform` is a row-major 2x3 matrix (KHR_texture_transform), already
- * composed: uv' = M * (u, v, 1). */
+ * composed: uv' = M * (u, v, 1). A texture that is referred to always has an image. */
 struct gltf_texture_ref {
     int32_t texture; /* -1: none */
     int32_t uv_set;  /* 0 or 1 */
@@ -45,13 +45,13 @@ struct gltf_texture_ref {
 
 struct gltf_material {
     char *name;
-    float base_color[4];    /* linear RGBA factor */
-    float metallic;         /* [0, 1] */
-    float roughness;        /* [0, 1] */
-    float emissive[3];      /* radiance, W/(m^2 sr): emissive factor times KHR_materials_emissive_strength */
+    float base_color[4]; /* linear RGBA factor */
+    float metallic;      /* [0, 1] */
+    float roughness;     /* [0, 1] */
+    float emissive[3];   /* radiance, W/(m^2 sr): emissive factor times KHR_materials_emissive_strength */
     float normal_scale;
     float occlusion_strength;
-    float alpha_cutoff;     /* [0, 1], for GLTF_ALPHA_MASK */
+    float alpha_cutoff; /* [0, 1], for GLTF_ALPHA_MASK */
     enum gltf_alpha_mode alpha_mode;
     bool double_sided;
     bool unlit;
@@ -70,7 +70,7 @@ struct gltf_primitive {
     float *normals;                     /* 3 per vertex, unit length */
     float *tangents;                    /* 4 per vertex: unit tangent and handedness +-1 */
     float *uv0;                         /* 2 per vertex; never NULL (zeros when the file has none) */
-    float *uv1;                         /* 2 per vertex, or NULL */
+    float *uv1;                         /* 2 per vertex; NULL only where no texture of the material uses it */
     float *colors;                      /* 4 per vertex, linear RGBA, or NULL */
     uint32_t *indices;
     int32_t material; /* never -1: primitives without one refer to an appended default material */
@@ -86,16 +86,16 @@ struct gltf_instance {
 
 struct gltf_light {
     enum gltf_light_type type;
-    double position[3];     /* point, spot */
-    float direction[3];     /* directional, spot: unit, the way the light travels */
-    float intensity[3];     /* W/sr (point, spot) or W/m^2 (directional): colour times intensity */
-    float range;            /* metres; 0: unlimited */
+    double position[3];         /* point, spot */
+    float direction[3];         /* directional, spot: unit, the way the light travels */
+    float intensity[3];         /* W/sr (point, spot) or W/m^2 (directional): colour times intensity */
+    float range;                /* metres; 0: unlimited */
     float inner_rad, outer_rad; /* spot: half angles, 0 <= inner < outer <= pi/2 */
     char *name;
 };
 
 struct gltf_camera {
-    double transform[16]; /* column-major, camera to world; looks along -Z */
+    double transform[16]; /* column-major, camera to world, rigid; looks along -Z */
     float yfov_rad;       /* 0: orthographic, with ymag */
     float ymag;
     char *name;
@@ -111,7 +111,7 @@ struct gltf_scene {
     struct gltf_camera *cameras;
     uint32_t image_count, texture_count, material_count, primitive_count, instance_count, light_count,
         camera_count;
-    double bounds_min[3], bounds_max[3]; /* of all instances, world space */
+    double bounds_min[3], bounds_max[3]; /* hold all instances' boxes, world space; zero without instances */
     char *warning;                       /* one line naming what the file uses and we do not, or NULL */
 };
 

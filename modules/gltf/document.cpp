@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+//
+// From the JSON text to tinygltf's model. The JSON is read with cJSON first: its nesting is bounded (the
+// parser behind tinygltf recurses over extensions), its types are checked, and what tinygltf would load or
+// decode itself, with looser checks, is taken out: buffers are handed over through its file callbacks, images
+// and animations are removed. The model then holds nothing that has not been looked at here. Writing the JSON
+// anew also makes integers of numbers such as 2.0, which tinygltf ignores; doubles keep all but their last
+// bit.
+#include "import.h"
+
+#include "schema.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+namespace gltf
+{
+
+namespace
+{
+
+struct json_deleter {
+    void operator()(cJSON *json) const
+    {
+        cJSON_Delete(json);
+    }
+};
+using json_ptr = std::unique_ptr<cJSON, json_deleter>;
+
+const char *const supported_extensions[] = {
+    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
+    "KHR_mesh_quantization", "KHR_texture_transform",
+};
+
+bool extension_is_supported(const char *name)
+{
+    return std::any_of(std::begin(supported_extensions), std::end(supported_extensions),
+                       [name](const char *known) { return strcmp(name, known) == 0; });
+}
+
+json_ptr json_parse(const container &box)
+{
+    const char *end = nullptr;
+    json_ptr json(cJSON_ParseWithLengthOpts(box.json, box.json_size, &end, false));
+    const char *const limit = box.json + box.json_size;
+    if (!json)
+        fail("the JSON is broken near byte %zu", end == nullptr ? 0 : static_cast<size_t>(end - box.json));
+    while (end < limit && (*end == '\0' || strchr(" \t\r\n", *end) != nullptr))
+        end++;
+    if (end < limit)
+        fail("the JSON goes on after its end, at byte %zu", static_cast<size_t>(end - box.json));
+    return json;
+}
+
+cJSON *member_get(const cJSON *object, const char *name)
+{
+    return cJSON_GetObjectItemCaseSensitive(object, name);
+}
+
+std::string text_get(const cJSON *object, const char *name)
+{
+    const char *const text = cJSON_GetStringValue(member_get(object, name));
+    return text == nullptr ? "" : text;
+}
+
+void version_check(const cJSON *document)
+{
+    const cJSON *const asset = member_get(document, "asset");
+    const std::string version = text_get(asset, "version");
+    const std::string least = text_get(asset, "minVersion");
+    if (version.compare(0, 2, "2.") != 0)
+        fail("glTF version '%s' is not supported, only 2.0", version.c_str());
+    if (!least.empty() && least != "2.0")
+        fail("glTF version '%s' is required, and only 2.0 is supported", least.c_str());
+}
+
+void extensions_check(importer &in, const cJSON *document)
+{
+    const cJSON *item = nullptr;
+    cJSON_ArrayForEach(item, member_get(document, "extensionsRequired"))
+    {
+        if (!extension_is_supported(item->valuestring))
+            fail("the file requires %s, which is not supported", item->valuestring);
+    }
+    cJSON_ArrayForEach(item, member_get(document, "extensionsUsed"))
+    {
+        if (!extension_is_supported(item->valuestring))
+            in.omitted.extensions.insert(item->valuestring);
+    }
+}
+
+// What each buffer's uri is replaced with; the file callbacks read the number back.
+constexpr const char *buffer_prefix = "buffer-";
+
+std::string buffer_name(size_t index)
+{
+    return buffer_prefix + std::to_string(index);
+}
+
+bytes buffer_read(const importer &in, const container &box, const cJSON *buffer, size_t index)
+{
+    const std::string what = label("buffers", index);
+    const double length = member_get(buffer, "byteLength")->valuedouble;
+    const std::string uri = text_get(buffer, "uri");
+    bytes data;
+    if (!uri.empty())
+        data = resource_read(in, uri, what);
+    else if (index == 0 && box.binary != nullptr)
+        data.assign(box.binary, box.binary + box.binary_size);
+    else
+        fail("%s has neither a uri nor a binary chunk", what.c_str());
+    if (length < 1)
+        fail("%s.byteLength is zero", what.c_str());
+    if (length > static_cast<double>(data.size()))
+        fail("%s.byteLength is %.0f, and there are %zu bytes", what.c_str(), length, data.size());
+    data.resize(static_cast<size_t>(length));
+    return data;
+}
+
+std::vector<bytes> buffers_take(const importer &in, const container &box, cJSON *document)
+{
+    std::vector<bytes> buffers;
+    cJSON *item = nullptr;
+    cJSON_ArrayForEach(item, member_get(document, "buffers"))
+    {
+        buffers.push_back(buffer_read(in, box, item, buffers.size()));
+        while (member_get(item, "uri") != nullptr)
+            cJSON_DeleteItemFromObjectCaseSensitive(item, "uri");
+        if (cJSON_AddStringToObject(item, "uri", buffer_name(buffers.size() - 1).c_str()) == nullptr)
+            throw std::bad_alloc();
+    }
+    return buffers;
+}
+
+void images_take(importer &in, cJSON *document)
+{
+    const json_ptr images(cJSON_DetachItemFromObjectCaseSensitive(document, "images"));
+    const cJSON *item = nullptr;
+    cJSON_ArrayForEach(item, images.get())
+    {
+        image_source source;
+        source.uri = text_get(item, "uri");
+        const cJSON *const view = member_get(item, "bufferView");
+        if ((view == nullptr) == source.uri.empty())
+            fail("%s needs either a uri or a bufferView", label("images", in.images.size()).c_str());
+        source.buffer_view = view == nullptr ? -1 : static_cast<int>(view->valuedouble);
+        in.images.push_back(source);
+    }
+}
+
+void unused_remove(importer &in, cJSON *document)
+{
+    in.omitted.animations = cJSON_GetArraySize(member_get(document, "animations")) != 0;
+    for (const char *name : { "animations", "skins", "images" })
+        while (member_get(document, name) != nullptr)
+            cJSON_DeleteItemFromObjectCaseSensitive(document, name);
+}
+
+// tinygltf's file callbacks: the only files there are, are the buffers loaded above.
+bytes *buffer_find(const std::string &name, void *buffers_data)
+{
+    std::vector<bytes> &buffers = *static_cast<std::vector<bytes> *>(buffers_data);
+    if (name.compare(0, strlen(buffer_prefix), buffer_prefix) != 0)
+        return nullptr;
+    const size_t index = strtoull(name.c_str() + strlen(buffer_prefix), nullptr, 10);
+    return index < buffers.size() ? &buffers[index] : nullptr;
+}
+
+bool buffer_exists(const std::string &name, void *buffers)
+{
+    return buffer_find(name, buffers) != nullptr;
+}
+
+std::string name_keep(const std::string &name, void *)
+{
+    return name;
+}
+
+bool buffer_hand_over(bytes *out, std::string *, const std::string &name, void *buffers)
+{
+    bytes *const buffer = buffer_find(name, buffers);
+    if (buffer == nullptr)
+        return false;
+    out->swap(*buffer);
+    return true;
+}
+
+void model_parse(importer &in, std::vector<bytes> &buffers, const cJSON *document)
+{
+    const std::unique_ptr<char, void (*)(void *)> text(cJSON_PrintUnformatted(document), cJSON_free);
+    if (!text)
+        throw std::bad_alloc();
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks({ buffer_exists, name_keep, buffer_hand_over, nullptr, &buffers });
+    std::string error, warning;
+    const size_t size = strlen(text.get());
+    if (size > UINT32_MAX)
+        fail("the JSON is larger than 4 GiB");
+    const bool parsed = parser.LoadASCIIFromString(&in.model, &error, &warning, text.get(),
+                                                   static_cast<unsigned>(size), "", tinygltf::NO_REQUIRE);
+    if (!parsed || !error.empty())
+        fail("%s", error.empty() ? "the parser gave up without a reason" : error.c_str());
+}
+
+} // namespace
+
+void document_parse(importer &in, const container &box)
+{
+    const json_ptr document = json_parse(box);
+    schema_check(document.get());
+    version_check(document.get());
+    extensions_check(in, document.get());
+    std::vector<bytes> buffers = buffers_take(in, box, document.get());
+    images_take(in, document.get());
+    unused_remove(in, document.get());
+    model_parse(in, buffers, document.get());
+}
+
+} // namespace gltf

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+//
+// Meshes: attributes and indices out of their accessors, and everything a primitive lacks made up.
+#include "import.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gltf
+{
+
+namespace
+{
+
+// The accessor of an attribute, or -1.
+int attribute_find(const tinygltf::Primitive &from, const char *name)
+{
+    const auto found = from.attributes.find(name);
+    return found == from.attributes.end() ? -1 : found->second;
+}
+
+struct attribute_request {
+    const char *name;
+    int least_components, most_components;
+    bool integers_are_normalized;
+};
+
+// Values of one attribute, widened to `most_components` with ones; empty where the primitive has none.
+std::vector<float> attribute_read(const importer &in, const tinygltf::Primitive &from, size_t vertex_count,
+                                  const attribute_request &want, const std::string &what)
+{
+    const int index = attribute_find(from, want.name);
+    if (index < 0)
+        return {};
+    const std::string user = what + "." + want.name;
+    const tinygltf::Accessor &a = accessor_get(in.model, index, user);
+    const int components = accessor_components(a);
+    if (components < want.least_components || components > want.most_components)
+        fail("%s: the accessor's type has %d components", user.c_str(), components);
+    if (a.count != vertex_count)
+        fail("%s: %zu elements, and there are %zu positions", user.c_str(), a.count, vertex_count);
+    std::vector<float> values = accessor_read_floats(in.model, index, user, want.integers_are_normalized);
+    if (components == want.most_components)
+        return values;
+    const size_t narrow = static_cast<size_t>(components), wide = static_cast<size_t>(want.most_components);
+    std::vector<float> widened(vertex_count * wide, 1.0f);
+    for (size_t i = 0; i < vertex_count; i++)
+        std::copy_n(&values[i * narrow], narrow, &widened[i * wide]);
+    return widened;
+}
+
+void zero_where_not_finite(std::vector<float> &values)
+{
+    for (float &value : values)
+        if (!std::isfinite(value))
+            value = 0;
+}
+
+void positions_check(const geometry &g, const std::string &what)
+{
+    for (size_t i = 0; i < g.positions.size(); i++)
+        if (!std::isfinite(g.positions[i]))
+            fail("%s: the position of vertex %zu is not finite", what.c_str(), i / 3);
+}
+
+void attributes_read(const importer &in, const tinygltf::Primitive &from, geometry &g,
+                     const std::string &what)
+{
+    const size_t n = g.vertex_count;
+    g.positions = attribute_read(in, from, n, { "POSITION", 3, 3, false }, what);
+    positions_check(g, what);
+    g.normals = attribute_read(in, from, n, { "NORMAL", 3, 3, true }, what);
+    // Tangents mean nothing without the normals they were made for (glTF 2.0, 3.7.2.1).
+    if (!g.normals.empty())
+        g.tangents = attribute_read(in, from, n, { "TANGENT", 4, 4, true }, what);
+    g.uv0 = attribute_read(in, from, n, { "TEXCOORD_0", 2, 2, false }, what);
+    g.uv1 = attribute_read(in, from, n, { "TEXCOORD_1", 2, 2, false }, what);
+    g.colors = attribute_read(in, from, n, { "COLOR_0", 3, 4, true }, what);
+    zero_where_not_finite(g.uv0);
+    zero_where_not_finite(g.uv1);
+    zero_where_not_finite(g.colors);
+}
+
+// The vertices in drawing order: the indices, or all of them in turn.
+std::vector<uint32_t> order_read(importer &in, const tinygltf::Primitive &from, uint32_t vertex_count,
+                                 const std::string &what)
+{
+    const std::string user = what + ".indices";
+    const uint64_t count = from.indices < 0 ? vertex_count : accessor_get(in.model, from.indices, user).count;
+    // Three per corner: a strip or fan has as many triangles as corners.
+    if (count > max_indices || in.indices + 3 * count > max_indices)
+        fail("%s: more than %llu indices in the file", what.c_str(),
+             static_cast<unsigned long long>(max_indices));
+    in.indices += from.mode == TINYGLTF_MODE_TRIANGLES ? count : 3 * count;
+    std::vector<uint32_t> order;
+    if (from.indices >= 0) {
+        order = accessor_read_indices(in.model, from.indices, user);
+    } else {
+        order.resize(vertex_count);
+        for (uint32_t i = 0; i < vertex_count; i++)
+            order[i] = i;
+    }
+    const auto worst = std::max_element(order.begin(), order.end());
+    if (worst != order.end() && *worst >= vertex_count)
+        fail("%s: index %u is out of range, there are %u vertices", user.c_str(), *worst, vertex_count);
+    return order;
+}
+
+void vertices_count(importer &in, uint64_t count, const std::string &what)
+{
+    if (count > max_vertices || in.vertices + count > max_vertices)
+        fail("%s: more than %llu vertices in the file", what.c_str(),
+             static_cast<unsigned long long>(max_vertices));
+    in.vertices += count;
+}
+
+int32_t material_of(const importer &in, const tinygltf::Primitive &from, const std::string &what)
+{
+    const int last = static_cast<int>(in.scene->material_count) - 1;
+    if (from.material > last)
+        fail("%s: material %d is out of range, there are %d", what.c_str(), from.material, last + 1);
+    return from.material < 0 ? last : from.material; // the default one was appended
+}
+
+bool second_uv_is_used(const gltf_material &m)
+{
+    const gltf_texture_ref *const refs[] = { &m.base_color_texture, &m.metallic_roughness_texture,
+                                             &m.normal_texture, &m.occlusion_texture, &m.emissive_texture };
+    return std::any_of(std::begin(refs), std::end(refs),
+                       [](const gltf_texture_ref *ref) { return ref->texture >= 0 && ref->uv_set == 1; });
+}
+
+void geometry_complete(importer &in, geometry &g, const gltf_material &material, const std::string &what)
+{
+    if (g.normals.empty()) {
+        vertices_count(in, g.indices.size(), what);
+        vertices_unshare(g);
+        normals_make_flat(g);
+    } else {
+        normals_repair(g);
+    }
+    if (g.uv0.empty())
+        g.uv0.assign(2 * static_cast<size_t>(g.vertex_count), 0.0f);
+    if (g.uv1.empty() && second_uv_is_used(material))
+        g.uv1.assign(2 * static_cast<size_t>(g.vertex_count), 0.0f);
+    const bool second = material.normal_texture.texture >= 0 && material.normal_texture.uv_set == 1;
+    tangents_complete(g, second ? g.uv1 : g.uv0);
+}
+
+void bounds_compute(const geometry &g, gltf_primitive &to)
+{
+    for (size_t axis = 0; axis < 3; axis++) {
+        to.bounds_min[axis] = to.bounds_max[axis] = g.positions[axis];
+        for (size_t i = axis; i < g.positions.size(); i += 3) {
+            to.bounds_min[axis] = std::min(to.bounds_min[axis], g.positions[i]);
+            to.bounds_max[axis] = std::max(to.bounds_max[axis], g.positions[i]);
+        }
+    }
+}
+
+void primitive_store(const geometry &g, gltf_primitive &to)
+{
+    to.positions = array_copy(g.positions);
+    to.normals = array_copy(g.normals);
+    to.tangents = array_copy(g.tangents);
+    to.uv0 = array_copy(g.uv0);
+    to.uv1 = array_copy(g.uv1);
+    to.colors = array_copy(g.colors);
+    to.indices = array_copy(g.indices);
+    to.vertex_count = g.vertex_count;
+    to.index_count = static_cast<uint32_t>(g.indices.size());
+    bounds_compute(g, to);
+}
+
+// Points, lines and primitives without anything to draw are counted and left out.
+bool primitive_is_drawn(importer &in, const tinygltf::Primitive &from, const std::string &what)
+{
+    if (from.mode < TINYGLTF_MODE_POINTS || from.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        fail("%s: mode %d is not one of glTF's", what.c_str(), from.mode);
+    if (from.mode < TINYGLTF_MODE_TRIANGLES) {
+        in.omitted.point_and_line_primitives++;
+        return false;
+    }
+    return true;
+}
+
+bool primitive_import(importer &in, const tinygltf::Primitive &from, gltf_primitive &to,
+                      const std::string &what)
+{
+    if (!primitive_is_drawn(in, from, what))
+        return false;
+    in.omitted.morph_targets |= !from.targets.empty();
+    to.material = material_of(in, from, what);
+    const int position = attribute_find(from, "POSITION");
+    const uint64_t vertex_count =
+        position < 0 ? 0 : accessor_get(in.model, position, what + ".POSITION").count;
+    vertices_count(in, vertex_count, what);
+    geometry g;
+    g.vertex_count = static_cast<uint32_t>(vertex_count);
+    if (vertex_count != 0) {
+        attributes_read(in, from, g, what);
+        g.indices = triangles_from(from.mode, order_read(in, from, g.vertex_count, what));
+    }
+    if (g.indices.empty()) {
+        in.omitted.empty_primitives++;
+        return false;
+    }
+    geometry_complete(in, g, in.scene->materials[to.material], what);
+    primitive_store(g, to);
+    return true;
+}
+
+size_t primitives_total(const tinygltf::Model &model)
+{
+    size_t total = 0;
+    for (const tinygltf::Mesh &mesh : model.meshes)
+        total += mesh.primitives.size();
+    return total;
+}
+
+} // namespace
+
+void meshes_import(importer &in)
+{
+    in.scene->primitives = array_allocate<gltf_primitive>(primitives_total(in.model));
+    for (size_t m = 0; m < in.model.meshes.size(); m++) {
+        const tinygltf::Mesh &mesh = in.model.meshes[m];
+        in.mesh_primitives.emplace_back();
+        for (size_t p = 0; p < mesh.primitives.size(); p++) {
+            gltf_primitive &to = in.scene->primitives[in.scene->primitive_count];
+            const std::string what = label("meshes", m) + "." + label("primitives", p);
+            if (primitive_import(in, mesh.primitives[p], to, what))
+                in.mesh_primitives.back().push_back(in.scene->primitive_count++);
+        }
+    }
+}
+
+} // namespace gltf

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene_files.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[FILES_PATH_SIZE / 2];
+
+int files_setup(void **state)
+{
+    (void)state;
+    const char *const temporary = getenv("TMPDIR");
+    const int length =
+        snprintf(folder, sizeof folder - 6, "%s/gltf_test_", temporary == NULL ? "/tmp" : temporary);
+    assert_true(length > 0 && (size_t)length < sizeof folder - 6);
+    memset(folder + length, 'X', 6); /* what mkdtemp replaces */
+    return mkdtemp(folder) == NULL;
+}
+
+int files_teardown(void **state)
+{
+    (void)state;
+    DIR *const dir = opendir(folder);
+    if (dir == NULL)
+        return 1;
+    for (const struct dirent *entry = readdir(dir); entry != NULL; entry = readdir(dir))
+        if (entry->d_name[0] != '.')
+            unlink(files_path(entry->d_name));
+    closedir(dir);
+    return rmdir(folder);
+}
+
+const char *files_path(const char *name)
+{
+    static char path[FILES_PATH_SIZE];
+    snprintf(path, sizeof path, "%.120s/%.120s", folder, name);
+    return path;
+}
+
+void files_write(const char *name, const void *data, size_t size)
+{
+    FILE *const f = fopen(files_path(name), "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(data, 1, size, f), size);
+    assert_int_equal(fclose(f), 0);
+}
+
+void files_write_text(const char *name, const char *text)
+{
+    files_write(name, text, strlen(text));
+}
+
+static void u32_put(uint8_t *p, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = (uint8_t)(value >> (8 * i));
+}
+
+/* Chunks are padded to four bytes: JSON with spaces, binary with zeros. */
+size_t glb_assemble(uint8_t *out, size_t capacity, const char *json, const void *binary, size_t binary_size)
+{
+    const size_t json_size = strlen(json), json_chunk = (json_size + 3) / 4 * 4;
+    const size_t binary_chunk = (binary_size + 3) / 4 * 4;
+    const size_t total = 20 + json_chunk + (binary_size == 0 ? 0 : 8 + binary_chunk);
+    assert_true(total <= capacity);
+    memset(out, 0, total);
+    memcpy(out, "glTF", 4);
+    u32_put(out + 4, 2);
+    u32_put(out + 8, (uint32_t)total);
+    u32_put(out + 12, (uint32_t)json_chunk);
+    memcpy(out + 16, "JSON", 4);
+    memset(out + 20, ' ', json_chunk);
+    memcpy(out + 20, json, json_size);
+    if (binary_size != 0) {
+        u32_put(out + 20 + json_chunk, (uint32_t)binary_chunk);
+        memcpy(out + 24 + json_chunk, "BIN", 4);
+        memcpy(out + 28 + json_chunk, binary, binary_size);
+    }
+    return total;
+}
+
+static void text_append(char *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void text_append(char *text, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text + used, DRAFT_TEXT_SIZE - used, format, arguments);
+    va_end(arguments);
+    assert_true(length >= 0 && used + (size_t)length < DRAFT_TEXT_SIZE);
+}
+
+int draft_view(struct draft *d, const void *data, size_t size)
+{
+    assert_true(d->binary_size + size + 4 <= DRAFT_BINARY_SIZE);
+    memcpy(d->binary + d->binary_size, data, size);
+    text_append(d->views, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}",
+                d->view_count == 0 ? "" : ",", d->binary_size, size);
+    d->binary_size = (d->binary_size + size + 3) / 4 * 4;
+    return d->view_count++;
+}
+
+int draft_accessor(struct draft *d, const struct elements *e)
+{
+    text_append(d->accessors, "%s{\"componentType\":%d,\"type\":\"%s\",\"count\":%d%s",
+                d->accessor_count == 0 ? "" : ",", (int)e->component, e->type, e->count,
+                e->more == NULL ? "" : e->more);
+    if (e->data != NULL)
+        text_append(d->accessors, ",\"bufferView\":%d", draft_view(d, e->data, e->size));
+    text_append(d->accessors, "}");
+    return d->accessor_count++;
+}
+
+int draft_floats(struct draft *d, const char *type, int count, const float *values)
+{
+    const size_t components = type[0] == 'V' ? (size_t)(type[3] - '0') : 1;
+    return draft_accessor(d, &(struct elements){ values, (size_t)count * components * sizeof *values,
+                                                 COMPONENT_FLOAT, type, count, NULL });
+}
+
+void draft_json(const struct draft *d, const char *rest, char *out, size_t size)
+{
+    int length = snprintf(out, size, "{\"asset\":{\"version\":\"2.0\"}%s", rest);
+    if (d->accessor_count != 0)
+        length += snprintf(out + length, size - (size_t)length, ",\"accessors\":[%s]", d->accessors);
+    if (d->view_count != 0)
+        length +=
+            snprintf(out + length, size - (size_t)length,
+                     ",\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu}]", d->views, d->binary_size);
+    length += snprintf(out + length, size - (size_t)length, "}");
+    assert_true((size_t)length < size);
+}
+
+void draft_write(const struct draft *d, const char *rest, const char *name)
+{
+    char json[3 * DRAFT_TEXT_SIZE];
+    uint8_t file[sizeof json + DRAFT_BINARY_SIZE];
+    draft_json(d, rest, json, sizeof json);
+    files_write(name, file, glb_assemble(file, sizeof file, json, d->binary, d->binary_size));
+}
+
+struct gltf_scene *file_load(const char *name)
+{
+    char error[512];
+    struct gltf_scene *const scene = gltf_scene_load(files_path(name), error, sizeof error);
+    if (scene == NULL)
+        fail_msg("%s", error);
+    scene_check(scene);
+    return scene;
+}
+
+struct gltf_scene *draft_load(const struct draft *d, const char *rest)
+{
+    draft_write(d, rest, "draft.glb");
+    return file_load("draft.glb");
+}
