@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Ground truth: an unbiased path tracer over a glTF scene, for comparing a renderer with.
+ *
+ * It shares the scene's data with the renderer and none of its lighting code. Progressive, seeded, and
+ * deterministic: the same scene, view, settings and seed give the same bits whatever the number of threads,
+ * and whether or not the run was interrupted and resumed.
+ *
+ * Conventions: glTF coordinates, metres, linear RGB; radiance in W/(m^2 sr), irradiance in W/m^2; pictures
+ * start with the top row. A Lambertian surface of albedo a leaves a * E / pi.
+ *
+ * Light: sun, point and spot lights, sky and emissive triangles, sampled directly and weighted against
+ * sampling of the surface. No value is clamped; samples that are not finite are left out and counted.
+ *
+ * Surfaces: Lambertian times 1 - F of the view's angle, under GGX. All faces block and bounce light from both
+ * sides; emission leaves the front only unless the material is double-sided; alpha masks cut, blended alpha
+ * lets its share of the rays pass; an unlit material shows its base colour to the camera and scatters as
+ * Lambertian for every other ray. The ambient-occlusion texture is not used: occlusion is computed.
+ *
+ * Lifetime: a tracer reads textures and vertices from the scene it was made from, so the scene must outlive
+ * it.
+ *
+ * Threading: one thread at a time per tracer; the work itself is spread over `threads`.
+ */
+#ifndef RAYCAST_H
+#define RAYCAST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct gltf_scene;
+struct raycast;
+
+struct raycast_camera {
+    double position[3], look_at[3];
+    float up[3];
+    float yfov_deg; /* (0, 180) */
+};
+
+/* Radiance from direction d: lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|). All zero: no sky. */
+struct raycast_sky {
+    float zenith[3], horizon[3], ground[3];
+};
+
+struct raycast_sun {
+    float direction[3];  /* the way the light travels; any length but zero */
+    float irradiance[3]; /* on a plane facing the sun; all zero: no sun */
+    float angle_deg;     /* apparent diameter, [0, 90] */
+};
+
+enum raycast_light_type { RAYCAST_LIGHT_POINT, RAYCAST_LIGHT_SPOT };
+
+struct raycast_light {
+    enum raycast_light_type type;
+    double position[3];
+    float direction[3];         /* spot: the way the light travels */
+    float intensity[3];         /* W/sr */
+    float inner_deg, outer_deg; /* spot: half angles, 0 <= inner < outer <= 90 */
+    float radius_m;             /* 0: a point; else a sphere of the same intensity, unseen by the camera */
+    float range_m;              /* no light beyond; 0: unlimited */
+};
+
+enum raycast_materials { RAYCAST_MATERIALS_GLTF, RAYCAST_MATERIALS_LAMBERT };
+
+/* What a VIEW.json file says. Nothing has a default here: fill in every field. */
+struct raycast_view {
+    struct raycast_camera camera;
+    struct raycast_sky sky;
+    struct raycast_sun sun;
+    const struct raycast_light *lights; /* beside those of the scene; copied */
+    uint32_t light_count;
+    float punctual_scale; /* of the lights of the scene */
+    float emissive_scale;
+    enum raycast_materials materials;
+    float default_albedo[3]; /* of primitives without a material */
+};
+
+enum raycast_aov {
+    RAYCAST_AOV_RADIANCE,         /* the picture: the sum of the next four */
+    RAYCAST_AOV_EMISSION,         /* emission and sky seen by the camera itself */
+    RAYCAST_AOV_DIRECT,           /* sun, point and spot lights after one reflection */
+    RAYCAST_AOV_DIFFUSE_INDIRECT, /* all other light leaving the Lambertian part of the first surface */
+    RAYCAST_AOV_REFLECTION,       /* all other light leaving its specular part */
+    RAYCAST_AOV_IRRADIANCE, /* E at the first surface without sun, point and spot lights, before albedo */
+    RAYCAST_AOV_NORMAL,     /* world space, shading normal on the camera's side, averaged */
+    RAYCAST_AOV_DEPTH,    /* metres along the viewing axis, averaged over the hits; 0 where nothing is hit */
+    RAYCAST_AOV_ALBEDO,   /* of the Lambertian part: base colour * (1 - metallic) */
+    RAYCAST_AOV_VARIANCE, /* of RADIANCE as returned: sample variance / samples, per channel */
+    RAYCAST_AOV_COUNT
+};
+
+/* 1 for depth, else 3. */
+uint32_t raycast_aov_channels(enum raycast_aov aov);
+
+/* As on the command line: "direct", "diffuse_indirect", ... */
+const char *raycast_aov_name(enum raycast_aov aov);
+
+/* Zero means the default. */
+struct raycast_settings {
+    uint32_t width, height; /* pixels; default 320x180, at most 16384 each */
+    uint64_t seed;          /* default 0; every value is a seed of its own */
+    uint32_t max_bounces;   /* reflections of a path; default 64, at most 65536 */
+    uint32_t threads;       /* default: one per processor */
+    uint32_t aovs;          /* bits 1 << RAYCAST_AOV_*; radiance and variance are always kept */
+    bool cull_back_faces;   /* camera rays pass the backs of single-sided faces, as a rasteriser's do */
+};
+
+/* When to stop: whichever comes first; zero: no such limit (but one is needed). */
+struct raycast_budget {
+    uint32_t samples; /* per pixel, counted from the start of the picture, resumed samples included */
+    double seconds;   /* of this call */
+    double error;     /* mean over the pixels of standard error / luminance (of at least 1 % of the mean) */
+};
+
+struct raycast_progress {
+    uint32_t samples;    /* per pixel, so far */
+    double fraction;     /* of the time of this call, by the nearest limit, [0, 1] */
+    double seconds;      /* of this call */
+    double seconds_left; /* estimated; infinite where nothing can be foreseen */
+    double error;        /* as in the budget; infinite before 16 samples */
+    uint64_t rays;       /* of this call, shadow rays included */
+    uint64_t not_finite; /* samples left out */
+};
+
+/* Called between passes, about once a second; return false to stop there. */
+typedef bool raycast_progress_fn(const struct raycast_progress *progress, void *user);
+
+/* Prepare a tracer. Returns NULL with one line in `error` when the view or the settings are wrong (naming the
+ * field) or memory runs out. */
+struct raycast *raycast_create(const struct gltf_scene *scene, const struct raycast_view *view,
+                               const struct raycast_settings *settings, char *error, size_t error_size);
+
+/* NULL is accepted. */
+void raycast_destroy(struct raycast *rc);
+
+/* The settings in force, defaults filled in. */
+const struct raycast_settings *raycast_settings_get(const struct raycast *rc);
+
+/* Add samples until the budget is spent. `progress` may be NULL; `last` (may be NULL) receives the final
+ * state. Returns false when the callback stopped it. */
+bool raycast_render(struct raycast *rc, const struct raycast_budget *budget, raycast_progress_fn *progress,
+                    void *user, struct raycast_progress *last);
+
+/* Copy a picture: width * height * channels floats. False when the AOV was not asked for at creation, or no
+ * sample has been taken. */
+bool raycast_image(const struct raycast *rc, enum raycast_aov aov, float *out);
+
+/* Write the accumulated sums (through a temporary file and a rename), or take them up again. Loading refuses
+ * a state of another scene, view or setting, and one that is cut short or damaged. On failure: false, one
+ * line in `error`, and the tracer unchanged. */
+bool raycast_state_save(const struct raycast *rc, const char *path, char *error, size_t error_size);
+bool raycast_state_load(struct raycast *rc, const char *path, char *error, size_t error_size);
+
+/* Irradiance on a small one-sided plane at a point in free space. */
+struct raycast_irradiance {
+    float indirect[3];       /* from sky, emission and every bounce */
+    float direct[3];         /* from sun, point and spot lights */
+    float indirect_error[3]; /* standard error of `indirect` */
+};
+
+/* E at `count` points (3 doubles each, world space, metres) facing `normals` (3 floats each, any length but
+ * zero), `samples` paths each. Point i draws from the stream of pixel i: the result does not depend on the
+ * threads, and depends on the seed. */
+void raycast_irradiance_gather(struct raycast *rc, const double *points, const float *normals, uint32_t count,
+                               uint32_t samples, struct raycast_irradiance *out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

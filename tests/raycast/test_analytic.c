@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT
+ * Scenes whose light is known: within 0.5 %. Seeds are fixed, so none of these can fail by chance; the sample
+ * counts leave the noise of a mean several times below the tolerance. */
+#include "scenes.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+static const double tolerance = 0.005;
+static const double from_above[3] = { 0, 2, 0 }, origin[3] = { 0, 0, 0 };
+
+static double furnace(float albedo, uint32_t max_bounces)
+{
+    struct built_scene s;
+    scene_init(&s);
+    struct gltf_material *m = scene_add_material(&s, albedo);
+    for (int k = 0; k < 3; k++)
+        m->emissive[k] = 1;
+    scene_add_room(&s, 2);
+    struct raycast_view v = view_make((double[]){ 0.3, 0.2, 0.5 }, (double[]){ 1, -1, -2 }, 70);
+    v.materials = RAYCAST_MATERIALS_LAMBERT;
+    const double mean = trace_mean(&s, &v, 32, 32, 128, max_bounces, RAYCAST_AOV_RADIANCE);
+    scene_finish(&s);
+    return mean;
+}
+
+static void closed_room_sums_all_bounces(void **state)
+{
+    (void)state;
+    assert_ratio(furnace(0.5f, 0), 1 / (1 - 0.5), tolerance);
+    assert_ratio(furnace(0.8f, 0), 1 / (1 - 0.8), tolerance);
+    /* 64 bounces leave 3.6 % of this one behind. */
+    assert_ratio(furnace(0.95f, 2000), 1 / (1 - 0.95), tolerance);
+}
+
+static void bounces_end_where_told(void **state)
+{
+    (void)state;
+    assert_ratio(furnace(0.5f, 1), 1.5, tolerance);
+    assert_ratio(furnace(0.5f, 2), 1.75, tolerance);
+    assert_ratio(furnace(0.95f, 64), (1 - pow(0.95, 65)) / 0.05, tolerance);
+}
+
+static void floor_init(struct built_scene *s, float albedo)
+{
+    scene_init(s);
+    scene_add_material(s, albedo);
+    scene_add_floor(s, 0, 1000, true);
+}
+
+static void sun_on_a_plane(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0.6f);
+    struct raycast_view v = view_make(from_above, origin, 40);
+    v.materials = RAYCAST_MATERIALS_LAMBERT;
+    v.sun = (struct raycast_sun){ .direction = { 1, -2, 0.5f }, .irradiance = { 3, 3, 3 } };
+    const double cosine = 2 / sqrt(1 + 4 + 0.25), expected = 0.6 * 3 * cosine / pi;
+    assert_ratio(trace_mean(&s, &v, 8, 8, 4, 0, RAYCAST_AOV_RADIANCE), expected, 1e-4);
+    assert_ratio(trace_mean(&s, &v, 8, 8, 4, 0, RAYCAST_AOV_DIRECT), expected, 1e-4);
+    /* A disc that is all above the horizon gives the same. */
+    v.sun.angle_deg = 20;
+    assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_DIRECT), expected, tolerance);
+    v.sun.angle_deg = 0.53f;
+    assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_DIRECT), expected, tolerance);
+    scene_finish(&s);
+}
+
+static void point_light_over_a_plane(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0.5f);
+    struct raycast_light light = { .position = { 0.5, 3, 0 }, .intensity = { 7, 7, 7 } };
+    struct raycast_view v = view_make(from_above, origin, 0.01f);
+    v.materials = RAYCAST_MATERIALS_LAMBERT;
+    v.lights = &light;
+    v.light_count = 1;
+    const double d2 = 9.25, expected = 7 * 3 / sqrt(d2) / d2;
+    assert_ratio(trace_mean(&s, &v, 4, 4, 4, 0, RAYCAST_AOV_RADIANCE), 0.5 * expected / pi, 1e-4);
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 1).direct[0], expected, 1e-4);
+    light.radius_m = 0.8f;
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 20000).direct[0], expected, tolerance);
+    light.range_m = 3;
+    assert_true(gather_up(&s, &v, 0, 0, 0, 16).direct[0] == 0);
+    light.range_m = 3.1f;
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 20000).direct[0], expected, tolerance);
+    scene_finish(&s);
+}
+
+static void spot_light_falls_off_as_measured(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0.5f);
+    struct raycast_light light = { .type = RAYCAST_LIGHT_SPOT,
+                                   .position = { 0, 2, 0 },
+                                   .direction = { 0, -1, 0 },
+                                   .intensity = { 5, 5, 5 },
+                                   .inner_deg = 15,
+                                   .outer_deg = 45 };
+    struct raycast_view v = view_make(from_above, origin, 40);
+    v.lights = &light;
+    v.light_count = 1;
+    for (int degrees = 5; degrees < 60; degrees += 10) {
+        const double t = degrees * pi / 180, c = cos(t), d = 2 / c;
+        const double x = (c - cos(45 * pi / 180)) / (cos(15 * pi / 180) - cos(45 * pi / 180));
+        const double falloff = x < 0 ? 0 : x > 1 ? 1 : x * x;
+        const double e = gather_up(&s, &v, 2 * tan(t), 0, 0, 1).direct[0];
+        if (falloff == 0)
+            assert_true(e == 0);
+        else
+            assert_ratio(e, 5 * falloff * c / (d * d), 1e-3);
+    }
+    scene_finish(&s);
+}
+
+static void white_plane_under_a_uniform_sky(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0.7f);
+    struct raycast_view v = view_make(from_above, origin, 40);
+    v.materials = RAYCAST_MATERIALS_LAMBERT;
+    view_set_sky(&v, 2);
+    assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_RADIANCE), 0.7 * 2, tolerance);
+    assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_IRRADIANCE), pi * 2, tolerance);
+    assert_true(trace_mean(&s, &v, 8, 8, 4, 0, RAYCAST_AOV_DIRECT) == 0);
+    assert_ratio(gather_up(&s, &v, 0, 1, 0, 50000).indirect[0], pi * 2, tolerance);
+    scene_finish(&s);
+}
+
+/* lerp(horizon, zenith, y) over a cosine-weighted hemisphere, whose mean of y is 2/3. */
+static void sky_gradient_on_a_plane(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0.7f);
+    struct raycast_view v = view_make(from_above, origin, 40);
+    view_set_sky(&v, 1);
+    for (int k = 0; k < 3; k++) {
+        v.sky.zenith[k] = 4;
+        v.sky.ground[k] = 100; /* below the plane: must not count */
+    }
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 50000).indirect[1], pi * (1 + 3 * 2.0 / 3), tolerance);
+    scene_finish(&s);
+}
+
+static void right_angle_with_a_black_wall_halves_the_sky(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 1);
+    scene_add_material(&s, 0);
+    scene_add_quad(&s, (float[]){ 0, 0, -1000 }, (float[]){ 0, 0, 2000 }, (float[]){ 0, 1000, 0 });
+    struct raycast_view v = view_make((double[]){ 2, 2, 0 }, (double[]){ 0.01, 0, 0 }, 0.05f);
+    v.materials = RAYCAST_MATERIALS_LAMBERT;
+    view_set_sky(&v, 1);
+    assert_ratio(gather_up(&s, &v, 0.01, 0, 0, 100000).indirect[2], pi / 2, tolerance);
+    assert_ratio(trace_mean(&s, &v, 16, 16, 512, 0, RAYCAST_AOV_RADIANCE), 0.5, tolerance);
+    scene_finish(&s);
+}
+
+/* A point under the middle of a level square: the form factor of four quarters, each seen from its corner. */
+static void emissive_square_matches_its_form_factor(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0);
+    struct gltf_material *m = scene_add_material(&s, 0);
+    for (int k = 0; k < 3; k++)
+        m->emissive[k] = 6;
+    scene_add_floor(&s, 1.5f, 0.5f, false);
+    const struct raycast_view v = view_make(from_above, origin, 40);
+    const double x = 0.5 / 1.5, root = sqrt(1 + x * x);
+    const double form_factor = 4 / pi * (x / root) * atan(x / root);
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 50000).indirect[0], pi * 6 * form_factor, tolerance);
+    scene_finish(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_room_sums_all_bounces),
+        cmocka_unit_test(bounces_end_where_told),
+        cmocka_unit_test(sun_on_a_plane),
+        cmocka_unit_test(point_light_over_a_plane),
+        cmocka_unit_test(spot_light_falls_off_as_measured),
+        cmocka_unit_test(white_plane_under_a_uniform_sky),
+        cmocka_unit_test(sky_gradient_on_a_plane),
+        cmocka_unit_test(right_angle_with_a_black_wall_halves_the_sky),
+        cmocka_unit_test(emissive_square_matches_its_form_factor),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

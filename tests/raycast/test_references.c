@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT
+ * Against pictures of the shared scenes made by another renderer: mean luminance within 1 %, relMSE of the
+ * means of 8x8 blocks below 1e-3. Skipped, with a message, where those scenes are absent. */
+#include "scenes.h"
+
+#include "image.h"
+#include "view_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, BLOCK = 8, PATH_BYTES = 512, ERROR_BYTES = 256 };
+
+/* Added to the squared reference where relative errors are formed, so that black pixels have one too. */
+static const double relative_floor2 = 1e-2;
+
+struct rectangle {
+    int x0, y0, x1, y1; /* pixels, the ends excluded */
+};
+
+struct reference {
+    const char *folder, *file, *name;
+    uint32_t spp;
+    struct rectangle mask; /* left out of the comparison */
+};
+
+/* living_room: the pillar at the window, whose faces coincide. */
+static const struct reference cornell = { "cornell", "cornell.glb", "cornell", 64, { 0 } };
+static const struct reference living_room = {
+    "living_room", "living_room.glb", "living_room", 64, { 136, 24, 176, 120 }
+};
+static const struct reference two_rooms_lit = { "two_rooms", "two_rooms.glb", "two_rooms_lit", 48, { 0 } };
+static const struct reference two_rooms_dark = { "two_rooms", "two_rooms.glb", "two_rooms_dark", 16, { 0 } };
+static const struct reference glossy = {
+    "glossy_emissive", "DepthOfFieldExample.glb", "glossy_emissive", 64, { 0 }
+};
+
+static float traced[3 * PIXELS], direct[3 * PIXELS];
+
+static const char *scenes_folder(void)
+{
+    const char *const folder = getenv("SDFGI_SHARED_SCENES");
+    return folder ? folder : SHARED_SCENES;
+}
+
+static void path_make(char path[PATH_BYTES], const struct reference *r, const char *name, const char *ending)
+{
+    snprintf(path, PATH_BYTES, "%s/%s/%s%s", scenes_folder(), r->folder, name, ending);
+}
+
+static bool scenes_are_there(void)
+{
+    char path[PATH_BYTES];
+    snprintf(path, sizeof path, "%s/README.md", scenes_folder());
+    FILE *const file = fopen(path, "rb");
+    if (file)
+        fclose(file);
+    return file != NULL;
+}
+
+/* These views have no lights of their own. */
+static struct raycast_view view_from_host(const struct host_view *h)
+{
+    struct raycast_view v =
+        view_make(h->camera.position, h->camera.look_at, h->camera.yfov_rad * 57.29577951f);
+    memcpy(v.sky.zenith, h->sky.zenith, sizeof v.sky.zenith);
+    memcpy(v.sky.horizon, h->sky.horizon, sizeof v.sky.horizon);
+    memcpy(v.sky.ground, h->sky.ground, sizeof v.sky.ground);
+    if (h->sun.enabled) {
+        memcpy(v.sun.direction, h->sun.direction, sizeof v.sun.direction);
+        memcpy(v.sun.irradiance, h->sun.irradiance, sizeof v.sun.irradiance);
+    }
+    v.punctual_scale = h->punctual_scale;
+    if (h->materials == HOST_MATERIALS_LAMBERT)
+        v.materials = RAYCAST_MATERIALS_LAMBERT;
+    assert_int_equal(h->light_count, 0);
+    return v;
+}
+
+static void trace(const struct reference *r)
+{
+    char path[PATH_BYTES], error[ERROR_BYTES] = "";
+    struct built_scene s = { 0 };
+    struct host_view host;
+    path_make(path, r, r->file, "");
+    struct gltf_scene *const gltf = gltf_scene_load(path, error, sizeof error);
+    assert_non_null(gltf);
+    path_make(path, r, r->name, ".view.json");
+    assert_true(view_file_load(path, &host, error, sizeof error));
+    s.gltf = *gltf;
+    const struct raycast_view v = view_from_host(&host);
+    struct raycast *rc = tracer_create(
+        &s, &v,
+        &(struct raycast_settings){ .width = WIDTH, .height = HEIGHT, .aovs = 1u << RAYCAST_AOV_DIRECT });
+    raycast_render(rc, &(struct raycast_budget){ .samples = r->spp }, NULL, NULL, NULL);
+    assert_true(raycast_image(rc, RAYCAST_AOV_RADIANCE, traced));
+    assert_true(raycast_image(rc, RAYCAST_AOV_DIRECT, direct));
+    raycast_destroy(rc);
+    view_file_finish(&host);
+    gltf_scene_destroy(gltf);
+}
+
+static void reference_read(const struct reference *r, const char *ending, struct image *image)
+{
+    char path[PATH_BYTES], error[ERROR_BYTES] = "";
+    path_make(path, r, r->name, ending);
+    if (!image_read(image, path, error, sizeof error))
+        fail_msg("%s", error);
+    assert_int_equal(image->width, WIDTH);
+    assert_int_equal(image->height, HEIGHT);
+}
+
+static bool is_masked(const struct rectangle *m, int x, int y)
+{
+    return x >= m->x0 && x < m->x1 && y >= m->y0 && y < m->y1;
+}
+
+static double luminance(const float *c)
+{
+    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+static double mean_ratio(const struct reference *r, const float *ours, const struct image *theirs)
+{
+    double sum[2] = { 0 };
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            const int i = y * WIDTH + x;
+            if (is_masked(&r->mask, x, y))
+                continue;
+            sum[0] += luminance(ours + 3 * i);
+            sum[1] += luminance(theirs->rgba + 4 * i);
+        }
+    }
+    return sum[0] / sum[1];
+}
+
+static double block_error(const float *ours, const struct image *theirs, int x0, int y0, int channel)
+{
+    double a = 0, b = 0;
+    for (int y = y0; y < y0 + BLOCK; y++) {
+        for (int x = x0; x < x0 + BLOCK; x++) {
+            a += ours[3 * (y * WIDTH + x) + channel] / (double)(BLOCK * BLOCK);
+            b += theirs->rgba[4 * (y * WIDTH + x) + channel] / (double)(BLOCK * BLOCK);
+        }
+    }
+    return (a - b) * (a - b) / (b * b + relative_floor2);
+}
+
+static double block_rel_mse(const struct reference *r, const float *ours, const struct image *theirs)
+{
+    double sum = 0;
+    int count = 0;
+    for (int y = 0; y + BLOCK <= HEIGHT; y += BLOCK) {
+        for (int x = 0; x + BLOCK <= WIDTH; x += BLOCK) {
+            for (int k = 0; k < 3 && !is_masked(&r->mask, x, y); k++, count++)
+                sum += block_error(ours, theirs, x, y, k);
+        }
+    }
+    return sum / count;
+}
+
+static void compare(const struct reference *r, const char *what, const float *ours, const char *ending)
+{
+    struct image theirs = { 0 };
+    reference_read(r, ending, &theirs);
+    const double ratio = mean_ratio(r, ours, &theirs), error = block_rel_mse(r, ours, &theirs);
+    image_finish(&theirs);
+    print_message("%s, %s: mean ratio %.4f, relMSE of blocks %.2e\n", r->name, what, ratio, error);
+    assert_ratio(ratio, 1, 0.01);
+    assert_true(error < 1e-3);
+}
+
+static bool is_black(const float *picture)
+{
+    for (int i = 0; i < 3 * PIXELS; i++)
+        if (picture[i] != 0)
+            return false;
+    return true;
+}
+
+static void cornell_box_agrees(void **state)
+{
+    (void)state;
+    trace(&cornell);
+    compare(&cornell, "all light", traced, ".reference.exr");
+    assert_true(is_black(direct));
+}
+
+static void living_room_agrees(void **state)
+{
+    (void)state;
+    trace(&living_room);
+    compare(&living_room, "all light", traced, ".reference.exr");
+    compare(&living_room, "direct", direct, ".direct.exr");
+}
+
+static void lit_room_agrees(void **state)
+{
+    (void)state;
+    trace(&two_rooms_lit);
+    compare(&two_rooms_lit, "all light", traced, ".reference.exr");
+    compare(&two_rooms_lit, "direct", direct, ".direct.exr");
+}
+
+static void dark_room_stays_black(void **state)
+{
+    (void)state;
+    trace(&two_rooms_dark);
+    assert_true(is_black(traced));
+}
+
+static void glossy_scene_agrees(void **state)
+{
+    (void)state;
+    trace(&glossy);
+    compare(&glossy, "all light", traced, ".reference.exr");
+    assert_true(is_black(direct));
+}
+
+int main(void)
+{
+    enum { EXIT_SKIPPED = 77 }; /* as Meson understands it */
+    if (!scenes_are_there()) {
+        printf("skipped: no reference scenes in %s (SDFGI_SHARED_SCENES names another folder)\n",
+               scenes_folder());
+        return EXIT_SKIPPED;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cornell_box_agrees),  cmocka_unit_test(living_room_agrees),
+        cmocka_unit_test(lit_room_agrees),     cmocka_unit_test(dark_room_stays_black),
+        cmocka_unit_test(glossy_scene_agrees),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
