@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT
+ * sdfgi compare: how far a picture is from its reference. */
+#include "cli.h"
+#include "commands.h"
+#include "compare.h"
+#include "flip.h"
+#include "output_file.h"
+#include "tone.h"
+
+#include <cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+struct options {
+    const char *picture, *reference, *mask, *error_map;
+    bool json;
+};
+
+struct images {
+    struct image picture, reference, mask;
+    float *flip_map;
+};
+
+static bool load(const struct options *options, struct images *images, char *error, size_t error_size)
+{
+    if (!image_read(&images->picture, options->picture, error, error_size) ||
+        !image_read(&images->reference, options->reference, error, error_size) ||
+        (options->mask && !image_read(&images->mask, options->mask, error, error_size)))
+        return false;
+    images->flip_map = calloc((size_t)images->reference.width * images->reference.height, sizeof(float));
+    if (!images->flip_map)
+        snprintf(error, error_size, "compare: out of memory");
+    return images->flip_map != NULL;
+}
+
+static void release(struct images *images)
+{
+    image_finish(&images->picture);
+    image_finish(&images->reference);
+    image_finish(&images->mask);
+    free(images->flip_map);
+}
+
+static bool write_error_map(const struct options *options, const struct images *images, char *error,
+                            size_t error_size)
+{
+    const size_t count = (size_t)images->reference.width * images->reference.height;
+    uint8_t *rgba = malloc(4 * count);
+    if (!rgba) {
+        snprintf(error, error_size, "compare: out of memory");
+        return false;
+    }
+    compare_paint_map(images->flip_map, count, rgba);
+    const bool written = image_write_png(options->error_map, rgba, images->reference.width,
+                                         images->reference.height, 3, error, error_size);
+    free(rgba);
+    return written;
+}
+
+static void print_text(const struct compare_result *r)
+{
+    printf("mean luminance     %.6g, reference %.6g\n", r->mean, r->reference_mean);
+    if (isnan(r->mean_ratio))
+        printf("mean ratio         none: the reference is black; largest luminance %.6g\n", r->max);
+    else
+        printf("mean ratio         %.5f\n", r->mean_ratio);
+    printf("relMSE             %.6g   (epsilon %g)\n", r->relmse, COMPARE_RELMSE_EPSILON);
+    printf("p99 relative error %.5f\n", r->p99_relative_error);
+    printf("PSNR               %.3f dB\n", r->psnr_db);
+    printf("FLIP               %.6f   (maximum %.4f, %.4g pixels per degree)\n", r->flip, r->flip_max,
+           FLIP_PIXELS_PER_DEGREE);
+    printf("pixels             %llu, exposure %.6g\n", (unsigned long long)r->pixels, r->exposure);
+}
+
+/* NaN and infinity have no place in JSON: they become null. */
+static bool add_number(cJSON *json, const char *name, double value)
+{
+    return (isfinite(value) ? cJSON_AddNumberToObject(json, name, value)
+                            : cJSON_AddNullToObject(json, name)) != NULL;
+}
+
+static bool print_json(const struct compare_result *r)
+{
+    cJSON *json = cJSON_CreateObject();
+    const bool complete =
+        add_number(json, "pixels", (double)r->pixels) && add_number(json, "mean", r->mean) &&
+        add_number(json, "reference_mean", r->reference_mean) &&
+        add_number(json, "mean_ratio", r->mean_ratio) && add_number(json, "max", r->max) &&
+        add_number(json, "relmse", r->relmse) && add_number(json, "relmse_epsilon", COMPARE_RELMSE_EPSILON) &&
+        add_number(json, "p99_relative_error", r->p99_relative_error) &&
+        add_number(json, "psnr_db", r->psnr_db) && add_number(json, "flip", r->flip) &&
+        add_number(json, "flip_max", r->flip_max) &&
+        add_number(json, "pixels_per_degree", FLIP_PIXELS_PER_DEGREE) &&
+        add_number(json, "exposure", r->exposure) &&
+        cJSON_AddStringToObject(json, "tone_curve", tone_description);
+    char *text = complete ? cJSON_Print(json) : NULL;
+    if (text)
+        puts(text);
+    cJSON_free(text);
+    cJSON_Delete(json);
+    return text != NULL;
+}
+
+static int compare(const struct options *options, struct images *images)
+{
+    char error[CLI_ERROR_BYTES] = "";
+    if (!load(options, images, error, sizeof error))
+        return cli_error("%s", error);
+    const struct compare_input picture = { &images->picture, options->picture };
+    const struct compare_input reference = { &images->reference, options->reference };
+    const struct compare_input mask = { &images->mask, options->mask };
+    struct compare_result result;
+    if (!compare_images(&picture, &reference, options->mask ? &mask : NULL, &result, images->flip_map, error,
+                        sizeof error) ||
+        (options->error_map && !write_error_map(options, images, error, sizeof error)))
+        return cli_error("%s", error);
+    if (!options->json)
+        print_text(&result);
+    else if (!print_json(&result))
+        return cli_error("compare: out of memory");
+    return CLI_EXIT_OK;
+}
+
+int cmd_compare(int argc, char **argv)
+{
+    struct options o = { 0 };
+    const struct cli_option table[] = {
+        { "json", CLI_FLAG, &o.json, .help = "print JSON" },
+        { "mask", CLI_TEXT, &o.mask, "FILE", .help = "compare where this picture's red is above 0.5" },
+        { "error-map", CLI_TEXT, &o.error_map, "FILE.png", .help = "write FLIP's error of each pixel" },
+    };
+    const struct cli_positional positionals[] = { { "PICTURE", &o.picture, true },
+                                                  { "REFERENCE", &o.reference, true } };
+    const struct cli_spec spec = { "compare", "Measures how far PICTURE is from REFERENCE.", CLI_ARRAY(table),
+                                   CLI_ARRAY(positionals),
+                                   "Reads .exr, .hdr, .pfm and .png. For PSNR and FLIP, pictures that hold "
+                                   "radiance are tone-mapped alike:\n"
+                                   "x = exposure * radiance, x / (1 + x) per channel, sRGB; the exposure "
+                                   "brings the log-average luminance of\n"
+                                   "REFERENCE to 0.18." };
+    const enum cli_outcome outcome = cli_parse(&spec, argc, argv);
+    if (outcome != CLI_RUN)
+        return cli_exit_code(outcome);
+    char error[CLI_ERROR_BYTES];
+    if (o.error_map && !output_file_check(o.error_map, error, sizeof error))
+        return cli_error("%s", error);
+    struct images images = { 0 };
+    const int code = compare(&o, &images);
+    release(&images);
+    return code;
+}

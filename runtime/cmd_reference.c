@@ -1,0 +1,373 @@
+/* SPDX-License-Identifier: MIT
+ * sdfgi reference: path-traced ground truth. */
+#include "cli.h"
+#include "commands.h"
+#include "image.h"
+#include "output_file.h"
+#include "view_file.h"
+
+#include <modules/gltf/gltf_scene.h>
+#include <modules/raycast/raycast.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { AOV_NAME_BYTES = 32, DEFAULT_SPP = 64 };
+
+static const double state_interval_s = 30;
+static const double degrees_per_radian = 57.29577951308232;
+
+struct options {
+    const char *scene, *view, *out;
+    struct cli_size size;
+    struct cli_list aov;
+    uint32_t spp, bounces, threads;
+    uint64_t seed;
+    double seconds, error;
+    bool spp_given, resume, cull_back_faces;
+    /* Derived. */
+    const char *aov_paths[RAYCAST_AOV_COUNT]; /* NULL: not wanted */
+    char *state_path;
+};
+
+struct run {
+    const struct options *options;
+    struct gltf_scene *gltf;
+    struct host_view view;
+    struct raycast *raycast;
+    struct cli_progress bar;
+    double saved_s; /* when the state was last written */
+    bool saved;     /* by this run */
+};
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+/* ---- Arguments -------------------------------------------------------------------------------------- */
+
+static bool check_output(const char *path)
+{
+    char error[CLI_ERROR_BYTES];
+    const enum image_format format = image_format_from_path(path);
+    if (format == IMAGE_FORMAT_COUNT || format == IMAGE_PNG)
+        cli_error("reference: %s: expected a float format: .exr, .hdr or .pfm", path);
+    else if (!output_file_check(path, error, sizeof error))
+        cli_error("%s", error);
+    else
+        return true;
+    return false;
+}
+
+static bool parse_aov(struct options *options, const char *pair)
+{
+    char name[AOV_NAME_BYTES];
+    const char *path = cli_split_pair(pair, name, sizeof name);
+    for (int aov = 0; path && aov < RAYCAST_AOV_COUNT; aov++) {
+        if (strcmp(name, raycast_aov_name(aov)) != 0)
+            continue;
+        options->aov_paths[aov] = path;
+        return check_output(path);
+    }
+    cli_error("reference: --aov is \"%s\", expected NAME=FILE with a name that sdfgi reference --help lists",
+              pair);
+    return false;
+}
+
+/* What the parser cannot know. */
+static bool options_finish(struct options *options)
+{
+    if (!options->spp_given && (options->seconds > 0 || options->error > 0))
+        options->spp = 0;
+    if (!check_output(options->out))
+        return false;
+    for (uint32_t i = 0; i < options->aov.count; i++)
+        if (!parse_aov(options, options->aov.values[i]))
+            return false;
+    const size_t bytes = strlen(options->out) + sizeof ".state";
+    options->state_path = malloc(bytes);
+    if (!options->state_path) {
+        cli_error("reference: out of memory");
+        return false;
+    }
+    snprintf(options->state_path, bytes, "%s.state", options->out);
+    return true;
+}
+
+static const char notes[] =
+    "AOVs: radiance, emission, direct, diffuse_indirect, reflection, irradiance, normal, depth, albedo, and\n"
+    "variance (of the mean, per channel). --spp counts from the start of the picture, --time from the start "
+    "of\n"
+    "this run; whichever limit comes first ends it. An interrupted run keeps its samples in OUT.state, and "
+    "so\n"
+    "does every run with --resume; the same command with --resume goes on from there, to the same bits as a\n"
+    "run that was never interrupted.\n";
+
+static enum cli_outcome parse(struct options *o, int argc, char **argv)
+{
+    const struct cli_option rows[] = {
+        { "view", CLI_TEXT, &o->view, "FILE",
+          .help = "VIEW.json; without it a view is made up from the scene" },
+        { "out", CLI_TEXT, &o->out, "FILE", .help = "the picture: .exr, .hdr or .pfm", .required = true },
+        { "spp", CLI_UINT, &o->spp, "N", .help = "samples per pixel (64 if there is no other limit)",
+          .minimum = 1, .maximum = 1e8, .given = &o->spp_given },
+        { "time", CLI_FLOAT, &o->seconds, "S", .help = "stop after this many seconds", .minimum = 0.001,
+          .maximum = 1e9 },
+        { "error", CLI_FLOAT, &o->error, "E", .help = "stop at this mean relative standard error",
+          .minimum = 1e-6, .maximum = 1 },
+        { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels (320x180)", .minimum = 1, .maximum = 16384 },
+        { "seed", CLI_UINT64, &o->seed, "N", .help = "of the random numbers (0)",
+          .maximum = 9007199254740991.0 },
+        { "bounces", CLI_UINT, &o->bounces, "N", .help = "reflections of a path at most (64)", .minimum = 1,
+          .maximum = 65536 },
+        { "threads", CLI_UINT, &o->threads, "N", .help = "one per processor if not given", .minimum = 1,
+          .maximum = 256 },
+        { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "another picture, see below" },
+        { "cull-back-faces", CLI_FLAG, &o->cull_back_faces,
+          .help = "the camera sees through the backs of single-sided faces, as a rasteriser does" },
+        { "resume", CLI_FLAG, &o->resume, .help = "go on from OUT.state where there is one, and keep it" },
+    };
+    const struct cli_positional positionals[] = { { "SCENE", &o->scene, .required = true } };
+    const struct cli_spec spec = { "reference",
+                                   "Traces paths through a glTF scene: ground truth for the renderer.",
+                                   CLI_ARRAY(rows), CLI_ARRAY(positionals), notes };
+    return cli_parse(&spec, argc, argv);
+}
+
+/* ---- Scene and view --------------------------------------------------------------------------------- */
+
+static struct raycast_light light_convert(const struct host_light *from)
+{
+    struct raycast_light to = {
+        .type = from->type == HOST_LIGHT_SPOT ? RAYCAST_LIGHT_SPOT : RAYCAST_LIGHT_POINT,
+        .inner_deg = (float)(from->inner_rad * degrees_per_radian),
+        .outer_deg = (float)(from->outer_rad * degrees_per_radian),
+        .radius_m = from->radius_m,
+        .range_m = from->range_m,
+    };
+    memcpy(to.position, from->position, sizeof to.position);
+    memcpy(to.direction, from->direction, sizeof to.direction);
+    memcpy(to.intensity, from->intensity, sizeof to.intensity);
+    return to;
+}
+
+static void sun_convert(const struct host_sun *from, struct raycast_sun *to)
+{
+    if (!from->enabled)
+        return;
+    memcpy(to->direction, from->direction, sizeof to->direction);
+    memcpy(to->irradiance, from->irradiance, sizeof to->irradiance);
+    to->angle_deg = (float)(from->angle_rad * degrees_per_radian);
+}
+
+/* The lights go to `lights`, which holds as many as the view has. */
+static struct raycast_view view_convert(const struct host_view *from, struct raycast_light *lights)
+{
+    struct raycast_view to = {
+        .camera.yfov_deg = (float)(from->camera.yfov_rad * degrees_per_radian),
+        .lights = lights,
+        .light_count = from->light_count,
+        .punctual_scale = from->punctual_scale,
+        .emissive_scale = from->emissive_scale,
+        .materials =
+            from->materials == HOST_MATERIALS_LAMBERT ? RAYCAST_MATERIALS_LAMBERT : RAYCAST_MATERIALS_GLTF,
+    };
+    memcpy(to.camera.position, from->camera.position, sizeof to.camera.position);
+    memcpy(to.camera.look_at, from->camera.look_at, sizeof to.camera.look_at);
+    memcpy(to.camera.up, from->camera.up, sizeof to.camera.up);
+    memcpy(to.sky.zenith, from->sky.zenith, sizeof to.sky.zenith);
+    memcpy(to.sky.horizon, from->sky.horizon, sizeof to.sky.horizon);
+    memcpy(to.sky.ground, from->sky.ground, sizeof to.sky.ground);
+    memcpy(to.default_albedo, from->default_albedo, sizeof to.default_albedo);
+    sun_convert(&from->sun, &to.sun);
+    for (uint32_t i = 0; i < from->light_count; i++)
+        lights[i] = light_convert(&from->lights[i]);
+    return to;
+}
+
+static bool load_inputs(struct run *run)
+{
+    char error[CLI_ERROR_BYTES];
+    run->gltf = gltf_scene_load(run->options->scene, error, sizeof error);
+    if (!run->gltf) {
+        cli_error("%s", error);
+        return false;
+    }
+    if (run->gltf->warning)
+        fprintf(stderr, "sdfgi: %s\n", run->gltf->warning);
+    if (!run->options->view) {
+        view_file_from_scene(run->gltf, &run->view);
+        return true;
+    }
+    if (view_file_load(run->options->view, &run->view, error, sizeof error))
+        return true;
+    cli_error("%s", error);
+    return false;
+}
+
+static uint32_t aov_bits(const struct options *options)
+{
+    uint32_t bits = 0;
+    for (int aov = 0; aov < RAYCAST_AOV_COUNT; aov++)
+        bits |= options->aov_paths[aov] ? 1u << aov : 0;
+    return bits;
+}
+
+static bool create_tracer(struct run *run)
+{
+    const struct options *o = run->options;
+    const struct raycast_settings settings = {
+        .width = o->size.width,
+        .height = o->size.height,
+        .seed = o->seed,
+        .max_bounces = o->bounces,
+        .threads = o->threads,
+        .aovs = aov_bits(o),
+        .cull_back_faces = o->cull_back_faces,
+    };
+    struct raycast_light *lights = calloc((size_t)run->view.light_count + 1, sizeof *lights);
+    if (!lights) {
+        cli_error("reference: out of memory");
+        return false;
+    }
+    const struct raycast_view view = view_convert(&run->view, lights);
+    char error[CLI_ERROR_BYTES];
+    run->raycast = raycast_create(run->gltf, &view, &settings, error, sizeof error);
+    free(lights);
+    if (!run->raycast)
+        cli_error("%s", error);
+    return run->raycast != NULL;
+}
+
+/* ---- The run ---------------------------------------------------------------------------------------- */
+
+static bool file_exists(const char *path)
+{
+    FILE *const file = fopen(path, "rb");
+    if (file)
+        fclose(file);
+    return file != NULL;
+}
+
+static bool resume(struct run *run)
+{
+    const char *const path = run->options->state_path;
+    char error[CLI_ERROR_BYTES];
+    if (!run->options->resume || !file_exists(path) ||
+        raycast_state_load(run->raycast, path, error, sizeof error))
+        return true;
+    cli_error("%s", error);
+    return false;
+}
+
+static bool save_state(struct run *run)
+{
+    char error[CLI_ERROR_BYTES];
+    run->saved_s = cli_time_s();
+    if (raycast_state_save(run->raycast, run->options->state_path, error, sizeof error))
+        return run->saved = true;
+    cli_error("%s", error);
+    return false;
+}
+
+static bool on_progress(const struct raycast_progress *progress, void *user)
+{
+    struct run *const run = user;
+    cli_progress_update(&run->bar, (uint64_t)(1000 * progress->fraction));
+    if (cli_time_s() - run->saved_s > state_interval_s)
+        save_state(run);
+    return !interrupted;
+}
+
+static bool write_image(const struct run *run, enum raycast_aov aov, const char *path)
+{
+    const struct raycast_settings *const s = raycast_settings_get(run->raycast);
+    const size_t pixels = (size_t)s->width * s->height;
+    const uint32_t channels = raycast_aov_channels(aov);
+    float *const values = malloc(pixels * channels * sizeof *values), *const rgba =
+                                                                          malloc(pixels * 4 * sizeof *rgba);
+    char error[CLI_ERROR_BYTES] = "reference: out of memory";
+    bool ok = values && rgba && raycast_image(run->raycast, aov, values);
+    for (size_t i = 0; ok && i < pixels; i++) {
+        for (uint32_t k = 0; k < 3; k++)
+            rgba[4 * i + k] = values[channels * i + (k < channels ? k : 0)];
+        rgba[4 * i + 3] = 1.0f;
+    }
+    ok = ok && image_write_float(path, rgba, s->width, s->height, channels, error, sizeof error);
+    if (!ok)
+        cli_error("%s", error);
+    free(values);
+    free(rgba);
+    return ok;
+}
+
+static bool write_images(const struct run *run)
+{
+    bool ok = write_image(run, RAYCAST_AOV_RADIANCE, run->options->out);
+    for (int aov = 0; ok && aov < RAYCAST_AOV_COUNT; aov++)
+        if (run->options->aov_paths[aov])
+            ok = write_image(run, aov, run->options->aov_paths[aov]);
+    return ok;
+}
+
+static void print_summary(const struct run *run, const struct raycast_progress *p)
+{
+    const struct raycast_settings *const s = raycast_settings_get(run->raycast);
+    printf("%ux%u, %u samples per pixel, %.1f s, %.1f million rays, %.2f million rays per second", s->width,
+           s->height, p->samples, p->seconds, 1e-6 * (double)p->rays,
+           p->seconds > 0 ? 1e-6 * (double)p->rays / p->seconds : 0.0);
+    if (p->samples >= 16)
+        printf(", mean relative standard error %.4f", p->error);
+    putchar('\n');
+    if (p->not_finite > 0)
+        printf("%llu samples were not finite and are left out\n", (unsigned long long)p->not_finite);
+}
+
+static int trace(struct run *run)
+{
+    const struct options *const o = run->options;
+    const struct raycast_budget budget = { .samples = o->spp, .seconds = o->seconds, .error = o->error };
+    struct raycast_progress last;
+    cli_progress_begin(&run->bar, "reference", 1000);
+    run->saved_s = cli_time_s();
+    const bool finished = raycast_render(run->raycast, &budget, on_progress, run, &last);
+    cli_progress_end(&run->bar);
+    if ((!finished || o->resume) && !save_state(run))
+        return CLI_EXIT_FAILURE;
+    if (!finished)
+        return cli_error("reference: interrupted after %u samples per pixel; --resume goes on from %s",
+                         last.samples, o->state_path);
+    if (!write_images(run))
+        return CLI_EXIT_FAILURE;
+    if (run->saved && !o->resume)
+        remove(o->state_path);
+    print_summary(run, &last);
+    return CLI_EXIT_OK;
+}
+
+int cmd_reference(int argc, char **argv)
+{
+    struct options options = { .spp = DEFAULT_SPP, .size = { 320, 180 } };
+    const enum cli_outcome outcome = parse(&options, argc, argv);
+    if (outcome != CLI_RUN)
+        return cli_exit_code(outcome);
+    struct run run = { .options = &options };
+    int code = CLI_EXIT_FAILURE;
+    if (!options_finish(&options))
+        code = CLI_EXIT_USAGE;
+    else if (load_inputs(&run) && create_tracer(&run) && resume(&run)) {
+        signal(SIGINT, on_interrupt);
+        signal(SIGTERM, on_interrupt);
+        code = trace(&run);
+    }
+    raycast_destroy(run.raycast);
+    view_file_finish(&run.view);
+    gltf_scene_destroy(run.gltf);
+    free(options.state_path);
+    return code;
+}

@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: MIT
+ * sdfgi render: a picture of a glTF scene, offscreen. */
+#include "cli.h"
+#include "commands.h"
+#include "host/host.h"
+#include "image.h"
+#include "output_file.h"
+#include "report.h"
+#include "run_options.h"
+#include "view_file.h"
+
+#include <modules/gltf/gltf_scene.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2 };
+
+struct options {
+    const char *scene, *view, *frames, *report, *device, *out;
+    struct cli_size size;
+    bool gi, quiet;
+    struct cli_list set, aov;
+    uint32_t supersample, seed;
+    double exposure;
+    /* Derived. */
+    uint32_t frame_count; /* 0: until converged */
+    struct sdfgi_settings settings;
+};
+
+/* Everything that has to be taken down again, in order of creation. */
+struct run {
+    struct gltf_scene *gltf;
+    struct host_view view;
+    struct host_device *device;
+    struct host_scene *scene;
+    struct host_renderer *renderer;
+    struct report report;
+    struct cli_progress progress;
+    double seconds;
+    float exposure; /* that a PNG was written with */
+    bool until_converged;
+};
+
+/* ---- Arguments -------------------------------------------------------------------------------------- */
+
+static bool parse_frames(struct options *options)
+{
+    if (strcmp(options->frames, "converged") == 0)
+        return true;
+    char *end;
+    const unsigned long count = strtoul(options->frames, &end, 10);
+    if (options->frames[0] < '0' || options->frames[0] > '9' || *end || count == 0 || count > 1000000)
+        return false;
+    options->frame_count = (uint32_t)count;
+    return true;
+}
+
+static bool check_output(const char *path)
+{
+    char error[CLI_ERROR_BYTES];
+    if (output_file_check(path, error, sizeof error))
+        return true;
+    cli_error("%s", error);
+    return false;
+}
+
+/* Splits "NAME=FILE"; prints what is wrong with it. */
+static const char *split_aov(const char *pair, enum host_aov *aov)
+{
+    char name[AOV_NAME_BYTES];
+    const char *path = cli_split_pair(pair, name, sizeof name);
+    *aov = path ? host_aov_from_name(name) : HOST_AOV_COUNT;
+    const enum image_format format = path ? image_format_from_path(path) : IMAGE_FORMAT_COUNT;
+    if (*aov == HOST_AOV_COUNT)
+        cli_error("render: --aov is \"%s\", expected NAME=FILE with a name that sdfgi render --help lists",
+                  pair);
+    else if (format == IMAGE_FORMAT_COUNT || format == IMAGE_PNG)
+        cli_error("render: --aov %s: expected a float format: .exr, .hdr or .pfm", path);
+    else
+        return path;
+    return NULL;
+}
+
+static bool check_outputs(const struct options *options)
+{
+    if (image_format_from_path(options->out) == IMAGE_FORMAT_COUNT) {
+        cli_error("render: --out is \"%s\", expected a name that ends in %s", options->out,
+                  image_format_list());
+        return false;
+    }
+    for (uint32_t i = 0; i < options->aov.count; i++) {
+        enum host_aov aov;
+        const char *path = split_aov(options->aov.values[i], &aov);
+        if (!path || !check_output(path))
+            return false;
+    }
+    return check_output(options->out) && (!options->report || check_output(options->report));
+}
+
+static bool resolve_options(struct options *options)
+{
+    sdfgi_settings_default(&options->settings);
+    options->settings.enabled = options->gi;
+    if (!run_apply_settings("render", &options->set, &options->settings))
+        return false;
+    if (!parse_frames(options)) {
+        cli_error("render: --frames is \"%s\", expected a number from 1 to 1000000 or converged",
+                  options->frames);
+        return false;
+    }
+    if ((uint64_t)options->size.width * options->supersample > 16384 ||
+        (uint64_t)options->size.height * options->supersample > 16384) {
+        cli_error("render: --size times --ssaa is more than 16384 pixels along a side");
+        return false;
+    }
+    return check_outputs(options);
+}
+
+static enum cli_outcome parse(struct options *o, int argc, char **argv)
+{
+    const struct cli_option table[] = {
+        { "view", CLI_TEXT, &o->view, "VIEW.json", .help = "camera, sky and lights; else from the scene" },
+        { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
+        { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
+        { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
+        { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
+        { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "one part of the light, as .exr, .hdr or .pfm" },
+        { "report", CLI_TEXT, &o->report, "FILE", .help = "times, work, memory and health as JSON" },
+        { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
+        { "ssaa", CLI_UINT, &o->supersample, "N", .help = "samples along a side of a pixel; 1", .minimum = 1,
+          .maximum = 4 },
+        { "exposure", CLI_FLOAT, &o->exposure, "X", .help = "factor for PNG; 0, the default: automatic",
+          .minimum = 0, .maximum = 1e12 },
+        { "seed", CLI_UINT, &o->seed, "N", .help = "of the random sequence; 0" },
+        { "quiet", CLI_FLAG, &o->quiet, .help = "print nothing but errors" },
+        { "out", CLI_TEXT, &o->out, "FILE", .help = "picture: .png, .exr, .hdr or .pfm", .required = true },
+    };
+    const struct cli_positional positionals[] = { { "SCENE", &o->scene, true } };
+    const struct cli_spec spec = { "render", "Renders a glTF scene offscreen.", CLI_ARRAY(table),
+                                   CLI_ARRAY(positionals),
+                                   "Float pictures are linear radiance without exposure. Parts of the light: "
+                                   "color, direct, diffuse_indirect,\n"
+                                   "irradiance, reflection, normal, depth, albedo." };
+    return cli_parse(&spec, argc, argv);
+}
+
+/* ---- Rendering -------------------------------------------------------------------------------------- */
+
+static bool start(struct run *run, const struct options *options)
+{
+    char error[CLI_ERROR_BYTES];
+    run->gltf = run_load_scene(options->scene, options->view, &run->view);
+    if (!run->gltf)
+        return false;
+    run->device =
+        host_device_create(&(struct host_device_desc){ .select = options->device }, error, sizeof error);
+    if (!run->device) {
+        cli_error("%s", error);
+        return false;
+    }
+    run->scene = host_scene_create(run->device, run->gltf, &run->view);
+    const struct host_renderer_desc desc = { .width = options->size.width,
+                                             .height = options->size.height,
+                                             .supersample = options->supersample,
+                                             .settings = &options->settings,
+                                             .log = { options->quiet ? NULL : run_log, NULL },
+                                             .seed = options->seed };
+    run->renderer = run->scene ? host_renderer_create(run->device, run->scene, &desc) : NULL;
+    if (!run->renderer)
+        cli_error("%s", host_device_error(run->device));
+    return run->renderer != NULL;
+}
+
+static void finish(struct run *run)
+{
+    host_renderer_destroy(run->renderer);
+    host_scene_destroy(run->scene);
+    host_device_destroy(run->device);
+    gltf_scene_destroy(run->gltf);
+    view_file_finish(&run->view);
+    report_finish(&run->report);
+}
+
+static bool collect_frame(void *user, const struct host_frame *frame)
+{
+    struct run *run = user;
+    report_add_frame(&run->report, frame->report, frame->gpu_ns);
+    cli_progress_update(&run->progress, run->until_converged
+                                            ? (uint64_t)(100.0 * (double)frame->report->converged_fraction)
+                                            : frame->index + 1);
+    return true;
+}
+
+static bool render_frames(struct run *run, const struct options *options)
+{
+    run->until_converged = options->frame_count == 0;
+    /* Until convergence the bar shows per cent. */
+    cli_progress_begin(&run->progress, "rendering", options->frame_count ? options->frame_count : 100);
+    const double start_s = cli_time_s();
+    const struct host_until_desc until = { .frames = options->frame_count,
+                                           .progress = collect_frame,
+                                           .user = run };
+    const bool rendered = host_render_until(run->renderer, &run->view.camera, &until, NULL);
+    run->seconds = cli_time_s() - start_s;
+    cli_progress_end(&run->progress);
+    if (!rendered) {
+        cli_error("%s", host_device_error(run->device));
+        return false;
+    }
+    struct sdfgi_report last;
+    host_renderer_get_report(run->renderer, &last);
+    report_set_last(&run->report, &last, host_renderer_frame_gpu_ns(run->renderer));
+    return true;
+}
+
+/* ---- Output ----------------------------------------------------------------------------------------- */
+
+static uint32_t aov_channels(enum host_aov aov)
+{
+    return aov == HOST_AOV_DEPTH ? 1 : 3;
+}
+
+static bool write_aov(struct run *run, const struct options *options, enum host_aov aov, const char *path)
+{
+    char error[CLI_ERROR_BYTES] = "";
+    struct image image;
+    bool written = image_init(&image, options->size.width, options->size.height, error, sizeof error);
+    if (written && !host_renderer_read_aov(run->renderer, aov, image.rgba)) {
+        snprintf(error, sizeof error, "%s: %s", path, host_device_error(run->device));
+        written = false;
+    }
+    written = written && image_write_float(path, image.rgba, image.width, image.height, aov_channels(aov),
+                                           error, sizeof error);
+    image_finish(&image);
+    if (!written)
+        cli_error("%s", error);
+    return written;
+}
+
+static bool write_png(struct run *run, const struct options *options)
+{
+    char error[CLI_ERROR_BYTES] = "";
+    uint8_t *rgba = malloc((size_t)4 * options->size.width * options->size.height);
+    const struct host_picture_desc desc = { .exposure = (float)options->exposure,
+                                            .exposure_out = &run->exposure };
+    bool written = rgba && host_renderer_read_picture(run->renderer, &desc, rgba);
+    if (!written)
+        snprintf(error, sizeof error, "%s: %s", options->out,
+                 rgba ? host_device_error(run->device) : "out of memory");
+    written = written && image_write_png(options->out, rgba, options->size.width, options->size.height, 3,
+                                         error, sizeof error);
+    free(rgba);
+    if (!written)
+        cli_error("%s", error);
+    return written;
+}
+
+static bool write_run_report(struct run *run, const struct options *options)
+{
+    char error[CLI_ERROR_BYTES];
+    struct host_device_info info;
+    struct sdfgi_memory estimate = { .total_bytes = 0 };
+    struct report_summary summary = { .width = options->size.width,
+                                      .height = options->size.height,
+                                      .seconds = run->seconds,
+                                      .exposure = (double)run->exposure,
+                                      .validation_messages = host_device_validation_count(run->device) };
+    host_device_get_info(run->device, &info);
+    host_renderer_get_settings(run->renderer, &summary.settings);
+    if (summary.settings.enabled)
+        sdfgi_estimate_memory(&summary.settings, FRAMES_IN_FLIGHT, &estimate);
+    summary.estimated_bytes = estimate.total_bytes;
+    summary.device_name = info.name;
+    summary.device_driver = info.driver;
+    summary.device_type = info.type;
+    if (report_write(&run->report, &summary, options->report, error, sizeof error))
+        return true;
+    cli_error("%s", error);
+    return false;
+}
+
+static bool write_outputs(struct run *run, const struct options *options)
+{
+    const bool png = image_format_from_path(options->out) == IMAGE_PNG;
+    bool written = png ? write_png(run, options) : write_aov(run, options, HOST_AOV_COLOR, options->out);
+    for (uint32_t i = 0; written && i < options->aov.count; i++) {
+        enum host_aov aov;
+        const char *path = split_aov(options->aov.values[i], &aov);
+        written = path && write_aov(run, options, aov, path);
+    }
+    return written && (!options->report || write_run_report(run, options));
+}
+
+static void print_summary(struct run *run, const struct options *options)
+{
+    const struct sdfgi_report *last = &run->report.last;
+    printf("%s: %llu frame%s in %.2f s, %.3f ms GPU per frame (median), GI %s\n", options->out,
+           (unsigned long long)run->report.frames, run->report.frames == 1 ? "" : "s", run->seconds,
+           1e-6 * (double)report_quantile(&run->report.frame_gpu_ns, 0.5),
+           !options->settings.enabled ? "off"
+           : last->converged          ? "on, converged"
+                                      : "on, not converged");
+    for (uint32_t i = 0; i < last->health_count; i++)
+        printf("  %s (count %llu)\n", last->health[i].hint, (unsigned long long)last->health[i].count);
+}
+
+int cmd_render(int argc, char **argv)
+{
+    struct options options = { .frames = "converged", .size = { 1280, 720 }, .gi = true, .supersample = 1 };
+    const enum cli_outcome outcome = parse(&options, argc, argv);
+    if (outcome != CLI_RUN)
+        return cli_exit_code(outcome);
+    if (!resolve_options(&options))
+        return CLI_EXIT_USAGE;
+    struct run *run = calloc(1, sizeof *run);
+    if (!run)
+        return cli_error("render: out of memory");
+    const bool done = start(run, &options) && render_frames(run, &options) && write_outputs(run, &options);
+    if (done && !options.quiet)
+        print_summary(run, &options);
+    finish(run);
+    free(run);
+    return done ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT
+ * sdfgi view: a glTF scene in a window. */
+#include "cli.h"
+#include "commands.h"
+#include "host/host.h"
+#include "run_options.h"
+#include "view_file.h"
+
+#include <modules/gltf/gltf_scene.h>
+
+struct options {
+    const char *scene, *view, *device;
+    struct cli_size size;
+    struct cli_list set;
+    bool gi;
+    uint32_t frames;
+};
+
+static enum cli_outcome parse(struct options *o, int argc, char **argv)
+{
+    const struct cli_option table[] = {
+        { "view", CLI_TEXT, &o->view, "VIEW.json", .help = "camera, sky and lights; else from the scene" },
+        { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
+        { "gi", CLI_SWITCH, &o->gi, .help = "global illumination at the start; on" },
+        { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
+        { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
+        { "frames", CLI_UINT, &o->frames, "N", .help = "close after that many; 0, the default: never" },
+    };
+    const struct cli_positional positionals[] = { { "SCENE", &o->scene, true } };
+    const struct cli_spec spec = {
+        "view", "Shows a glTF scene in a window.", CLI_ARRAY(table), CLI_ARRAY(positionals),
+        "G switches global illumination, F1 the view. WASD, Q and E move, Shift hurries,\n"
+        "a held mouse button turns, Escape closes."
+    };
+    return cli_parse(&spec, argc, argv);
+}
+
+int cmd_view(int argc, char **argv)
+{
+    struct options options = { .gi = true, .size = { 1280, 720 } };
+    struct sdfgi_settings settings;
+    struct host_view view;
+    char error[CLI_ERROR_BYTES];
+    const enum cli_outcome outcome = parse(&options, argc, argv);
+    if (outcome != CLI_RUN)
+        return cli_exit_code(outcome);
+    sdfgi_settings_default(&settings);
+    settings.enabled = options.gi;
+    if (!run_apply_settings("view", &options.set, &settings))
+        return CLI_EXIT_USAGE;
+    struct gltf_scene *gltf = run_load_scene(options.scene, options.view, &view);
+    if (!gltf)
+        return CLI_EXIT_FAILURE;
+    const struct host_window_desc desc = { .device_select = options.device,
+                                           .gltf = gltf,
+                                           .view = &view,
+                                           .settings = &settings,
+                                           .width = options.size.width,
+                                           .height = options.size.height,
+                                           .frames = options.frames,
+                                           .log = { run_log, NULL } };
+    const bool ok = host_window_run(&desc, error, sizeof(error));
+    if (!ok)
+        cli_error("view: %s", error);
+    gltf_scene_destroy(gltf);
+    view_file_finish(&view);
+    return ok ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
+}

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The host renderer: a small forward renderer that uses libsdfgi as any program would, through its public
+ * headers and shaders/include/sdfgi.glsl alone.
+ *
+ * STEP BY STEP
+ *   host_device_create -> host_scene_create -> host_renderer_create -> host_render_until ->
+ *   host_renderer_read_aov / host_renderer_read_picture -> destroy in reverse order.
+ *
+ * CONVENTIONS
+ *   Errors     a function that returns bool or a pointer says false or NULL on failure; host_device_error()
+ *              then holds one line. Nothing aborts.
+ *   Lifetime   a device outlives its scenes, a scene its renderers. Destructors accept NULL.
+ *   Threading  everything made from one device belongs to one thread.
+ *   Images     rows from the top, 4 channels. */
+#ifndef HOST_H
+#define HOST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <sdfgi/sdfgi.h>
+
+#include "host_view.h"
+
+struct gltf_scene;
+
+/* ---- Device ----------------------------------------------------------------------------------------- */
+
+struct host_device;
+
+struct host_device_desc {
+    const char
+        *select; /* an index, or a part of a name in any case; NULL: discrete, then integrated, then CPU */
+    bool validation; /* validation layer with synchronization checks; SDFGI_VALIDATION=1 does the same */
+    const char *const *instance_extensions; /* what a window system asks for; switches the swapchain on */
+    uint32_t instance_extension_count;
+};
+
+struct host_device_info {
+    uint32_t index;
+    char name[256];
+    char driver[600];     /* driver name and version */
+    const char *type;     /* "discrete", "integrated", "virtual", "cpu" or "other" */
+    uint32_t api_version; /* VK_MAKE_API_VERSION */
+    bool usable;          /* host and library can run on it */
+    char reason[128];     /* why the host cannot use it; "" otherwise */
+    uint64_t local_bytes; /* size of the largest device-local heap */
+    struct sdfgi_requirements requirements;
+};
+
+/* Creates instance and device. On failure returns NULL and writes one line to `error`. */
+struct host_device *host_device_create(const struct host_device_desc *desc, char *error, size_t error_size);
+void host_device_destroy(struct host_device *device);
+
+/* Fills `infos` with up to `capacity` devices and returns how many there are, 0 with `error` set if none. */
+uint32_t host_device_list(struct host_device_info *infos, uint32_t capacity, char *error, size_t error_size);
+
+void host_device_get_info(const struct host_device *device, struct host_device_info *info);
+
+/* The line that describes the last failure. */
+const char *host_device_error(const struct host_device *device);
+
+/* Messages of warning severity or worse from the validation layer so far; 0 without it. */
+uint32_t host_device_validation_count(const struct host_device *device);
+
+/* ---- Scene ------------------------------------------------------------------------------------------ */
+
+struct host_scene;
+
+/* Uploads `gltf` as `view` says; neither is needed afterwards. */
+struct host_scene *host_scene_create(struct host_device *device, const struct gltf_scene *gltf,
+                                     const struct host_view *view);
+void host_scene_destroy(struct host_scene *scene);
+
+/* ---- Renderer --------------------------------------------------------------------------------------- */
+
+struct host_renderer;
+
+enum host_aov {
+    HOST_AOV_COLOR,            /* radiance, with sky and emission */
+    HOST_AOV_DIRECT,           /* radiance from sun and punctual lights alone */
+    HOST_AOV_DIFFUSE_INDIRECT, /* radiance that GI adds: irradiance * diffuse albedo / pi */
+    HOST_AOV_IRRADIANCE,       /* indirect irradiance, W/m^2 */
+    HOST_AOV_REFLECTION,       /* indirect specular radiance: zero so far */
+    HOST_AOV_NORMAL,           /* world-space shading normal that faces the viewer */
+    HOST_AOV_DEPTH,            /* distance along the camera's axis, metres; 0 where there is only sky */
+    HOST_AOV_ALBEDO,           /* diffuse albedo, emission left out */
+    HOST_AOV_COUNT,
+};
+
+/* Stable lower-case name ("color", "direct", ...). */
+const char *host_aov_name(enum host_aov aov);
+/* HOST_AOV_COUNT if there is none of that name. */
+enum host_aov host_aov_from_name(const char *name);
+
+struct host_renderer_desc {
+    uint32_t width, height;                /* [1, 16384] after supersampling */
+    uint32_t supersample;                  /* samples along each side of a pixel, [1, 4]; 0: 1 */
+    const struct sdfgi_settings *settings; /* NULL: defaults, that is, GI is off */
+    struct sdfgi_log log;                  /* messages of the library */
+    uint32_t seed;
+    float gi_exposure; /* sdfgi_frame_desc::exposure; 0: 1 */
+};
+
+struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,
+                                           const struct host_renderer_desc *desc);
+void host_renderer_destroy(struct host_renderer *renderer);
+
+/* Switches GI on and off and changes its settings. */
+bool host_renderer_set_settings(struct host_renderer *renderer, const struct sdfgi_settings *settings);
+void host_renderer_get_settings(const struct host_renderer *renderer, struct sdfgi_settings *settings);
+void host_renderer_get_report(const struct host_renderer *renderer, struct sdfgi_report *report);
+
+/* Adopts a new size; the pictures made so far are lost. */
+bool host_renderer_resize(struct host_renderer *renderer, uint32_t width, uint32_t height);
+
+/* Records and submits one frame: GI update, shadow maps that are missing, prepass, forward pass. */
+bool host_renderer_frame(struct host_renderer *renderer, const struct host_camera *camera);
+
+/* GPU time of the newest finished frame, GI included; 0 while there is none. */
+uint64_t host_renderer_frame_gpu_ns(const struct host_renderer *renderer);
+
+struct host_frame {
+    uint32_t index;                    /* of the frame just submitted, from 0 */
+    uint64_t gpu_ns;                   /* as host_renderer_frame_gpu_ns */
+    const struct sdfgi_report *report; /* valid during the call */
+};
+
+/* Called after each frame; returning false stops the loop, which is not an error. */
+typedef bool (*host_progress_fn)(void *user, const struct host_frame *frame);
+
+struct host_until_desc {
+    uint32_t frames;           /* how many to render; 0: until GI has converged */
+    uint32_t max_frames;       /* limit while waiting for convergence; 0: 2000 */
+    host_progress_fn progress; /* may be NULL */
+    void *user;
+};
+
+/* Renders frames from a camera at rest, waits for the last one, and says how many there were (may be NULL).
+ * Without GI, convergence takes one frame. */
+bool host_render_until(struct host_renderer *renderer, const struct host_camera *camera,
+                       const struct host_until_desc *desc, uint32_t *frames);
+
+/* Draws `aov` with the camera and the light of the last frame, and reads it: width * height * 4 floats, alpha
+ * 1 where there is geometry or sky. Supersamples are averaged. */
+bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, float *rgba);
+
+struct host_picture_desc {
+    float exposure;      /* factor on radiance; 0: found from the picture */
+    float *exposure_out; /* the factor that was used; may be NULL */
+};
+
+/* Tone-maps the colour of the last frame: width * height * 4 bytes, sRGB. */
+bool host_renderer_read_picture(struct host_renderer *renderer, const struct host_picture_desc *desc,
+                                uint8_t *rgba);
+
+/* ---- Window ----------------------------------------------------------------------------------------- */
+
+struct host_window_desc {
+    const char *device_select; /* as host_device_desc::select */
+    bool validation;
+    const struct gltf_scene *gltf;
+    const struct host_view *view;
+    const struct sdfgi_settings *settings; /* GI starts as `enabled` says */
+    uint32_t width, height;                /* 0: 1280 x 720 */
+    uint32_t frames;                       /* closes after that many; 0: when the user does */
+    struct sdfgi_log log;
+};
+
+/* Opens a window and runs until it is closed. On failure returns false and writes one line to `error`.
+ * Present only when built with the `window` feature. */
+bool host_window_run(const struct host_window_desc *desc, char *error, size_t error_size);
+
+#endif

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: MIT
+ * Everything the renderer asks of libsdfgi: the scene is registered once, then each frame records an update
+ * and draws with the library's descriptor set. */
+#include "host_internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct host_gi {
+    struct host_device *device;
+    sdfgi *context;
+    struct sdfgi_log log; /* of the host's caller */
+    char last_error[160]; /* the library's own words about its last error */
+};
+
+static void message_received(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
+{
+    struct host_gi *gi = user;
+    if (level == SDFGI_LOG_ERROR)
+        snprintf(gi->last_error, sizeof(gi->last_error), "%s", text);
+    if (gi->log.fn)
+        gi->log.fn(gi->log.user, level, id, text);
+}
+
+static bool gi_check(struct host_gi *gi, enum sdfgi_result result, const char *what)
+{
+    if (result == SDFGI_OK)
+        return true;
+    host_fail(gi->device, "global illumination, %s: %s", what,
+              gi->last_error[0] ? gi->last_error : "the library refused");
+    gi->last_error[0] = '\0';
+    return false;
+}
+
+static struct sdfgi_mesh_desc mesh_desc(const struct host_scene *scene, const struct host_primitive *p)
+{
+    const VkBuffer buffer = scene->geometry.buffer;
+    struct sdfgi_mesh_desc desc = {
+        .position_buffer = buffer,
+        .position_offset = p->positions,
+        .uv_buffer = buffer,
+        .uv_offset = p->uv[scene->materials[p->material].gi_uv_set == 1],
+        .color_buffer = p->has_colors ? buffer : VK_NULL_HANDLE,
+        .color_offset = p->has_colors ? p->colors : 0,
+        .index_buffer = buffer,
+        .index_offset = p->indices,
+        .index_type = VK_INDEX_TYPE_UINT32,
+        .vertex_count = p->vertex_count,
+        .triangle_count = p->index_count / 3,
+    };
+    memcpy(desc.bounds_min, p->bounds_min, sizeof(desc.bounds_min));
+    memcpy(desc.bounds_max, p->bounds_max, sizeof(desc.bounds_max));
+    return desc;
+}
+
+static struct sdfgi_transform transform_of(const struct host_instance *instance)
+{
+    struct sdfgi_transform out;
+    for (int column = 0; column < 3; column++) {
+        for (int row = 0; row < 3; row++)
+            out.basis[3 * column + row] = (float)instance->transform[4 * column + row];
+        out.translation[column] = instance->transform[12 + column];
+    }
+    return out;
+}
+
+static bool geometry_register(struct host_gi *gi, const struct host_scene *scene,
+                              const sdfgi_material *materials, sdfgi_mesh *meshes)
+{
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const struct host_instance *instance = &scene->instances[i];
+        const struct host_primitive *primitive = &scene->primitives[instance->primitive];
+        sdfgi_mesh *mesh = &meshes[instance->primitive];
+        sdfgi_instance unused;
+        if (!scene->materials[primitive->material].casts_shadow)
+            continue;
+        if (mesh->id == 0) {
+            const struct sdfgi_mesh_desc desc = mesh_desc(scene, primitive);
+            if (!gi_check(gi, sdfgi_mesh_create(gi->context, &desc, mesh), "registering a mesh"))
+                return false;
+        }
+        const struct sdfgi_instance_desc desc = { .mesh = *mesh,
+                                                  .material = materials[primitive->material],
+                                                  .transform = transform_of(instance),
+                                                  .mobility = SDFGI_STATIC };
+        if (!gi_check(gi, sdfgi_instance_create(gi->context, &desc, &unused), "registering an instance"))
+            return false;
+    }
+    return true;
+}
+
+static bool materials_register(struct host_gi *gi, const struct host_scene *scene, sdfgi_material *materials)
+{
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (!gi_check(gi, sdfgi_material_create(gi->context, &scene->materials[i].gi, &materials[i]),
+                      "registering a material"))
+            return false;
+    }
+    return true;
+}
+
+static bool light_register(struct host_gi *gi, const struct host_scene_light *light)
+{
+    static const enum sdfgi_light_type types[] = { [HOST_LIGHT_POINT] = SDFGI_LIGHT_POINT,
+                                                   [HOST_LIGHT_SPOT] = SDFGI_LIGHT_SPOT,
+                                                   [HOST_LIGHT_DIRECTIONAL] = SDFGI_LIGHT_DIRECTIONAL };
+    struct sdfgi_light_desc desc = { .type = types[light->type],
+                                     .indirect_energy = 1.0f,
+                                     .casts_shadow = true };
+    sdfgi_light unused;
+    for (int i = 0; i < 3; i++) {
+        desc.position[i] = light->position[i];
+        desc.direction[i] = (float)light->direction[i];
+        desc.intensity[i] = light->intensity[i];
+    }
+    if (light->type != HOST_LIGHT_DIRECTIONAL)
+        desc.range_m = light->range_m;
+    if (light->type == HOST_LIGHT_SPOT) {
+        desc.inner_angle_rad = light->inner_rad;
+        desc.outer_angle_rad = light->outer_rad;
+    }
+    return gi_check(gi, sdfgi_light_create(gi->context, &desc, &unused), "registering a light");
+}
+
+static bool lighting_register(struct host_gi *gi, const struct host_scene *scene)
+{
+    struct sdfgi_sky sky;
+    memcpy(sky.zenith, scene->sky.zenith, sizeof(sky.zenith));
+    memcpy(sky.horizon, scene->sky.horizon, sizeof(sky.horizon));
+    memcpy(sky.ground, scene->sky.ground, sizeof(sky.ground));
+    for (uint32_t i = 0; i < scene->sun_count; i++) {
+        if (!light_register(gi, &scene->suns[i]))
+            return false;
+    }
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        if (!light_register(gi, &scene->lights[i]))
+            return false;
+    }
+    return gi_check(gi, sdfgi_set_sky(gi->context, &sky), "setting the sky");
+}
+
+static bool scene_register(struct host_gi *gi, const struct host_scene *scene)
+{
+    sdfgi_material *materials = host_alloc(gi->device, scene->material_count, sizeof(*materials));
+    sdfgi_mesh *meshes = host_alloc(gi->device, scene->primitive_count, sizeof(*meshes));
+    const bool ok = materials && meshes && materials_register(gi, scene, materials) &&
+                    geometry_register(gi, scene, materials, meshes) && lighting_register(gi, scene);
+    free(materials);
+    free(meshes);
+    return ok;
+}
+
+static bool context_create(struct host_gi *gi, const struct host_renderer_desc *desc,
+                           uint32_t frames_in_flight)
+{
+    const struct sdfgi_desc info = {
+        .vulkan = { .instance = gi->device->instance,
+                    .physical_device = gi->device->physical,
+                    .device = gi->device->device,
+                    .queue_family_index = gi->device->queue_family,
+                    .get_instance_proc_addr = vkGetInstanceProcAddr },
+        .frames_in_flight = frames_in_flight,
+        .log = { message_received, gi },
+    };
+    return gi_check(gi, sdfgi_create(&info, &gi->context), "creating the context") &&
+           (!desc->settings || host_gi_set_settings(gi, desc->settings));
+}
+
+struct host_gi *host_gi_create(struct host_device *device, const struct host_scene *scene,
+                               const struct host_renderer_desc *desc, uint32_t frames_in_flight)
+{
+    struct host_gi *gi = host_alloc(device, 1, sizeof(*gi));
+    if (!gi)
+        return NULL;
+    gi->device = device;
+    gi->log = desc->log;
+    if (!context_create(gi, desc, frames_in_flight) || !scene_register(gi, scene)) {
+        host_gi_destroy(gi);
+        return NULL;
+    }
+    return gi;
+}
+
+void host_gi_destroy(struct host_gi *gi)
+{
+    if (!gi)
+        return;
+    sdfgi_destroy(gi->context);
+    free(gi);
+}
+
+VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi)
+{
+    return sdfgi_get_descriptor_set_layout(gi->context);
+}
+
+VkDescriptorSet host_gi_set(const struct host_gi *gi)
+{
+    return sdfgi_is_active(gi->context) ? sdfgi_get_descriptor_set(gi->context) : VK_NULL_HANDLE;
+}
+
+bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame)
+{
+    return gi_check(gi, sdfgi_update(gi->context, cmd, frame), "recording an update");
+}
+
+bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings)
+{
+    return gi_check(gi, sdfgi_set_settings(gi->context, settings), "changing settings");
+}
+
+void host_gi_get_settings(const struct host_gi *gi, struct sdfgi_settings *settings)
+{
+    sdfgi_get_settings(gi->context, settings);
+}
+
+void host_gi_get_report(const struct host_gi *gi, struct sdfgi_report *report)
+{
+    sdfgi_get_report(gi->context, report);
+}

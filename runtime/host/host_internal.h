@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: MIT
+ * What the host renderer's files share among themselves. */
+#ifndef HOST_INTERNAL_H
+#define HOST_INTERNAL_H
+
+#include <vulkan/vulkan.h>
+
+#include "host.h"
+#include "modules/gltf/gltf_scene.h"
+#include "shaders/host/host_shared.h"
+
+#define HOST_COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+/* ---- Device (host_device.c, host_resource.c) -------------------------------------------------------- */
+
+struct host_device {
+    VkInstance instance;
+    VkDebugUtilsMessengerEXT messenger;
+    VkPhysicalDevice physical;
+    VkDevice device;
+    uint32_t queue_family;
+    VkQueue queue;
+    VkCommandPool pool;
+    VkPhysicalDeviceMemoryProperties memory;
+    VkPhysicalDeviceLimits limits;
+    bool anisotropy;
+    VkFormat hdr_format;     /* RGBA32F where it can be blended, else RGBA16F */
+    uint64_t timestamp_mask; /* valid bits of the queue's timestamps; 0: none */
+    struct host_device_info info;
+    uint32_t validation_count;
+    char error[256];
+};
+
+/* Records the failure and returns false unless `result` is a success. */
+bool host_check(struct host_device *device, VkResult result, const char *what);
+/* Records a formatted failure and returns false. */
+bool host_fail(struct host_device *device, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* calloc that records its failure. */
+void *host_alloc(struct host_device *device, size_t count, size_t size);
+
+struct host_buffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    VkDeviceSize size;
+    void *mapped; /* host-visible buffers alone */
+};
+
+struct host_image {
+    VkImage image;
+    VkDeviceMemory memory;
+    VkImageView view;
+    VkFormat format;
+    uint32_t width, height, layers, mips;
+};
+
+struct host_image_desc {
+    VkFormat format;
+    uint32_t width, height, layers, mips; /* layers, mips: 0: 1 */
+    bool array_view;                      /* 2D_ARRAY even with one layer */
+    VkImageUsageFlags usage;
+};
+
+bool host_buffer_create(struct host_device *device, VkDeviceSize size, VkBufferUsageFlags usage,
+                        bool host_visible, struct host_buffer *out);
+void host_buffer_destroy(struct host_device *device, struct host_buffer *buffer);
+bool host_image_create(struct host_device *device, const struct host_image_desc *desc,
+                       struct host_image *out);
+void host_image_destroy(struct host_device *device, struct host_image *image);
+
+/* A command buffer that is submitted and waited for at once. */
+VkCommandBuffer host_commands_begin(struct host_device *device);
+bool host_commands_finish(struct host_device *device, VkCommandBuffer cmd);
+
+void host_image_barrier(VkCommandBuffer cmd, VkImage image, uint32_t first_mip, uint32_t mips,
+                        const VkImageLayout layouts[2], const VkPipelineStageFlags stages[2],
+                        const VkAccessFlags accesses[2]);
+
+/* Copies bytes into a device-local buffer. */
+bool host_buffer_upload(struct host_device *device, struct host_buffer *buffer, VkDeviceSize offset,
+                        const void *data, VkDeviceSize size);
+
+/* Reads a colour image that is in SHADER_READ_ONLY_OPTIMAL, and leaves it so; `data` holds whole texels. */
+bool host_image_download(struct host_device *device, const struct host_image *image, VkDeviceSize texel_bytes,
+                         void *data);
+
+/* ---- Scene (host_scene.c, host_material.c, host_texture.c, host_lights.c) --------------------------- */
+
+/* Byte offsets into the scene's geometry buffer. */
+struct host_primitive {
+    VkDeviceSize positions, normals, tangents, uv[2], colors, indices;
+    uint32_t vertex_count, index_count;
+    int32_t material;
+    bool has_colors;
+    float bounds_min[3], bounds_max[3];
+};
+
+struct host_instance {
+    uint32_t primitive;
+    double transform[16];
+    double center[3], radius; /* bounding sphere, world */
+    bool mirrored;
+};
+
+enum host_cull { HOST_CULL_NONE, HOST_CULL_BACK, HOST_CULL_FRONT, HOST_CULL_COUNT };
+
+struct host_material {
+    VkDescriptorSet set;
+    uint32_t flags; /* HOST_MATERIAL_* */
+    bool double_sided;
+    bool casts_shadow; /* false for blended materials of which less than half is there */
+    bool shadow_test;  /* casts, with holes */
+    int32_t gi_uv_set; /* of gi's textures */
+    struct sdfgi_material_desc gi;
+};
+
+/* A light as scene and view give it, world space. */
+struct host_scene_light {
+    enum host_light_type type;
+    double position[3];
+    double direction[3]; /* unit */
+    float intensity[3];
+    float range_m, inner_rad, outer_rad, angle_rad;
+    bool cube; /* needs six shadow layers */
+};
+
+enum { HOST_SAMPLER_COUNT = 36 };
+
+struct host_textures {
+    struct host_image *images; /* two per image of the file: linear, sRGB; made on demand */
+    uint32_t image_count;
+    struct host_image white;
+    VkSampler samplers[HOST_SAMPLER_COUNT];
+};
+
+struct host_scene {
+    struct host_device *device;
+    struct host_buffer geometry, material_data;
+    struct host_textures textures;
+    VkDescriptorSetLayout material_layout;
+    VkDescriptorPool material_pool;
+    struct host_primitive *primitives;
+    struct host_instance *instances;
+    struct host_material *materials;
+    struct host_scene_light *suns, *lights;
+    struct host_sky sky;
+    uint32_t primitive_count, instance_count, material_count, sun_count, light_count;
+    double center[3], radius; /* of everything drawn */
+};
+
+/* Makes image and sampler of a texture reference; `view` gets a white texel where there is none. */
+bool host_textures_get(struct host_device *device, struct host_textures *textures,
+                       const struct gltf_scene *gltf, const struct gltf_texture_ref *ref, bool srgb,
+                       VkDescriptorImageInfo *out);
+bool host_textures_init(struct host_device *device, struct host_textures *textures,
+                        const struct gltf_scene *gltf);
+void host_textures_finish(struct host_device *device, struct host_textures *textures);
+
+bool host_materials_init(struct host_scene *scene, const struct gltf_scene *gltf,
+                         const struct host_view *view);
+void host_materials_finish(struct host_scene *scene);
+bool host_lights_init(struct host_scene *scene, const struct gltf_scene *gltf, const struct host_view *view);
+
+/* ---- GI (host_gi.c): the only file that calls the library ------------------------------------------- */
+
+struct host_gi;
+
+struct host_gi *host_gi_create(struct host_device *device, const struct host_scene *scene,
+                               const struct host_renderer_desc *desc, uint32_t frames_in_flight);
+void host_gi_destroy(struct host_gi *gi);
+VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
+/* VK_NULL_HANDLE while lookups give nothing. */
+VkDescriptorSet host_gi_set(const struct host_gi *gi);
+bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame);
+bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings);
+void host_gi_get_settings(const struct host_gi *gi, struct sdfgi_settings *settings);
+void host_gi_get_report(const struct host_gi *gi, struct sdfgi_report *report);
+
+/* ---- Pipelines (host_passes.c, host_pipeline.c) ----------------------------------------------------- */
+
+enum host_forward { HOST_FORWARD_PLAIN, HOST_FORWARD_GI, HOST_FORWARD_COUNT };
+
+struct host_passes {
+    VkRenderPass prepass, forward, shadow, picture;
+};
+
+struct host_pipelines {
+    VkDescriptorSetLayout frame_layout, post_layout;
+    VkPipelineLayout
+        layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI]; plain also for all but forward */
+    VkPipelineLayout post_pipeline_layout;
+    VkPipeline prepass[HOST_CULL_COUNT];
+    VkPipeline opaque[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
+    VkPipeline blend[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
+    VkPipeline shadow_solid, shadow_tested;
+    VkPipeline sky, exposure, tonemap;
+};
+
+struct host_tone_push {
+    float exposure;
+    int32_t supersample;
+};
+
+bool host_passes_init(struct host_device *device, struct host_passes *passes);
+void host_passes_finish(struct host_device *device, struct host_passes *passes);
+/* A pass that fills one colour image and leaves it in `final_layout`. */
+bool host_pass_picture_create(struct host_device *device, VkFormat format, VkImageLayout final_layout,
+                              VkRenderPass *out);
+bool host_pipelines_init(struct host_device *device, const struct host_passes *passes,
+                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout,
+                         struct host_pipelines *pipelines);
+void host_pipelines_finish(struct host_device *device, struct host_pipelines *pipelines);
+bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
+                                  VkRenderPass pass, VkPipeline *out);
+
+/* ---- Shadow maps (host_shadow.c, host_shadow_sun.c) ------------------------------------------------- */
+
+enum { HOST_MAX_LAYERS = 192 }; /* 32 point lights */
+
+struct host_sun_cascade {
+    bool rendered;
+    double center[2];     /* along right and up of the light's space; whole texels */
+    double half_m;        /* half the side of the map */
+    double near_m, far_m; /* along forward, absolute */
+};
+
+struct host_shadows {
+    struct host_image sun_map, punctual_map;
+    VkImageView sun_views[HOST_SUN_LAYERS], punctual_views[HOST_MAX_LAYERS];
+    VkFramebuffer sun_targets[HOST_SUN_LAYERS], punctual_targets[HOST_MAX_LAYERS];
+    struct host_sun_cascade cascades[HOST_SUN_LAYERS];
+    uint32_t layer_count;               /* of punctual_map */
+    uint32_t cube_runs, single_runs;    /* how many lights of either kind have maps at a time */
+    int32_t run_light[HOST_MAX_LAYERS]; /* whose map a run of layers holds; -1: nobody's */
+    int32_t *light_layer;               /* per light of the scene: its first layer; -1: none */
+    bool *wanted;                       /* scratch, per light */
+    struct host_layer_data layers[HOST_MAX_LAYERS];
+    VkSampler sampler;
+};
+
+struct host_renderer;
+
+bool host_shadows_init(struct host_renderer *renderer);
+void host_shadows_finish(struct host_renderer *renderer);
+/* Chooses this frame's maps and records the missing ones. */
+void host_shadows_record(struct host_renderer *renderer, VkCommandBuffer cmd);
+void host_sun_record(struct host_renderer *renderer, VkCommandBuffer cmd);
+void host_sun_fill(const struct host_renderer *renderer, uint32_t sun, struct host_sun_data *out);
+
+/* ---- Frame (host_camera.c, host_draw.c, host_renderer.c, host_frame.c, host_read.c) ----------------- */
+
+/* A camera resolved for one frame. Everything in float is relative to `origin`. */
+struct host_camera_frame {
+    double origin[3], position[3];
+    double right[3], up[3], forward[3]; /* unit */
+    double tan_x, tan_y, near_m;
+    float clip[4][4]; /* rows */
+};
+
+void host_camera_resolve(const struct host_camera *camera, double aspect, struct host_camera_frame *out);
+
+enum { HOST_SLOTS = 2 };
+
+struct host_slot {
+    VkCommandBuffer cmd;
+    VkFence fence;
+    bool in_flight;
+    struct host_buffer frame, lights, layers;
+    VkDescriptorSet set;
+};
+
+struct host_targets {
+    struct host_image hdr, depth, normal, picture;
+    VkFramebuffer prepass, forward, picture_framebuffer;
+};
+
+struct host_renderer {
+    struct host_device *device;
+    struct host_scene *scene;
+    struct host_gi *gi;
+    uint32_t width, height, supersample; /* of the picture, in pixels */
+    uint32_t seed;
+    float gi_exposure;
+    struct host_passes passes;
+    struct host_pipelines pipelines;
+    struct host_shadows shadows;
+    struct host_targets targets;
+    struct host_slot slots[HOST_SLOTS];
+    VkDescriptorPool pool;
+    VkDescriptorSet post_set;
+    VkSampler nearest;
+    struct host_buffer exposure;
+    VkQueryPool queries; /* two per slot */
+    uint64_t frame_index, submit_count, gpu_ns;
+    bool has_frame;
+    struct host_camera_frame camera; /* of the last frame */
+    enum host_aov shown;
+    uint32_t *blend_order; /* scratch, one per instance */
+    double *blend_distance;
+};
+
+struct host_frustum {
+    double planes[5][4]; /* inside: dot(n, p) + d >= 0, absolute world positions relative to origin */
+    uint32_t count;
+    double origin[3];
+};
+
+bool host_frustum_sees(const struct host_frustum *frustum, const struct host_instance *instance);
+
+/* State between draws; positions are relative to `origin`. */
+struct host_draw_context {
+    VkCommandBuffer cmd;
+    VkPipelineLayout layout;
+    double origin[3];
+    VkPipeline bound;
+    int32_t material;
+};
+
+void host_draw_instance(struct host_renderer *renderer, struct host_draw_context *draw, uint32_t instance,
+                        VkPipeline pipeline);
+/* `clip`: 16 floats, rows. */
+void host_draw_shadow(struct host_renderer *renderer, VkCommandBuffer cmd, const struct host_frustum *frustum,
+                      const double origin[3], const float *clip);
+void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd);
+void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set);
+void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height);
+
+bool host_targets_init(struct host_renderer *renderer);
+void host_targets_finish(struct host_renderer *renderer);
+
+/* Waits for a slot and begins its command buffer; NULL on failure. */
+struct host_slot *host_slot_begin(struct host_renderer *renderer);
+bool host_slot_submit(struct host_renderer *renderer, struct host_slot *slot,
+                      const VkSemaphore semaphores[2]);
+bool host_slot_wait(struct host_renderer *renderer, struct host_slot *slot);
+bool host_slots_wait(struct host_renderer *renderer);
+/* Begins a frame and records all of it but the tone mapping; NULL on failure. */
+struct host_slot *host_renderer_frame_begin(struct host_renderer *renderer, const struct host_camera *camera,
+                                            enum host_aov shown);
+/* Records the scene as seen by the renderer's camera into the HDR target; GI is updated on request. */
+bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, bool update_gi);
+void host_exposure_record(struct host_renderer *renderer, VkCommandBuffer cmd);
+void host_tonemap_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
+                         float exposure);
+
+#endif

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: MIT
+ * Pipelines and their layouts. The forward shader exists twice: with and without the library's lookup. */
+#include "host_internal.h"
+
+#include "host_exposure_comp.h"
+#include "host_forward_frag.h"
+#include "host_forward_gi_frag.h"
+#include "host_prepass_frag.h"
+#include "host_screen_vert.h"
+#include "host_shadow_frag.h"
+#include "host_shadow_vert.h"
+#include "host_sky_frag.h"
+#include "host_surface_vert.h"
+#include "host_tonemap_frag.h"
+
+struct shader_code {
+    const uint32_t *words;
+    size_t bytes;
+};
+
+#define SHADER(name) ((struct shader_code){ name, sizeof(name) })
+
+static const VkCullModeFlags cull_modes[HOST_CULL_COUNT] = { [HOST_CULL_NONE] = VK_CULL_MODE_NONE,
+                                                             [HOST_CULL_BACK] = VK_CULL_MODE_BACK_BIT,
+                                                             [HOST_CULL_FRONT] = VK_CULL_MODE_FRONT_BIT };
+
+/* What tells one graphics pipeline from another. */
+struct pipeline_desc {
+    struct shader_code vertex, fragment; /* no fragment words: depth alone */
+    VkPipelineLayout layout;
+    VkRenderPass pass;
+    bool vertices; /* geometry, as opposed to one triangle over the screen */
+    bool has_color, has_depth, depth_write, blend;
+    VkCompareOp compare;
+    VkCullModeFlags cull;
+};
+
+static bool module_create(struct host_device *device, struct shader_code code, VkShaderModule *out)
+{
+    const VkShaderModuleCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = code.bytes,
+                                            .pCode = code.words };
+    return host_check(device, vkCreateShaderModule(device->device, &info, NULL, out), "creating a shader");
+}
+
+static VkPipelineVertexInputStateCreateInfo vertex_input(bool vertices)
+{
+    static const VkVertexInputBindingDescription bindings[] = {
+        { 0, 12, VK_VERTEX_INPUT_RATE_VERTEX }, { 1, 12, VK_VERTEX_INPUT_RATE_VERTEX },
+        { 2, 16, VK_VERTEX_INPUT_RATE_VERTEX }, { 3, 8, VK_VERTEX_INPUT_RATE_VERTEX },
+        { 4, 8, VK_VERTEX_INPUT_RATE_VERTEX },  { 5, 16, VK_VERTEX_INPUT_RATE_VERTEX },
+    };
+    static const VkVertexInputAttributeDescription attributes[] = {
+        { 0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0 },    { 1, 1, VK_FORMAT_R32G32B32_SFLOAT, 0 },
+        { 2, 2, VK_FORMAT_R32G32B32A32_SFLOAT, 0 }, { 3, 3, VK_FORMAT_R32G32_SFLOAT, 0 },
+        { 4, 4, VK_FORMAT_R32G32_SFLOAT, 0 },       { 5, 5, VK_FORMAT_R32G32B32A32_SFLOAT, 0 },
+    };
+    return (VkPipelineVertexInputStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = vertices ? HOST_COUNT(bindings) : 0,
+        .pVertexBindingDescriptions = bindings,
+        .vertexAttributeDescriptionCount = vertices ? HOST_COUNT(attributes) : 0,
+        .pVertexAttributeDescriptions = attributes,
+    };
+}
+
+static VkPipelineColorBlendAttachmentState blend_state(bool blend)
+{
+    return (VkPipelineColorBlendAttachmentState){
+        .blendEnable = blend,
+        .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+        .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+        .colorWriteMask = 0xf,
+    };
+}
+
+static bool pipeline_build(struct host_device *device, const struct pipeline_desc *desc,
+                           const VkPipelineShaderStageCreateInfo *stages, uint32_t stage_count,
+                           VkPipeline *out)
+{
+    static const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR };
+    const VkPipelineVertexInputStateCreateInfo input = vertex_input(desc->vertices);
+    const VkPipelineInputAssemblyStateCreateInfo assembly = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+    };
+    const VkPipelineViewportStateCreateInfo viewport = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1
+    };
+    const VkPipelineRasterizationStateCreateInfo raster = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .cullMode = desc->cull,
+        .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+        .lineWidth = 1.0f,
+    };
+    const VkPipelineMultisampleStateCreateInfo samples = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
+    };
+    const VkPipelineDepthStencilStateCreateInfo depth = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = desc->has_depth,
+        .depthWriteEnable = desc->depth_write,
+        .depthCompareOp = desc->compare,
+    };
+    const VkPipelineColorBlendAttachmentState attachment = blend_state(desc->blend);
+    const VkPipelineColorBlendStateCreateInfo blend = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = desc->has_color ? 1 : 0,
+        .pAttachments = &attachment,
+    };
+    const VkPipelineDynamicStateCreateInfo dynamic = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = HOST_COUNT(dynamic_states),
+        .pDynamicStates = dynamic_states,
+    };
+    const VkGraphicsPipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+        .stageCount = stage_count,
+        .pStages = stages,
+        .pVertexInputState = &input,
+        .pInputAssemblyState = &assembly,
+        .pViewportState = &viewport,
+        .pRasterizationState = &raster,
+        .pMultisampleState = &samples,
+        .pDepthStencilState = &depth,
+        .pColorBlendState = &blend,
+        .pDynamicState = &dynamic,
+        .layout = desc->layout,
+        .renderPass = desc->pass,
+    };
+    return host_check(device, vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, out),
+                      "creating a graphics pipeline");
+}
+
+static bool pipeline_create(struct host_device *device, const struct pipeline_desc *desc, VkPipeline *out)
+{
+    VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE;
+    bool ok = module_create(device, desc->vertex, &vertex) &&
+              (!desc->fragment.words || module_create(device, desc->fragment, &fragment));
+    if (ok) {
+        const VkPipelineShaderStageCreateInfo stages[] = {
+            { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+              .stage = VK_SHADER_STAGE_VERTEX_BIT,
+              .module = vertex,
+              .pName = "main" },
+            { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+              .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+              .module = fragment,
+              .pName = "main" },
+        };
+        ok = pipeline_build(device, desc, stages, fragment ? 2 : 1, out);
+    }
+    vkDestroyShaderModule(device->device, vertex, NULL);
+    vkDestroyShaderModule(device->device, fragment, NULL);
+    return ok;
+}
+
+/* ---- Layouts ---------------------------------------------------------------------------------------- */
+
+static bool set_layout_create(struct host_device *device, const VkDescriptorType *types, uint32_t count,
+                              VkShaderStageFlags stages, VkDescriptorSetLayout *out)
+{
+    VkDescriptorSetLayoutBinding bindings[8];
+    for (uint32_t i = 0; i < count; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding){
+            .binding = i, .descriptorType = types[i], .descriptorCount = 1, .stageFlags = stages
+        };
+    const VkDescriptorSetLayoutCreateInfo info = { .sType =
+                                                       VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                   .bindingCount = count,
+                                                   .pBindings = bindings };
+    return host_check(device, vkCreateDescriptorSetLayout(device->device, &info, NULL, out),
+                      "creating a descriptor set layout");
+}
+
+static bool pipeline_layout_create(struct host_device *device, const VkDescriptorSetLayout *sets,
+                                   uint32_t set_count, VkPushConstantRange push, VkPipelineLayout *out)
+{
+    const VkPipelineLayoutCreateInfo info = { .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                              .setLayoutCount = set_count,
+                                              .pSetLayouts = sets,
+                                              .pushConstantRangeCount = 1,
+                                              .pPushConstantRanges = &push };
+    return host_check(device, vkCreatePipelineLayout(device->device, &info, NULL, out),
+                      "creating a pipeline layout");
+}
+
+static bool layouts_create(struct host_device *device, VkDescriptorSetLayout material_layout,
+                           VkDescriptorSetLayout gi_layout, struct host_pipelines *p)
+{
+    static const VkDescriptorType frame_types[] = { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER };
+    static const VkDescriptorType post_types[] = { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                                   VK_DESCRIPTOR_TYPE_STORAGE_BUFFER };
+    const VkPushConstantRange draw = { VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                       sizeof(struct host_push) };
+    const VkPushConstantRange tone = { VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                       sizeof(struct host_tone_push) };
+    if (!set_layout_create(device, frame_types, HOST_COUNT(frame_types),
+                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->frame_layout) ||
+        !set_layout_create(device, post_types, HOST_COUNT(post_types),
+                           VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->post_layout))
+        return false;
+    const VkDescriptorSetLayout sets[] = { p->frame_layout, material_layout, gi_layout };
+    return pipeline_layout_create(device, sets, 2, draw, &p->layouts[HOST_FORWARD_PLAIN]) &&
+           pipeline_layout_create(device, sets, 3, draw, &p->layouts[HOST_FORWARD_GI]) &&
+           pipeline_layout_create(device, &p->post_layout, 1, tone, &p->post_pipeline_layout);
+}
+
+/* ---- The pipelines ---------------------------------------------------------------------------------- */
+
+static bool prepass_create(struct host_device *device, const struct host_passes *passes,
+                           struct host_pipelines *p)
+{
+    for (int cull = 0; cull < HOST_CULL_COUNT; cull++) {
+        const struct pipeline_desc desc = { .vertex = SHADER(host_surface_vert),
+                                            .fragment = SHADER(host_prepass_frag),
+                                            .layout = p->layouts[HOST_FORWARD_PLAIN],
+                                            .pass = passes->prepass,
+                                            .vertices = true,
+                                            .has_color = true,
+                                            .has_depth = true,
+                                            .depth_write = true,
+                                            .compare = VK_COMPARE_OP_GREATER,
+                                            .cull = cull_modes[cull] };
+        if (!pipeline_create(device, &desc, &p->prepass[cull]))
+            return false;
+    }
+    return true;
+}
+
+static bool forward_create(struct host_device *device, const struct host_passes *passes,
+                           enum host_forward kind, struct host_pipelines *p)
+{
+    for (int cull = 0; cull < HOST_CULL_COUNT; cull++) {
+        struct pipeline_desc desc = { .vertex = SHADER(host_surface_vert),
+                                      .fragment = kind == HOST_FORWARD_GI ? SHADER(host_forward_gi_frag)
+                                                                          : SHADER(host_forward_frag),
+                                      .layout = p->layouts[kind],
+                                      .pass = passes->forward,
+                                      .vertices = true,
+                                      .has_color = true,
+                                      .has_depth = true,
+                                      .compare = VK_COMPARE_OP_EQUAL,
+                                      .cull = cull_modes[cull] };
+        if (!pipeline_create(device, &desc, &p->opaque[kind][cull]))
+            return false;
+        desc.blend = true;
+        desc.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+        if (!pipeline_create(device, &desc, &p->blend[kind][cull]))
+            return false;
+    }
+    return true;
+}
+
+/* Nothing is culled: every face blocks light from both sides. */
+static bool shadow_create(struct host_device *device, const struct host_passes *passes,
+                          struct host_pipelines *p)
+{
+    struct pipeline_desc desc = { .vertex = SHADER(host_shadow_vert),
+                                  .layout = p->layouts[HOST_FORWARD_PLAIN],
+                                  .pass = passes->shadow,
+                                  .vertices = true,
+                                  .has_depth = true,
+                                  .depth_write = true,
+                                  .compare = VK_COMPARE_OP_GREATER };
+    if (!pipeline_create(device, &desc, &p->shadow_solid))
+        return false;
+    desc.fragment = SHADER(host_shadow_frag);
+    return pipeline_create(device, &desc, &p->shadow_tested);
+}
+
+static bool sky_create(struct host_device *device, const struct host_passes *passes, struct host_pipelines *p)
+{
+    const struct pipeline_desc desc = { .vertex = SHADER(host_screen_vert),
+                                        .fragment = SHADER(host_sky_frag),
+                                        .layout = p->layouts[HOST_FORWARD_PLAIN],
+                                        .pass = passes->forward,
+                                        .has_color = true,
+                                        .has_depth = true,
+                                        .compare = VK_COMPARE_OP_EQUAL };
+    return pipeline_create(device, &desc, &p->sky);
+}
+
+bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
+                                  VkRenderPass pass, VkPipeline *out)
+{
+    const struct pipeline_desc desc = { .vertex = SHADER(host_screen_vert),
+                                        .fragment = SHADER(host_tonemap_frag),
+                                        .layout = pipelines->post_pipeline_layout,
+                                        .pass = pass,
+                                        .has_color = true };
+    return pipeline_create(device, &desc, out);
+}
+
+static bool exposure_create(struct host_device *device, struct host_pipelines *p)
+{
+    VkShaderModule module = VK_NULL_HANDLE;
+    if (!module_create(device, SHADER(host_exposure_comp), &module))
+        return false;
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                   .module = module,
+                   .pName = "main" },
+        .layout = p->post_pipeline_layout,
+    };
+    const bool ok = host_check(
+        device, vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &p->exposure),
+        "creating a compute pipeline");
+    vkDestroyShaderModule(device->device, module, NULL);
+    return ok;
+}
+
+bool host_pipelines_init(struct host_device *device, const struct host_passes *passes,
+                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout,
+                         struct host_pipelines *pipelines)
+{
+    return layouts_create(device, material_layout, gi_layout, pipelines) &&
+           prepass_create(device, passes, pipelines) &&
+           forward_create(device, passes, HOST_FORWARD_PLAIN, pipelines) &&
+           forward_create(device, passes, HOST_FORWARD_GI, pipelines) &&
+           shadow_create(device, passes, pipelines) && sky_create(device, passes, pipelines) &&
+           exposure_create(device, pipelines) &&
+           host_pipeline_tonemap_create(device, pipelines, passes->picture, &pipelines->tonemap);
+}
+
+void host_pipelines_finish(struct host_device *device, struct host_pipelines *p)
+{
+    VkDevice vk = device->device;
+    for (int cull = 0; cull < HOST_CULL_COUNT; cull++) {
+        vkDestroyPipeline(vk, p->prepass[cull], NULL);
+        for (int kind = 0; kind < HOST_FORWARD_COUNT; kind++) {
+            vkDestroyPipeline(vk, p->opaque[kind][cull], NULL);
+            vkDestroyPipeline(vk, p->blend[kind][cull], NULL);
+        }
+    }
+    const VkPipeline rest[] = { p->shadow_solid, p->shadow_tested, p->sky, p->exposure, p->tonemap };
+    for (size_t i = 0; i < HOST_COUNT(rest); i++)
+        vkDestroyPipeline(vk, rest[i], NULL);
+    vkDestroyPipelineLayout(vk, p->layouts[HOST_FORWARD_PLAIN], NULL);
+    vkDestroyPipelineLayout(vk, p->layouts[HOST_FORWARD_GI], NULL);
+    vkDestroyPipelineLayout(vk, p->post_pipeline_layout, NULL);
+    vkDestroyDescriptorSetLayout(vk, p->frame_layout, NULL);
+    vkDestroyDescriptorSetLayout(vk, p->post_layout, NULL);
+}

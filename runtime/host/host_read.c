@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT
+ * Pictures and AOVs brought back to the CPU. */
+#include "host_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static float float_from_half(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    const float sign = half >> 15 ? -1.0f : 1.0f;
+    if (exponent == 0)
+        return sign * ldexpf((float)mantissa, -24);
+    if (exponent == 31)
+        return mantissa ? NAN : sign * INFINITY;
+    return sign * ldexpf((float)(mantissa + 1024), exponent - 25);
+}
+
+/* Draws the last frame again, showing something else; the light stays as it is. */
+static bool draw_again(struct host_renderer *renderer, enum host_aov shown)
+{
+    renderer->shown = shown;
+    struct host_slot *slot = host_slot_begin(renderer);
+    return slot && host_frame_record(renderer, slot, false) && host_slot_submit(renderer, slot, NULL) &&
+           host_slots_wait(renderer);
+}
+
+static bool ensure_shown(struct host_renderer *renderer, enum host_aov shown)
+{
+    if (!renderer->has_frame)
+        return host_fail(renderer->device, "nothing has been rendered yet");
+    return renderer->shown == shown ? host_slots_wait(renderer) : draw_again(renderer, shown);
+}
+
+/* All samples of the target as floats; NULL on failure. */
+static float *samples_read(struct host_renderer *renderer)
+{
+    const struct host_image *hdr = &renderer->targets.hdr;
+    const size_t count = (size_t)4 * hdr->width * hdr->height;
+    float *samples = host_alloc(renderer->device, count, sizeof(float));
+    const bool half = hdr->format == VK_FORMAT_R16G16B16A16_SFLOAT;
+    if (!samples || !host_image_download(renderer->device, hdr, half ? 8 : 16, samples)) {
+        free(samples);
+        return NULL;
+    }
+    /* Backwards, since the floats grow over the halves they come from. */
+    for (size_t i = count; half && i-- > 0;) {
+        uint16_t bits;
+        memcpy(&bits, (const uint8_t *)samples + 2 * i, sizeof(bits));
+        samples[i] = float_from_half(bits);
+    }
+    return samples;
+}
+
+static void box_filter(const struct host_renderer *renderer, const float *samples, float *rgba)
+{
+    const uint32_t s = renderer->supersample, stride = renderer->targets.hdr.width;
+    const float weight = 1.0f / (float)(s * s);
+    for (uint32_t y = 0; y < renderer->height; y++) {
+        for (uint32_t x = 0; x < 4 * renderer->width; x++) {
+            float sum = 0.0f;
+            for (uint32_t i = 0; i < s * s; i++) {
+                const size_t row = (size_t)y * s + i / s, column = (size_t)(x / 4) * s + i % s;
+                sum += samples[4 * (row * stride + column) + x % 4];
+            }
+            rgba[(size_t)4 * y * renderer->width + x] = sum * weight;
+        }
+    }
+}
+
+bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, float *rgba)
+{
+    if (!ensure_shown(renderer, aov))
+        return false;
+    float *samples = samples_read(renderer);
+    if (!samples)
+        return false;
+    box_filter(renderer, samples, rgba);
+    free(samples);
+    return true;
+}
+
+static bool picture_draw(struct host_renderer *renderer, float exposure)
+{
+    const struct host_targets *targets = &renderer->targets;
+    VkCommandBuffer cmd = host_commands_begin(renderer->device);
+    if (!cmd)
+        return false;
+    const VkRenderPassBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+        .renderPass = renderer->passes.picture,
+        .framebuffer = targets->picture_framebuffer,
+        .renderArea = { { 0, 0 }, { renderer->width, renderer->height } },
+    };
+    host_exposure_record(renderer, cmd);
+    vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    host_tonemap_record(renderer, cmd, renderer->pipelines.tonemap, exposure);
+    vkCmdEndRenderPass(cmd);
+    return host_commands_finish(renderer->device, cmd);
+}
+
+bool host_renderer_read_picture(struct host_renderer *renderer, const struct host_picture_desc *desc,
+                                uint8_t *rgba)
+{
+    if (!ensure_shown(renderer, HOST_AOV_COLOR) || !picture_draw(renderer, desc->exposure) ||
+        !host_image_download(renderer->device, &renderer->targets.picture, 4, rgba))
+        return false;
+    if (desc->exposure_out) {
+        *desc->exposure_out = desc->exposure;
+        if (!(desc->exposure > 0.0f))
+            memcpy(desc->exposure_out, renderer->exposure.mapped, sizeof(float));
+    }
+    return true;
+}

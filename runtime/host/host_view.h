@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ * What a VIEW.json says about a scene, as plain data: camera, sky, lights and how materials are read.
+ *
+ * Conventions: glTF coordinates (+Y up, metres), linear RGB, W/m^2, W/sr and W/(m^2 sr), angles in radians.
+ * The arrays belong to whoever filled the struct in and need only outlive the calls they are given to. */
+#ifndef HOST_VIEW_H
+#define HOST_VIEW_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct host_camera {
+    double position[3];
+    double look_at[3]; /* differs from position */
+    float up[3];       /* need not be unit or orthogonal; not parallel to the view direction */
+    float yfov_rad;    /* (0, pi) */
+};
+
+/* Radiance L(d) = lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|); all zero is no sky. */
+struct host_sky {
+    float zenith[3], horizon[3], ground[3];
+};
+
+struct host_sun {
+    bool enabled;
+    float direction[3];  /* the way the light travels; need not be unit length */
+    float irradiance[3]; /* on a plane that faces it, W/m^2 */
+    float angle_rad;     /* full angle of the disc: softens shadow edges only */
+};
+
+enum host_light_type { HOST_LIGHT_POINT, HOST_LIGHT_SPOT, HOST_LIGHT_DIRECTIONAL };
+
+struct host_light {
+    enum host_light_type type;
+    double position[3];         /* point, spot */
+    float direction[3];         /* spot, directional: the way the light travels */
+    float intensity[3];         /* W/sr, or W/m^2 for directional lights */
+    float range_m;              /* 0: unlimited */
+    float radius_m;             /* 0: a point; the renderer treats all lights as points */
+    float inner_rad, outer_rad; /* spot: half angles, 0 <= inner < outer <= pi/2 */
+};
+
+enum host_materials { HOST_MATERIALS_GLTF, HOST_MATERIALS_LAMBERT };
+
+struct host_view {
+    struct host_camera camera;
+    struct host_sky sky;
+    struct host_sun sun;
+    struct host_light *lights; /* in addition to those of the scene file */
+    uint32_t light_count;
+    float punctual_scale; /* factor on the lights of the scene file; 0 switches them off */
+    float emissive_scale; /* factor on all emission */
+    enum host_materials materials;
+    float default_albedo[3]; /* base colour of primitives that name no material in the file */
+};
+
+/* Camera 5 m in front of the origin, no sky, no sun, scales of 1, glTF materials, default albedo 0.8. */
+void host_view_default(struct host_view *view);
+
+#endif

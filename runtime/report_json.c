@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT
+ * The report as JSON. cJSON's add functions return NULL when memory runs out and accept NULL, so each
+ * function adds everything and answers once. */
+#include "report.h"
+
+#include "output_file.h"
+
+#include <base/text.h>
+#include <math.h>
+#include <stdlib.h>
+
+static cJSON *add_object(cJSON *parent, const char *name)
+{
+    return cJSON_AddObjectToObject(parent, name);
+}
+
+static cJSON *add_element(cJSON *array)
+{
+    cJSON *object = cJSON_CreateObject();
+    if (object && cJSON_AddItemToArray(array, object))
+        return object;
+    cJSON_Delete(object);
+    return NULL;
+}
+
+static bool add_number(cJSON *object, const char *name, double value)
+{
+    return cJSON_AddNumberToObject(object, name, value) != NULL;
+}
+
+static bool add_text(cJSON *object, const char *name, const char *text)
+{
+    return text ? cJSON_AddStringToObject(object, name, text) != NULL
+                : cJSON_AddNullToObject(object, name) != NULL;
+}
+
+static bool add_setting(cJSON *object, const struct sdfgi_settings *settings,
+                        const struct sdfgi_property_info *info)
+{
+    char text[32];
+    sdfgi_settings_format(settings, info->name, text, sizeof text);
+    if (info->type == SDFGI_PROPERTY_BOOL)
+        return cJSON_AddBoolToObject(object, info->name, sdfgi_settings_get(settings, info->name) != 0) !=
+               NULL;
+    if (info->type == SDFGI_PROPERTY_ENUM)
+        return add_text(object, info->name, text);
+    /* Through the text, so that 0.2f is written as 0.2. */
+    return add_number(object, info->name, strtod(text, NULL));
+}
+
+cJSON *report_settings_to_json(const struct sdfgi_settings *settings)
+{
+    cJSON *object = cJSON_CreateObject();
+    bool complete = object != NULL;
+    const struct sdfgi_property_info *info;
+    for (uint32_t i = 0; complete && (info = sdfgi_property_get_info(i)); i++)
+        complete = add_setting(object, settings, info);
+    if (complete)
+        return object;
+    cJSON_Delete(object);
+    return NULL;
+}
+
+static bool add_gi(cJSON *json, const struct report *report, const struct report_summary *summary)
+{
+    cJSON *gi = add_object(json, "gi");
+    cJSON *settings = report_settings_to_json(&summary->settings);
+    if (!settings || !cJSON_AddItemToObject(gi, "settings", settings)) {
+        cJSON_Delete(settings);
+        return false;
+    }
+    return cJSON_AddBoolToObject(gi, "enabled", summary->settings.enabled) &&
+           cJSON_AddBoolToObject(gi, "converged", report->last.converged) &&
+           add_number(gi, "converged_fraction", (double)report->last.converged_fraction);
+}
+
+static bool add_times(cJSON *parent, const char *name, struct report_samples *samples, const char *tail_name,
+                      double tail)
+{
+    cJSON *times = add_object(parent, name);
+    return add_number(times, "median", (double)report_quantile(samples, 0.5)) &&
+           add_number(times, tail_name, (double)report_quantile(samples, tail)) &&
+           add_number(times, "max", (double)report_quantile(samples, 1)) &&
+           add_number(times, "samples", (double)samples->count);
+}
+
+static bool add_passes(cJSON *json, struct report *report)
+{
+    cJSON *list = cJSON_AddArrayToObject(json, "passes");
+    bool complete = list != NULL;
+    for (uint32_t i = 0; complete && i < report->pass_count; i++) {
+        struct report_pass *pass = &report->passes[i];
+        cJSON *item = add_element(list);
+        complete = add_text(item, "name", pass->name) && add_number(item, "ran", (double)pass->ran) &&
+                   add_text(item, "reason", pass->reason) &&
+                   add_text(item, "skipped_because", pass->skipped_because) &&
+                   add_number(item, "dispatches", pass->dispatches) &&
+                   add_number(item, "work", (double)pass->work) &&
+                   add_text(item, "work_unit", pass->work_unit) &&
+                   add_times(item, "gpu_ns", &pass->gpu_ns, "p95", 0.95);
+    }
+    return complete;
+}
+
+static bool add_memory(cJSON *json, const struct sdfgi_memory *memory, uint64_t estimated_bytes)
+{
+    cJSON *object = add_object(json, "memory");
+    bool complete = add_number(object, "total_bytes", (double)memory->total_bytes) &&
+                    add_number(object, "estimated_bytes", (double)estimated_bytes);
+    cJSON *categories = add_object(object, "by_category");
+    for (int i = 0; complete && i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
+        complete = add_number(categories, sdfgi_memory_category_name((enum sdfgi_memory_category)i),
+                              (double)memory->bytes[i]);
+    return complete;
+}
+
+static const char *message_name(enum sdfgi_message message)
+{
+    static const char *const names[] = {
+#define MESSAGE_NAME(id, level, hint) #id,
+        SDFGI_MESSAGES(MESSAGE_NAME)
+#undef MESSAGE_NAME
+    };
+    return (unsigned)message < SDFGI_MESSAGE_COUNT ? names[message] : "UNKNOWN";
+}
+
+static bool add_health(cJSON *json, const struct sdfgi_report *last)
+{
+    cJSON *list = cJSON_AddArrayToObject(json, "health");
+    bool complete = list != NULL;
+    for (uint32_t i = 0; complete && i < last->health_count; i++) {
+        cJSON *item = add_element(list);
+        complete = add_text(item, "code", message_name(last->health[i].code)) &&
+                   add_number(item, "count", (double)last->health[i].count) &&
+                   add_text(item, "hint", last->health[i].hint);
+    }
+    return complete;
+}
+
+static bool add_run(cJSON *json, const struct report *report, const struct report_summary *summary)
+{
+    cJSON *device = add_object(json, "device");
+    const int size[2] = { (int)summary->width, (int)summary->height };
+    cJSON *size_json = cJSON_CreateIntArray(size, 2);
+    if (!size_json || !cJSON_AddItemToObject(json, "size", size_json)) {
+        cJSON_Delete(size_json);
+        return false;
+    }
+    return add_text(device, "name", summary->device_name) &&
+           add_text(device, "driver", summary->device_driver) &&
+           add_text(device, "type", summary->device_type) &&
+           add_number(json, "frames", (double)report->frames) &&
+           add_number(json, "seconds", summary->seconds) &&
+           add_number(json, "exposure", summary->exposure) &&
+           add_number(json, "validation_messages", summary->validation_messages);
+}
+
+cJSON *report_to_json(struct report *report, const struct report_summary *summary)
+{
+    cJSON *json = cJSON_CreateObject();
+    if (!report->out_of_memory && json && add_run(json, report, summary) && add_gi(json, report, summary) &&
+        add_passes(json, report) && add_times(json, "frame_gpu_ns", &report->frame_gpu_ns, "p99", 0.99) &&
+        add_number(json, "library_commands", report->last.command_count) &&
+        add_memory(json, &report->last.memory, summary->estimated_bytes) && add_health(json, &report->last))
+        return json;
+    cJSON_Delete(json);
+    return NULL;
+}
+
+bool report_write(struct report *report, const struct report_summary *summary, const char *path, char *error,
+                  size_t error_size)
+{
+    cJSON *json = report_to_json(report, summary);
+    char *text = json ? cJSON_Print(json) : NULL;
+    cJSON_Delete(json);
+    if (!text)
+        return base_text_error(error, error_size, "%s: out of memory", path);
+    struct output_file file;
+    const bool begun = output_file_begin(&file, path, error, error_size);
+    if (begun)
+        fprintf(file.stream, "%s\n", text);
+    cJSON_free(text);
+    return begun && output_file_commit(&file, error, error_size);
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#include "run_options.h"
+
+#include "view_file.h"
+
+#include <modules/gltf/gltf_scene.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_BYTES = 64 };
+
+static const char name_prefix[] = "sdfgi_";
+
+bool run_apply_settings(const char *command, const struct cli_list *pairs, struct sdfgi_settings *settings)
+{
+    for (uint32_t i = 0; i < pairs->count; i++) {
+        char name[NAME_BYTES], full_name[NAME_BYTES + sizeof name_prefix], error[CLI_ERROR_BYTES];
+        const char *value = cli_split_pair(pairs->values[i], name, sizeof name);
+        if (!value) {
+            cli_error("%s: --set is \"%s\", expected key=value", command, pairs->values[i]);
+            return false;
+        }
+        const bool prefixed = strncmp(name, name_prefix, strlen(name_prefix)) == 0;
+        snprintf(full_name, sizeof full_name, "%s%s", prefixed ? "" : name_prefix, name);
+        if (!sdfgi_settings_set(settings, full_name, value, error, sizeof error)) {
+            cli_error("%s: --set: %s", command, error);
+            return false;
+        }
+    }
+    return true;
+}
+
+struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view)
+{
+    char error[CLI_ERROR_BYTES];
+    *view = (struct host_view){ 0 };
+    if (view_path && !view_file_load(view_path, view, error, sizeof error)) {
+        cli_error("%s", error);
+        return NULL;
+    }
+    struct gltf_scene *scene = gltf_scene_load(scene_path, error, sizeof error);
+    if (!scene) {
+        view_file_finish(view);
+        cli_error("%s", error);
+        return NULL;
+    }
+    if (scene->warning)
+        fprintf(stderr, "sdfgi: warning: %s\n", scene->warning);
+    if (!view_path)
+        view_file_from_scene(scene, view);
+    return scene;
+}
+
+void run_log(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
+{
+    (void)user;
+    (void)id;
+    if (level != SDFGI_LOG_INFO)
+        fprintf(stderr, "sdfgi: %s%s\n", level == SDFGI_LOG_WARNING ? "warning: " : "", text);
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ * What sub-commands that load a scene and render it have in common. */
+#ifndef RUNTIME_RUN_OPTIONS_H
+#define RUNTIME_RUN_OPTIONS_H
+
+#include "cli.h"
+#include "host/host_view.h"
+
+#include <sdfgi/sdfgi.h>
+#include <stdbool.h>
+
+struct gltf_scene;
+
+/* Applies "key=value" pairs to `settings`; on failure prints one line and returns false. The prefix "sdfgi_"
+ * may be left out. */
+bool run_apply_settings(const char *command, const struct cli_list *pairs, struct sdfgi_settings *settings);
+
+/* Loads the scene, and the view from `view_path` or, if that is NULL, from the scene. Prints warnings, and
+ * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
+struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);
+
+/* Prints messages of the library to stderr: errors and warnings, one line each. `user` is not used. */
+void run_log(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text);
+
+#endif

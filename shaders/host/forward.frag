@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT
+ * Forward shading: direct light with shadows, emission, and the library's indirect light where HOST_GI is
+ * set. Outgoing radiance of a Lambertian surface is albedo * E / pi for an irradiance E. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "host/host_frame.glsl"
+#include "host/host_material.glsl"
+#include "host/host_brdf.glsl"
+#include "host/host_shadow.glsl"
+#ifdef HOST_GI
+#define SDFGI_SET HOST_SET_GI
+#include "sdfgi.glsl"
+#endif
+
+layout(push_constant) uniform host_push_block
+{
+    host_push push;
+};
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec4 in_uv;
+layout(location = 4) in vec4 in_color;
+layout(location = 0) out vec4 out_radiance;
+
+/* The triangle's own normal, towards the viewer: shadows follow the geometry, whatever the shading normal
+ * says. */
+vec3 face_normal()
+{
+    const vec3 n = cross(dFdx(in_position), dFdy(in_position));
+    const vec3 view = frame.camera_position.xyz - in_position;
+    const float n2 = dot(n, n);
+    return n2 > 0.0 ? n * (sign(dot(n, view)) * inversesqrt(n2)) : normalize(view);
+}
+
+vec3 light_from_suns(brdf_surface s, vec3 face)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < int(frame.counts.x); i++) {
+        const vec3 light = frame.suns[i].direction.xyz;
+        if (dot(s.normal, light) > 0.0 && dot(face, light) > 0.0)
+            sum += frame.suns[i].irradiance.rgb * brdf_evaluate(s, light) * shadow_sun(i, in_position, face);
+    }
+    return sum;
+}
+
+/* Inverse square law, the spot's cone, and a hard end at the range, where one is given. */
+float light_attenuation(host_light_data light, vec3 direction, float distance2)
+{
+    if (distance2 * light.position.w * light.position.w > 1.0)
+        return 0.0;
+    const float cone = clamp((dot(light.direction.xyz, -direction) - light.cone.x) * light.cone.y, 0.0, 1.0);
+    return cone * cone / distance2;
+}
+
+vec3 light_from_punctual(brdf_surface s, vec3 face)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < int(frame.counts.y); i++) {
+        const host_light_data light = lights[i];
+        const vec3 to_light = light.position.xyz - in_position;
+        const float distance2 = max(dot(to_light, to_light), 1e-8);
+        const vec3 direction = to_light * inversesqrt(distance2);
+        const float attenuation = light_attenuation(light, direction, distance2);
+        if (attenuation > 0.0 && dot(s.normal, direction) > 0.0 && dot(face, direction) > 0.0)
+            sum += light.intensity.rgb * attenuation * brdf_evaluate(s, direction) *
+                   shadow_punctual(light, -to_light, face);
+    }
+    return sum;
+}
+
+brdf_surface surface_here(vec4 base_color, bool front_facing)
+{
+    const vec2 metallic_roughness = material_surface(in_uv);
+    const bool lambert = material_has(HOST_MATERIAL_LAMBERT);
+    const float metallic = lambert ? 0.0 : metallic_roughness.x;
+    brdf_surface s;
+    s.normal = material_normal(in_uv, in_normal, in_tangent, front_facing);
+    s.view = normalize(frame.camera_position.xyz - in_position);
+    s.diffuse = base_color.rgb * (1.0 - metallic);
+    s.f0 = mix(vec3(0.04), base_color.rgb, metallic);
+    /* Smoother lobes than this cannot be hit by point lights and overflow the HDR target. */
+    s.alpha = max(metallic_roughness.y * metallic_roughness.y, 1e-3);
+    s.specular = lambert ? 0.0 : 1.0;
+    return s;
+}
+
+vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 emission)
+{
+    const vec3 indirect = irradiance * s.diffuse * brdf_diffuse_transmission(s) / BRDF_PI;
+    switch (frame.counts.z) {
+    case HOST_SHOW_DIRECT:
+        return direct;
+    case HOST_SHOW_DIFFUSE_INDIRECT:
+        return indirect;
+    case HOST_SHOW_IRRADIANCE:
+        return irradiance;
+    case HOST_SHOW_REFLECTION:
+        return vec3(0.0);
+    case HOST_SHOW_NORMAL:
+        return s.normal;
+    case HOST_SHOW_DEPTH:
+        return vec3(dot(frame.camera_forward.xyz, in_position - frame.camera_position.xyz));
+    case HOST_SHOW_ALBEDO:
+        return s.diffuse;
+    default:
+        return direct + indirect + emission;
+    }
+}
+
+void main()
+{
+    const bool front_facing = gl_FrontFacing == (push.params.x > 0.0);
+    const vec4 base_color = material_base_color(in_uv, in_color);
+    brdf_surface s = surface_here(base_color, front_facing);
+    const vec3 face = face_normal();
+
+    vec3 direct = vec3(0.0), irradiance = vec3(0.0);
+    vec3 emission = front_facing || material.emissive.w > 0.0 ? material_emission(in_uv) : vec3(0.0);
+    const uint shown = frame.counts.z;
+    if (material_has(HOST_MATERIAL_UNLIT)) {
+        emission = base_color.rgb;
+        s.diffuse = vec3(0.0);
+    } else {
+        if (shown <= HOST_SHOW_DIRECT)
+            direct = light_from_suns(s, face) + light_from_punctual(s, face);
+#ifdef HOST_GI
+        if (shown == HOST_SHOW_COLOR || shown == HOST_SHOW_DIFFUSE_INDIRECT || shown == HOST_SHOW_IRRADIANCE)
+            irradiance = sdfgi_irradiance(in_position, s.normal, frame.camera_position.xyz - in_position);
+#endif
+    }
+    const float alpha = material_has(HOST_MATERIAL_BLEND) ? base_color.a : 1.0;
+    out_radiance = vec4(shown_value(s, direct, irradiance, emission), alpha);
+}

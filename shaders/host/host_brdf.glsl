@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ * Metallic-roughness reflection: GGX with the height-correlated Smith term, Schlick's Fresnel, Lambert below.
+ */
+
+const float BRDF_PI = 3.14159265359;
+
+struct brdf_surface {
+    vec3 normal;
+    vec3 view;    /* towards the viewer */
+    vec3 diffuse; /* albedo of the Lambertian part */
+    vec3 f0;
+    float alpha;    /* roughness squared */
+    float specular; /* 0 for pure Lambert, else 1 */
+};
+
+float brdf_fresnel_weight(float cosine)
+{
+    const float x = clamp(1.0 - cosine, 0.0, 1.0);
+    return x * x * x * x * x;
+}
+
+/* BRDF times the cosine, for unit directions with the light above the surface. */
+vec3 brdf_evaluate(brdf_surface s, vec3 light)
+{
+    const float n_l = clamp(dot(s.normal, light), 0.0, 1.0);
+    if (s.specular == 0.0)
+        return s.diffuse * (n_l / BRDF_PI);
+    const vec3 h = normalize(s.view + light);
+    const float n_v = max(abs(dot(s.normal, s.view)), 1e-4);
+    const float n_h = clamp(dot(s.normal, h), 0.0, 1.0);
+    const float a2 = s.alpha * s.alpha;
+    /* 1 - n_h^2 as a cross product: the difference loses all digits near the peak of smooth surfaces. */
+    const vec3 nxh = cross(s.normal, h);
+    const float d = dot(nxh, nxh) + n_h * n_h * a2;
+    const float distribution = a2 / (BRDF_PI * d * d);
+    const float smith = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
+    const vec3 fresnel = mix(s.f0, vec3(1.0), brdf_fresnel_weight(dot(s.view, h)));
+    return (s.diffuse * (1.0 - fresnel) / BRDF_PI + fresnel * (distribution * 0.5 / max(smith, 1e-9))) * n_l;
+}
+
+/* Share of diffusely arriving light that passes the interface: 1 - F averaged over a cosine-weighted
+ * hemisphere of light directions. The power is fitted to the integral of (1 - v.h)^5, evaluated numerically:
+ * within 0.0006. */
+vec3 brdf_diffuse_transmission(brdf_surface s)
+{
+    if (s.specular == 0.0)
+        return vec3(1.0);
+    const float x = 1.0 - clamp(dot(s.normal, s.view), 0.0, 1.0);
+    return 1.0 - mix(s.f0, vec3(1.0), 0.028 * x * x * sqrt(x));
+}

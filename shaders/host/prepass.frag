@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ * Depth and normal prepass: holes of masked materials, and the normal for screen-space consumers. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "host/host_material.glsl"
+
+layout(push_constant) uniform host_push_block
+{
+    host_push push;
+};
+
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec4 in_uv;
+layout(location = 4) in vec4 in_color;
+layout(location = 0) out vec4 out_normal;
+
+void main()
+{
+    if (material_has(HOST_MATERIAL_MASK) && material_base_color(in_uv, in_color).a < material.surface.w)
+        discard;
+    const bool front_facing = gl_FrontFacing == (push.params.x > 0.0);
+    out_normal = vec4(material_normal(in_uv, in_normal, in_tangent, front_facing), 1.0);
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT
+ * Background where no surface was drawn. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "host/host_frame.glsl"
+
+layout(location = 0) in vec2 in_ndc;
+layout(location = 0) out vec4 out_radiance;
+
+void main()
+{
+    /* Clip space has y down. */
+    const vec3 direction = normalize(frame.camera_forward.xyz + in_ndc.x * frame.camera_right.xyz -
+                                     in_ndc.y * frame.camera_up.xyz);
+    out_radiance = vec4(sky_radiance(direction), 1.0);
+}
