@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT
+ * The screen pass and the lookup in a shader of the host's give the same irradiance. */
+#include "gi_test.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { WIDTH = 19, HEIGHT = 13, PIXELS = WIDTH * HEIGHT };
+
+/* Depth and normals of a level floor seen from straight above by an orthographic camera whose near plane is 1
+ * m above it: the way to the eye is the normal, as in gi_test_irradiance. Clip x, y in [-1, 1] are metres
+ * over 3, depth 0 to 1 is y from -1.9 to -2.1. */
+struct screen {
+    float depth[PIXELS];
+    float normals[PIXELS][4];
+    struct gi_test_point points[PIXELS];
+};
+
+static void screen_fill(struct screen *s)
+{
+    for (int i = 0; i < PIXELS; i++) {
+        const float u = ((float)(i % WIDTH) + 0.5f) / WIDTH * 2 - 1,
+                    v = ((float)(i / WIDTH) + 0.5f) / HEIGHT * 2 - 1;
+        /* Inside the wall rounding alone decides what is seen. */
+        const bool hole = i % 17 == 3 || fabsf(3 * u + 2) < 0.6f;
+        s->depth[i] = hole ? 1.0f : 0.5f;
+        s->points[i] = (struct gi_test_point){ { 3 * u, -1.9f - 0.2f * s->depth[i], 3 * v }, { 0, 1, 0 } };
+        for (int k = 0; k < 3; k++)
+            s->normals[i][k] = s->points[i].normal[k];
+        s->normals[i][3] = 0;
+    }
+}
+
+struct gather {
+    struct gi_test *t;
+    struct sdfgi_gather_desc desc;
+    enum sdfgi_result result;
+};
+
+static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct gather *g = user;
+    g->result = sdfgi_gather(g->t->gi, cmd, &g->desc);
+}
+
+static struct gpu_test_image image_create(struct gi_test *t, VkFormat format, uint32_t texel_size,
+                                          const void *texels)
+{
+    const bool output = format == VK_FORMAT_R16G16B16A16_SFLOAT;
+    const struct gpu_test_image_desc desc = {
+        .format = format,
+        .extent = { WIDTH, HEIGHT, 1 },
+        .usage = output ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT,
+        .layout = output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        .texels = texels,
+        .texel_size = texel_size,
+    };
+    return gpu_test_image_create(&t->gpu, &desc);
+}
+
+static float float_from_half(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    const float value =
+        exponent ? ldexpf((float)(mantissa + 1024), exponent - 25) : ldexpf((float)mantissa, -24);
+    return half & 0x8000 ? -value : value;
+}
+
+static void open_scene(struct gi_test *t)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 32;
+    settings.min_cell_size_m = 0.4f;
+    gi_test_open(t, &settings);
+    struct test_mesh box = test_mesh_box((double[]){ 0, -3, 0 }, (double[]){ 4, 1, 4 }, test_rotation_none);
+    struct test_mesh wall =
+        test_mesh_box((double[]){ -2, 0, 0 }, (double[]){ 0.4, 2, 3 }, test_rotation_none);
+    gi_test_add(t, &box, gi_test_material(t, (float[]){ 0.7f, 0.7f, 0.7f }, (float[]){ 0, 0, 0 }));
+    gi_test_add(t, &wall, gi_test_material(t, (float[]){ 0.8f, 0.2f, 0.1f }, (float[]){ 1, 0.5f, 0.2f }));
+    test_mesh_destroy(&box);
+    test_mesh_destroy(&wall);
+    REQUIRE_CMP((int)sdfgi_set_sky(t->gi, &(struct sdfgi_sky){ { 1, 1, 2 }, { 1, 1, 1 }, { 0, 0, 0 } }), ==,
+                (int)SDFGI_OK);
+    gi_test_update(t, 8);
+}
+
+static void gather_equals_the_lookup_in_a_shader(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    static struct screen s;
+    static float expected[PIXELS][3];
+    static uint16_t found[PIXELS][4];
+    open_scene(&t);
+    screen_fill(&s);
+    gi_test_irradiance(&t, s.points, PIXELS, expected);
+    struct gpu_test_image depth = image_create(&t, VK_FORMAT_R32_SFLOAT, 4, s.depth);
+    struct gpu_test_image normal = image_create(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, s.normals);
+    struct gpu_test_image output = image_create(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    struct gather g = { .t = &t,
+                        .desc = { .depth = depth.view,
+                                  .normal = normal.view,
+                                  .output = output.view,
+                                  .width = WIDTH,
+                                  .height = HEIGHT,
+                                  .background_depth = 1,
+                                  /* clip (x, y, depth) to (3 x, -1.9 - 0.2 depth, 3 y), column-major */
+                                  .inverse_view_projection = { 3, 0, 0, 0, 0, 0, 3, 0, 0, -2, 0, 0, 0, -1, 0,
+                                                               1 } } };
+    gpu_test_submit(&t.gpu, gather_record, &g);
+    REQUIRE_CMP((int)g.result, ==, (int)SDFGI_OK);
+    gpu_test_image_read(&t.gpu, output.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        output.extent, 8, found);
+    double worst = 0, brightest = 0;
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double want = s.depth[i] < 1 ? (double)expected[i][k] : 0,
+                         have = (double)float_from_half(found[i][k]);
+            worst = fmax(worst, fabs(have - want) / fmax(want, 0.1));
+            brightest = fmax(brightest, want);
+        }
+    printf("gather: off by %.2e at most, brightest %.3f\n", worst, brightest);
+    gpu_test_image_destroy(&t.gpu, &depth);
+    gpu_test_image_destroy(&t.gpu, &normal);
+    gpu_test_image_destroy(&t.gpu, &output);
+    gi_test_close(&t);
+    REQUIRE_CMP(brightest, >, 1.0);
+    /* Half floats have 11 bits, and a driver may truncate: 2^-10. */
+    REQUIRE_CMP(worst, <=, 0x1p-10);
+}
+
+static void gather_refuses_bad_descriptors(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    open_scene(&t);
+    t.gpu.messages.quiet = true;
+    struct gpu_test_image depth = image_create(&t, VK_FORMAT_R32_SFLOAT, 4, NULL);
+    struct gpu_test_image output = image_create(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    const struct sdfgi_gather_desc good = { .depth = depth.view,
+                                            .normal = depth.view,
+                                            .output = output.view,
+                                            .width = WIDTH,
+                                            .height = HEIGHT,
+                                            .inverse_view_projection = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
+                                                                         0, 0, 0, 1 } };
+    struct sdfgi_gather_desc bad[6];
+    for (int i = 0; i < 6; i++)
+        bad[i] = good;
+    bad[0].depth = VK_NULL_HANDLE;
+    bad[1].normal = VK_NULL_HANDLE;
+    bad[2].output = VK_NULL_HANDLE;
+    bad[3].width = 0;
+    bad[4].height = 0;
+    bad[5].inverse_view_projection[7] = NAN;
+    for (int i = 0; i < 6; i++) {
+        t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT] = 0;
+        REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &bad[i]), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
+        REQUIRE_CMP(t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT], ==, 1u);
+    }
+    gpu_test_image_destroy(&t.gpu, &depth);
+    gpu_test_image_destroy(&t.gpu, &output);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gather_equals_the_lookup_in_a_shader),
+        cmocka_unit_test(gather_refuses_bad_descriptors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

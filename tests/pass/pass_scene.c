@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+#include "pass_scene.h"
+
+#include "oracle_edt.h"
+#include "require.h"
+
+#include <math.h>
+#include <vulkan/vulkan.h>
+
+#include <stdlib.h>
+
+static sdfgi_material grey_material(struct gi_test *t)
+{
+    const float grey[3] = { 0.5f, 0.5f, 0.5f }, black[3] = { 0, 0, 0 };
+    return gi_test_material(t, grey, black);
+}
+
+void pass_scene_open(struct gi_test *t, const struct sdfgi_settings *settings, const struct test_mesh *mesh)
+{
+    gi_test_open(t, settings);
+    if (mesh)
+        gi_test_add(t, mesh, grey_material(t));
+    gi_test_update(t, 1);
+}
+
+sdfgi_instance pass_scene_place(struct gi_test *t, sdfgi_mesh mesh, const float basis[static 9],
+                                const double translation[static 3])
+{
+    struct sdfgi_instance_desc desc = { .mesh = mesh, .material = grey_material(t) };
+    memcpy(desc.transform.basis, basis, sizeof desc.transform.basis);
+    memcpy(desc.transform.translation, translation, sizeof desc.transform.translation);
+    sdfgi_instance handle;
+    REQUIRE_CMP(sdfgi_instance_create(t->gi, &desc, &handle), ==, SDFGI_OK);
+    return handle;
+}
+
+void pass_scene_stand(struct gi_test *t, const double position[static 3])
+{
+    memcpy(t->frame.camera_position, position, sizeof t->frame.camera_position);
+    memcpy(t->frame.origin, position, sizeof t->frame.origin);
+}
+
+struct pass_volumes pass_volumes_read(struct gi_test *t)
+{
+    struct pass_volumes v;
+    v.bits = gi_test_read(t, RESOURCE_BITS, &v.bits_size);
+    v.albedo = gi_test_read(t, RESOURCE_ALBEDO, &v.albedo_size);
+    v.normals = gi_test_read(t, RESOURCE_NORMALS, &v.normals_size);
+    v.distance = gi_test_read(t, RESOURCE_DISTANCE, &v.distance_size);
+    return v;
+}
+
+void pass_volumes_destroy(struct pass_volumes *volumes)
+{
+    free(volumes->bits);
+    free(volumes->albedo);
+    free(volumes->normals);
+    free(volumes->distance);
+}
+
+void pass_volumes_require_equal(const struct pass_volumes *a, const struct pass_volumes *b)
+{
+    REQUIRE_CMP(a->bits_size, ==, b->bits_size);
+    REQUIRE_BYTES(a->bits, b->bits, a->bits_size);
+    REQUIRE_BYTES(a->albedo, b->albedo, a->albedo_size);
+    REQUIRE_BYTES(a->normals, b->normals, a->normals_size);
+    REQUIRE_BYTES(a->distance, b->distance, a->distance_size);
+}
+
+struct pass_distance_error pass_distance_error(struct gi_test *t, double y_scale)
+{
+    struct oracle_bits bits = gi_test_bits(t, 0);
+    float *exact = oracle_edt_cells(&bits, y_scale), *stored = gi_test_distances(t, 0);
+    const uint32_t n = t->gi->settings.resolution, cells = n * n * n;
+    struct pass_distance_error e = { -INFINITY, 0, INFINITY };
+    for (uint32_t i = 0; i < cells; i++) {
+        const double over = (double)stored[i] - (double)exact[i];
+        e.max = fmax(e.max, over);
+        e.min = fmin(e.min, over);
+        e.mean += over / cells;
+    }
+    free(exact);
+    free(stored);
+    oracle_bits_destroy(&bits);
+    return e;
+}
+
+uint64_t pass_health_count(const struct gi_test *t, enum sdfgi_message code)
+{
+    static struct sdfgi_report report;
+    sdfgi_get_report(t->gi, &report);
+    for (uint32_t i = 0; i < report.health_count; i++)
+        if (report.health[i].code == code)
+            return report.health[i].count;
+    return 0;
+}
+
+bool pass_raster_is_available(void)
+{
+    static struct gpu_test gpu;
+    gpu_test_open(&gpu, sdfgi_get_requirements);
+    struct sdfgi_requirements requirements;
+    REQUIRE_CMP(
+        sdfgi_get_requirements(gpu.instance, gpu.physical_device, vkGetInstanceProcAddr, &requirements), ==,
+        SDFGI_OK);
+    gpu_test_close(&gpu);
+    return requirements.features.fragmentStoresAndAtomics;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT
+ * Distances where there is nothing, everything, or one sub-voxel in a corner (HARD_CASES rows 5 to 8). */
+#include "gpu_test_compute.h"
+#include "oracle_edt.h"
+#include "pass_scene.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include "gi_lookup.comp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Irradiance of the host's lookup at points of a grid through the whole cascade, in six directions. */
+enum { LOOKUPS_A_SIDE = 6, LOOKUPS = 6 * LOOKUPS_A_SIDE * LOOKUPS_A_SIDE * LOOKUPS_A_SIDE };
+
+struct lookup {
+    float position[4], normal[4], irradiance[4];
+};
+
+static void fill_lookups(struct lookup lookups[LOOKUPS])
+{
+    for (uint32_t i = 0; i < LOOKUPS; i++) {
+        const uint32_t at = i / 6, side = i % 6;
+        const uint32_t index[3] = { at % LOOKUPS_A_SIDE, at / LOOKUPS_A_SIDE % LOOKUPS_A_SIDE,
+                                    at / LOOKUPS_A_SIDE / LOOKUPS_A_SIDE };
+        lookups[i] = (struct lookup){ 0 };
+        for (int k = 0; k < 3; k++)
+            lookups[i].position[k] = -6.37f + 2.51f * (float)index[k];
+        lookups[i].normal[side / 2] = side & 1 ? -1 : 1;
+    }
+}
+
+static const struct lookup *look_up(struct gi_test *t)
+{
+    static struct lookup lookups[LOOKUPS];
+    fill_lookups(lookups);
+    const struct gpu_test_shader shader = { gi_lookup_comp, sizeof gi_lookup_comp,
+                                            sdfgi_get_descriptor_set_layout(t->gi),
+                                            sdfgi_get_descriptor_set(t->gi) };
+    gpu_test_compute(&t->gpu, &shader, LOOKUPS, lookups, sizeof lookups);
+    return lookups;
+}
+
+static void hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = gi_test_settings();
+    const struct sdfgi_sky sky = { { 0.25f, 0.5f, 2 }, { 0.25f, 0.5f, 2 }, { 0.25f, 0.5f, 2 } };
+    gi_test_open(&t, &settings);
+    REQUIRE_CMP(sdfgi_set_sky(t.gi, &sky), ==, SDFGI_OK);
+    gi_test_converge(&t, 64);
+    float *distances = gi_test_distances(&t, 0);
+    for (uint32_t i = 0; i < 64 * 64 * 64; i++)
+        REQUIRE_CMP(distances[i], ==, 65535.0f / 512.0f);
+    free(distances);
+    const struct lookup *lookups = look_up(&t);
+    for (uint32_t i = 0; i < LOOKUPS; i++)
+        for (int k = 0; k < 3; k++) /* half floats keep 11 bits */
+            REQUIRE_NEAR(lookups[i].irradiance[k] / (3.14159265f * sky.zenith[k]), 1, 1e-3);
+    gi_test_close(&t);
+}
+
+/* Planes through the middle of every layer of sub-voxels. */
+static struct test_mesh all_layers(double half_extent, uint32_t layers)
+{
+    struct test_mesh mesh = { 0 };
+    for (uint32_t i = 0; i < layers; i++) {
+        const double center[3] = { half_extent * ((2.0 * i + 1) / layers - 1), 0, 0 };
+        const double edge_u[3] = { 0, 1.1 * half_extent, 0 }, edge_v[3] = { 0, 0, 1.1 * half_extent };
+        struct test_mesh plane = test_mesh_plane(center, edge_u, edge_v, 1);
+        test_mesh_append(&mesh, &plane);
+        test_mesh_destroy(&plane);
+    }
+    return mesh;
+}
+
+static void hard_06_a_full_cascade_has_no_light_cells(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 32;
+    struct test_mesh mesh = all_layers(4, 128);
+    pass_scene_open(&t, &settings, &mesh);
+    gi_test_update(&t, 5);
+    struct oracle_bits bits = gi_test_bits(&t, 0);
+    REQUIRE_CMP(oracle_bits_count(&bits), ==, 128 * 128 * 128);
+    oracle_bits_destroy(&bits);
+    const struct pass_distance_error e = pass_distance_error(&t, 1);
+    REQUIRE_CMP(e.max, <=, 0);
+    REQUIRE_CMP(e.min, >=, -32 / 32768.0 - 1e-6);
+    uint32_t *counters = gi_test_read(&t, RESOURCE_COUNTERS, NULL);
+    REQUIRE_CMP(counters[SDFGI_COUNTER_LIGHT_CELLS], ==, 0);
+    free(counters);
+    uint32_t *groups = gi_test_read(&t, RESOURCE_INDIRECT, NULL);
+    REQUIRE_CMP(groups[0], ==, 0);
+    free(groups);
+    const struct lookup *lookups = look_up(&t);
+    for (uint32_t i = 0; i < LOOKUPS; i++)
+        for (int k = 0; k < 3; k++)
+            REQUIRE_NEAR(lookups[i].irradiance[k], 0, 0);
+    gi_test_close(&t);
+    test_mesh_destroy(&mesh);
+}
+
+/* A square that crosses the centre of one sub-voxel and touches no other. */
+static struct test_mesh speck_in_corner(int corner, double half_extent, double sub)
+{
+    double center[3];
+    for (int k = 0; k < 3; k++)
+        center[k] = (corner >> k & 1 ? 1 : -1) * (half_extent - sub / 2);
+    return test_mesh_plane(center, (double[]){ 0.4 * sub, 0, 0 }, (double[]){ 0, 0.4 * sub, 0 }, 1);
+}
+
+static void require_corner_distances(uint32_t resolution, int corner)
+{
+    static struct gi_test t;
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = resolution;
+    const double cell = (double)settings.min_cell_size_m, half = resolution / 2 * cell;
+    struct test_mesh mesh = speck_in_corner(corner, half, cell / 4);
+    pass_scene_open(&t, &settings, &mesh);
+    struct oracle_bits bits = gi_test_bits(&t, 0);
+    REQUIRE_CMP(oracle_bits_count(&bits), ==, 1);
+    oracle_bits_destroy(&bits);
+    const double step = resolution / 32768.0, farthest = sqrt(3) * (resolution - 0.625);
+    float *distances = gi_test_distances(&t, 0);
+    const uint32_t n = resolution, x = corner & 1 ? 0 : n - 1, y = corner & 2 ? 0 : n - 1,
+                   z = corner & 4 ? 0 : n - 1;
+    REQUIRE_NEAR((double)distances[x + n * (y + n * z)], farthest - step / 2, step / 2 + 1.1e-6 * farthest);
+    free(distances);
+    /* Everywhere rounded down, by no more than a step and the millionth that makes up for rounding in floats: never a
+     * cell further from the surface than it is. */
+    const struct pass_distance_error e = pass_distance_error(&t, 1);
+    REQUIRE_CMP(e.max, <=, 1e-5);
+    REQUIRE_CMP(e.min, >=, -step - 1.1e-6 * farthest);
+    test_mesh_destroy(&mesh);
+    gi_test_close(&t);
+}
+
+static void hard_07_a_bit_in_any_corner_is_measured_from_the_far_one(void **state)
+{
+    (void)state;
+    for (int corner = 0; corner < 8; corner++)
+        require_corner_distances(64, corner);
+    require_corner_distances(32, 5);
+    require_corner_distances(128, 2);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky),
+        cmocka_unit_test(hard_06_a_full_cascade_has_no_light_cells),
+        cmocka_unit_test(hard_07_a_bit_in_any_corner_is_measured_from_the_far_one),
+    };
+    return cmocka_run_group_tests_name("distance_limits", tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT
+ * Where cascades are placed, without a device (HARD_CASES rows 22, 24 and 25). */
+#include "internal.h"
+#include "require.h"
+#include "test_memory.h"
+
+static struct cascade cascade_of(double cell_size)
+{
+    return (struct cascade){ .cell_size = { cell_size, cell_size, cell_size } };
+}
+
+static bool place(struct cascade *cascade, double x, double y, double z)
+{
+    return cascade_place(cascade, 64, (double[]){ x, y, z });
+}
+
+static void division_rounds_down_on_both_sides_of_zero(void **state)
+{
+    (void)state;
+    static const int64_t rows[][4] = { { 7, 8, 0, 7 },     { 8, 8, 1, 0 },     { -1, 8, -1, 7 },
+                                       { -8, 8, -1, 0 },   { -9, 8, -2, 7 },   { 0, 8, 0, 0 },
+                                       { -17, 17, -1, 0 }, { -18, 17, -2, 16 } };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        REQUIRE_CMP(floor_div(rows[i][0], rows[i][1]), ==, rows[i][2]);
+        REQUIRE_CMP(floor_mod(rows[i][0], rows[i][1]), ==, rows[i][3]);
+    }
+    for (int64_t a = -INT64_C(5000000000); a < INT64_C(5000000000); a += 77777777) {
+        REQUIRE_CMP(floor_div(a, 17) * 17 + floor_mod(a, 17), ==, a);
+        REQUIRE_TRUE(floor_mod(a, 17) >= 0 && floor_mod(a, 17) < 17);
+    }
+}
+
+/* Origin on a probe, camera's cell within half a spacing of the middle after a move and one spacing without.
+ */
+static void require_centred(const struct cascade *c, const double camera[3], bool moved)
+{
+    for (int i = 0; i < 3; i++) {
+        REQUIRE_CMP(floor_mod(c->origin[i], SDFGI_PROBE_SPACING), ==, 0);
+        const double off = camera[i] / c->cell_size[i] - (double)(c->origin[i] + 32);
+        REQUIRE_TRUE(off >= -8 && off < 9);
+        if (moved)
+            REQUIRE_TRUE(off >= -4 && off < 5);
+    }
+}
+
+static void a_new_cascade_is_centred_anywhere(void **state)
+{
+    (void)state;
+    struct test_random random = { 22 };
+    for (int i = 0; i < 2000; i++) {
+        struct cascade c = cascade_of(i & 1 ? 0.2 : 0.25);
+        c.cell_size[1] *= i & 2 ? 0.75 : 1;
+        const double reach = i < 1000 ? 100 : 1e9;
+        double camera[3];
+        for (int k = 0; k < 3; k++)
+            camera[k] = test_random_real(&random, -reach, reach);
+        REQUIRE_TRUE(cascade_place(&c, 64, camera));
+        require_centred(&c, camera, true);
+        REQUIRE_TRUE(!cascade_place(&c, 64, camera));
+    }
+}
+
+static void a_walk_stays_centred(void **state)
+{
+    (void)state;
+    struct test_random random = { 21 };
+    struct cascade c = cascade_of(0.25);
+    double camera[3] = { -3, 0.01, 5 };
+    place(&c, camera[0], camera[1], camera[2]);
+    uint32_t moves = 0;
+    for (int frame = 0; frame < 5000; frame++) {
+        for (int k = 0; k < 3; k++)
+            camera[k] += test_random_real(&random, -0.5, 0.5);
+        moves += cascade_place(&c, 64, camera);
+        require_centred(&c, camera, false);
+    }
+    REQUIRE_CMP(moves, >, 10);
+    REQUIRE_CMP(moves, <, 2500);
+}
+
+/* One that moves along one axis leaves the others where hysteresis holds them. */
+static void axes_move_alone(void **state)
+{
+    (void)state;
+    struct cascade c = cascade_of(1);
+    place(&c, 0.5, 0.5, 0.5);
+    const int64_t y = c.origin[1], z = c.origin[2];
+    REQUIRE_TRUE(place(&c, 20.5, 5.5, -5.5));
+    REQUIRE_CMP(c.origin[1], ==, y);
+    REQUIRE_CMP(c.origin[2], ==, z);
+    REQUIRE_CMP(c.origin[0], ==, 24 - 32);
+}
+
+/* Anywhere, by next to nothing or by almost a probe spacing. */
+static void hard_24_an_oscillating_camera_moves_a_cascade_once(void **state)
+{
+    (void)state;
+    static const double reaches[3] = { 1e-4, 0.5, 3.9 };
+    for (int boundary = -40; boundary <= 40; boundary++)
+        for (int width = 0; width < 3; width++) {
+            struct cascade c = cascade_of(0.25);
+            const double low = 0.25 * (boundary - reaches[width]), high = 0.25 * (boundary + reaches[width]);
+            place(&c, low, high, low);
+            uint32_t moves = 0;
+            for (int frame = 0; frame < 1000; frame++)
+                moves += frame & 1 ? place(&c, low, high, low) : place(&c, high, low, high);
+            REQUIRE_CMP(moves, <=, 1);
+        }
+}
+
+static void hard_22_a_jump_of_any_length_is_one_move(void **state)
+{
+    (void)state;
+    for (double cells = 1e3; cells <= 1e15; cells *= 10) {
+        struct cascade c = cascade_of(0.25);
+        place(&c, 0, 0, 0);
+        const double camera[3] = { 0.25 * cells, -0.25 * cells, 0.125 };
+        REQUIRE_TRUE(cascade_place(&c, 64, camera));
+        require_centred(&c, camera, false);
+        REQUIRE_TRUE(!cascade_place(&c, 64, camera));
+        REQUIRE_TRUE(place(&c, 0, 0, 0));
+        REQUIRE_CMP(c.origin[0], ==, -32);
+    }
+}
+
+static void cameras_beyond_all_cells_do_not_overflow(void **state)
+{
+    (void)state;
+    struct cascade c = cascade_of(0.01);
+    REQUIRE_TRUE(place(&c, 1e300, -1e300, 1e18));
+    for (int i = 0; i < 3; i++)
+        REQUIRE_CMP(floor_mod(c.origin[i], SDFGI_PROBE_SPACING), ==, 0);
+    REQUIRE_TRUE(!place(&c, 1e300, -1e300, 1e18));
+    REQUIRE_TRUE(place(&c, 0, 0, 0));
+    require_centred(&c, (double[]){ 0, 0, 0 }, true);
+}
+
+static void hard_25_negative_places_mirror_positive_ones_by_whole_spacings(void **state)
+{
+    (void)state;
+    for (int step = -131072; step <= 131072; step += 8192) {
+        struct cascade here = cascade_of(0.25), there = cascade_of(0.25);
+        place(&here, 0.3, 1.1, -0.7);
+        place(&there, 0.3 + 0.25 * 8 * step, 1.1 - 0.25 * 8 * step, -0.7 + 0.25 * 8 * step);
+        REQUIRE_CMP(there.origin[0], ==, here.origin[0] + 8 * step);
+        REQUIRE_CMP(there.origin[1], ==, here.origin[1] - 8 * step);
+        REQUIRE_CMP(there.origin[2], ==, here.origin[2] + 8 * step);
+    }
+}
+
+static void boxes_cover_their_cells(void **state)
+{
+    (void)state;
+    struct cascade c = cascade_of(0.25);
+    c.cell_size[1] = 0.125;
+    place(&c, 0, 0, 0);
+    const struct box box = cascade_box(&c, 64);
+    REQUIRE_CMP(box.min[0], ==, -8.0);
+    REQUIRE_CMP(box.max[0], ==, 8.0);
+    REQUIRE_CMP(box.min[1], ==, -4.0);
+    REQUIRE_CMP(box.max[1], ==, 4.0);
+    const struct box touching = { { 8, -1, -1 }, { 9, 1, 1 } }, apart = { { -1, 4.001, -1 }, { 1, 5, 1 } };
+    REQUIRE_TRUE(box_overlaps(&box, &touching) && box_overlaps(&touching, &box));
+    REQUIRE_TRUE(!box_overlaps(&box, &apart) && !box_overlaps(&apart, &box));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(division_rounds_down_on_both_sides_of_zero),
+        cmocka_unit_test(a_new_cascade_is_centred_anywhere),
+        cmocka_unit_test(a_walk_stays_centred),
+        cmocka_unit_test(axes_move_alone),
+        cmocka_unit_test(hard_24_an_oscillating_camera_moves_a_cascade_once),
+        cmocka_unit_test(hard_22_a_jump_of_any_length_is_one_move),
+        cmocka_unit_test(cameras_beyond_all_cells_do_not_overflow),
+        cmocka_unit_test(hard_25_negative_places_mirror_positive_ones_by_whole_spacings),
+        cmocka_unit_test(boxes_cover_their_cells),
+    };
+    return cmocka_run_group_tests_name("placement", tests, NULL, NULL);
+}

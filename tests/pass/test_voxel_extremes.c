@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ * Triangles far larger and far smaller than the volume, and both voxelisers (HARD_CASES rows 13, 15 and 16).
+ */
+#include "pass_scene.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- Tiny triangles */
+
+/* Sub-voxel that a point in metres lies in. */
+static void sub_voxel_of(const struct oracle_grid *grid, const double point[static 3], uint32_t sub[static 3])
+{
+    for (int i = 0; i < 3; i++)
+        sub[i] = (uint32_t)((point[i] - grid->origin[i]) / grid->step[i]);
+}
+
+/* Triangles of 1e-4 sub-voxels, each alone in a sub-voxel, tilted in every way. */
+static struct test_mesh specks(uint32_t count, double points[][3])
+{
+    struct test_random random = { 16 };
+    struct test_mesh mesh = { 0 };
+    const double sub = 0.0625, size = 1e-4 * sub;
+    for (uint32_t i = 0; i < count; i++) {
+        double u[3], v[3];
+        test_random_direction(&random, u);
+        test_random_direction(&random, v);
+        const double lattice[3] = { i % 8 - 4.0, i / 8 % 8 - 4.0, i / 64 - 4.0 };
+        float corners[9];
+        for (int k = 0; k < 3; k++) {
+            points[i][k] = (16 * lattice[k] + 8 + test_random_real(&random, 0.05, 0.95)) * sub;
+            corners[k] = (float)points[i][k];
+            corners[3 + k] = (float)(points[i][k] + size * u[k]);
+            corners[6 + k] = (float)(points[i][k] + size * v[k]);
+        }
+        const struct test_mesh one = { corners, (uint32_t[]){ 0, 1, 2 }, 3, 1 };
+        test_mesh_append(&mesh, &one);
+    }
+    return mesh;
+}
+
+enum { SPECKS = 512 };
+
+/* Set, or set one sub-voxel further along one axis: a triangle that crosses no centre sets the sub-voxel of
+ * its column at which its plane crosses, so that meshes of many tiny triangles stay one sub-voxel thick. */
+static bool is_set_near(const struct oracle_bits *bits, const uint32_t sub[static 3])
+{
+    bool set = oracle_bits_get(bits, sub[0], sub[1], sub[2]);
+    for (int i = 0; i < 6; i++) {
+        uint32_t at[3] = { sub[0], sub[1], sub[2] };
+        at[i / 2] += i & 1 ? 1u : UINT32_MAX;
+        set = set || oracle_bits_get(bits, at[0], at[1], at[2]);
+    }
+    return set;
+}
+
+static void hard_16_every_tiny_triangle_sets_one_bit(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static double points[SPECKS][3];
+    struct test_mesh mesh = specks(SPECKS, points);
+    const struct sdfgi_settings settings = gi_test_settings();
+    pass_scene_open(&t, &settings, &mesh);
+    struct oracle_bits bits = gi_test_bits(&t, 0);
+    const struct oracle_grid grid = gi_test_grid(&t, 0);
+    REQUIRE_CMP(oracle_bits_count(&bits), ==, SPECKS);
+    for (uint32_t i = 0; i < SPECKS; i++) {
+        uint32_t sub[3];
+        sub_voxel_of(&grid, points[i], sub);
+        REQUIRE_TRUE(is_set_near(&bits, sub));
+    }
+    oracle_bits_destroy(&bits);
+    test_mesh_destroy(&mesh);
+    gi_test_close(&t);
+}
+
+/* ---- Huge triangles */
+
+/* Every column along y must be set within a sub-voxel of the plane y = height + slope x, and nowhere else. */
+static void require_plane(const struct oracle_bits *bits, const struct oracle_grid *grid, double height,
+                          double slope)
+{
+    const int64_t size = bits->size;
+    int64_t worst = 0;
+    for (int64_t i = 0; i < size * size; i++) {
+        const double x = grid->origin[0] + ((double)(i % size) + 0.5) * grid->step[0];
+        const int64_t wanted = (int64_t)floor((height + slope * x - grid->origin[1]) / grid->step[1]);
+        int64_t nearest = size;
+        for (int64_t y = 0; y < size; y++) {
+            if (!oracle_bits_get(bits, (uint32_t)(i % size), (uint32_t)y, (uint32_t)(i / size)))
+                continue;
+            nearest = llabs(y - wanted) < nearest ? llabs(y - wanted) : nearest;
+            worst = llabs(y - wanted) > worst ? llabs(y - wanted) : worst;
+        }
+        REQUIRE_CMP(nearest, <=, 1);
+    }
+    printf("plane of slope %g: %lld sub-voxels off at most\n", slope, (long long)worst);
+    REQUIRE_CMP(worst, <=, 1);
+}
+
+static void hard_15_huge_triangles_stay_within_a_sub_voxel(void **state)
+{
+    (void)state;
+    static const double slopes[2] = { 0, 0.3 }, height = 0.53;
+    for (int i = 0; i < 2; i++) {
+        static struct gi_test t;
+        const double edge_u[3] = { 0, 0, 1e6 }, edge_v[3] = { 1e6, slopes[i] * 1e6, 0 };
+        struct test_mesh mesh = test_mesh_plane((double[]){ 0, height, 0 }, edge_u, edge_v, 1);
+        const struct sdfgi_settings settings = gi_test_settings();
+        pass_scene_open(&t, &settings, &mesh);
+        struct oracle_bits bits = gi_test_bits(&t, 0);
+        const struct oracle_grid grid = gi_test_grid(&t, 0);
+        require_plane(&bits, &grid, height, slopes[i]);
+        oracle_bits_destroy(&bits);
+        test_mesh_destroy(&mesh);
+        gi_test_close(&t);
+    }
+}
+
+/* ---- The raster voxeliser */
+
+static void require_voxelizers_agree(struct test_mesh mesh, enum sdfgi_y_scale y_scale)
+{
+    static struct gi_test t;
+    struct pass_volumes volumes[2];
+    for (int i = 0; i < 2; i++) {
+        struct sdfgi_settings settings = gi_test_settings();
+        settings.voxelizer = (enum sdfgi_voxelizer)i;
+        settings.y_scale = y_scale;
+        pass_scene_open(&t, &settings, &mesh);
+        volumes[i] = pass_volumes_read(&t);
+        gi_test_close(&t);
+    }
+    pass_volumes_require_equal(&volumes[1], &volumes[0]);
+    pass_volumes_destroy(&volumes[0]);
+    pass_volumes_destroy(&volumes[1]);
+    test_mesh_destroy(&mesh);
+}
+
+static void raster_voxelizer_gives_the_same_volumes(void **state)
+{
+    (void)state;
+    if (!pass_raster_is_available())
+        skip();
+    static double points[SPECKS][3];
+    const double center[3] = { 0.11, -0.07, 0.19 }, low[3] = { -9, -9, -9 }, high[3] = { 9, 9, 9 };
+    double turned[9];
+    test_rotation((double[]){ 1, 2, 3 }, 0.7, turned);
+    require_voxelizers_agree(test_mesh_sphere(center, 3.6, 4), SDFGI_Y_SCALE_100);
+    require_voxelizers_agree(test_mesh_box(center, (double[]){ 2.3, 2.6, 9.1 }, turned), SDFGI_Y_SCALE_75);
+    require_voxelizers_agree(test_mesh_bumpy_sphere(center, 1.5, 0.2, 5), SDFGI_Y_SCALE_100);
+    require_voxelizers_agree(test_mesh_soup(7, 600, low, high, 1.5), SDFGI_Y_SCALE_100);
+    require_voxelizers_agree(specks(SPECKS, points), SDFGI_Y_SCALE_100);
+}
+
+/* Needles: the widened triangle that the raster voxeliser draws has its corners far out. */
+static void raster_voxelizer_gives_the_same_needles(void **state)
+{
+    (void)state;
+    if (!pass_raster_is_available())
+        skip();
+    struct test_random random = { 5 };
+    struct test_mesh mesh = { 0 };
+    for (int i = 0; i < 300; i++) {
+        float corners[9];
+        const double width = pow(10, test_random_real(&random, -6, -1));
+        for (int k = 0; k < 3; k++) {
+            corners[k] = (float)test_random_real(&random, -7, 7);
+            corners[3 + k] = (float)test_random_real(&random, -7, 7);
+            const double along = (double)(corners[k] + corners[3 + k]) / 2;
+            corners[6 + k] = (float)(along + test_random_real(&random, -width, width));
+        }
+        const struct test_mesh one = { corners, (uint32_t[]){ 0, 1, 2 }, 3, 1 };
+        test_mesh_append(&mesh, &one);
+    }
+    require_voxelizers_agree(mesh, SDFGI_Y_SCALE_100);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_15_huge_triangles_stay_within_a_sub_voxel),
+        cmocka_unit_test(hard_16_every_tiny_triangle_sets_one_bit),
+        cmocka_unit_test(raster_voxelizer_gives_the_same_volumes),
+        cmocka_unit_test(raster_voxelizer_gives_the_same_needles),
+    };
+    return cmocka_run_group_tests_name("voxel_extremes", tests, NULL, NULL);
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT
+ * Follows rays through cascade 0: per ray the origin in cells and the range, the direction, and what was hit:
+ * the distance, whether at all, whether the steps ran out, and the face. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../../shaders/include/sdfgi_trace.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, set = 1, binding = 0) buffer rays_buffer { vec4 rays[]; };
+layout(push_constant) uniform push { uint count; };
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= count)
+        return;
+    const trace_hit hit = trace_ray(0u, 0u, rays[3u * i].xyz, rays[3u * i + 1u].xyz, rays[3u * i].w);
+    rays[3u * i + 2u] = vec4(hit.distance, hit.hit ? 1.0 : 0.0, hit.capped ? 1.0 : 0.0, float(hit.axis));
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ * Scenes whose light is known exactly: what their tests share. */
+#ifndef TEST_LIGHT_SCENE_H
+#define TEST_LIGHT_SCENE_H
+
+#include "gi_test.h"
+
+#define PI 3.14159265358979323846
+
+/* Settles in few frames: a ring of 500 samples in 4 frames. */
+struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
+
+sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo, float emission);
+/* An axis-aligned box between two corners. */
+sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], const double high[static 3],
+                             const float albedo[static 3], float emission);
+/* White lights. `direction` is the way the light travels. */
+struct sdfgi_light_desc light_sun(float x, float y, float z, float irradiance);
+struct sdfgi_light_desc light_point(double x, double y, double z, float intensity);
+sdfgi_light light_create(struct gi_test *t, const struct sdfgi_light_desc *desc);
+void light_set_uniform_sky(struct gi_test *t, float radiance);
+
+/* Irradiance at one point; all channels finite and not negative. */
+void light_at(struct gi_test *t, struct gi_test_point point, float irradiance[static 3]);
+/* The same where light is white: the green channel. */
+double light_white_at(struct gi_test *t, struct gi_test_point point);
+
+/* How often the last report counted a health code. */
+uint64_t light_health(struct gi_test *t, enum sdfgi_message code);
+
+#endif

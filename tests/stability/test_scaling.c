@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT
+ * What settings and units do to light, and nothing else: energy, exposure, feedback, colour. */
+#include "light_scene.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const struct gi_test_point points[] = {
+    { { 0.2f, -1.95f, 0.1f }, { 0, 1, 0 } },
+    { { -1.6f, 0.3f, 0.4f }, { 1, 0, 0 } },
+    { { 0.5f, 0.2f, -0.7f }, { 0, -1, 0 } },
+};
+enum { POINT_COUNT = sizeof points / sizeof points[0] };
+
+/* A floor and two coloured walls under sun and sky, all lights and the exposure scaled. */
+static void light_corner(struct sdfgi_settings settings, float lights, float exposure,
+                         float found[static POINT_COUNT][3])
+{
+    struct gi_test t;
+    gi_test_open(&t, &settings);
+    t.frame.exposure = exposure;
+    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    light_add_box(&t, (double[]){ -3, -2, -3 }, (double[]){ -2, 3, 3 }, (float[]){ 0.8f, 0.1f, 0.05f }, 0);
+    light_add_box(&t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f },
+                  0.5f * lights);
+    const struct sdfgi_light_desc sun = light_sun(-0.6f, -0.8f, 0, 10 * lights);
+    light_create(&t, &sun);
+    const struct sdfgi_light_desc lamp = light_point(0.3, 1, 0.5, 5 * lights);
+    light_create(&t, &lamp);
+    light_set_uniform_sky(&t, 0.3f * lights);
+    gi_test_converge(&t, 120);
+    gi_test_irradiance(&t, points, POINT_COUNT, found);
+    /* With too many surfaces for the list, which of them go unlit would be a matter of order. */
+    REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, 0ul);
+    gi_test_close(&t);
+}
+
+static double worst_ratio(float a[static POINT_COUNT][3], float b[static POINT_COUNT][3], double factor)
+{
+    double worst = 0;
+    for (int i = 0; i < POINT_COUNT; i++)
+        for (int k = 0; k < 3; k++)
+            worst = fmax(worst, fabs((double)a[i][k] / ((double)b[i][k] * factor) - 1));
+    return worst;
+}
+
+static void energy_scales_lookups_and_nothing_else(void **state)
+{
+    (void)state;
+    struct sdfgi_settings settings = light_settings(32, 0.4f);
+    float one[POINT_COUNT][3], three[POINT_COUNT][3];
+    light_corner(settings, 1, 1, one);
+    settings.energy = 3;
+    light_corner(settings, 1, 1, three);
+    REQUIRE_CMP(worst_ratio(three, one, 3), <=, 1e-5);
+}
+
+/* With exposure the stored values are the same, so the light is (HARD_CASES row 31). */
+static void hard_31_lights_of_any_scale_give_the_same_picture(void **state)
+{
+    (void)state;
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    float one[POINT_COUNT][3], scaled[POINT_COUNT][3];
+    light_corner(settings, 1, 1, one);
+    static const int powers[] = { -20, 10, 30 };
+    for (int i = 0; i < 3; i++) {
+        light_corner(settings, ldexpf(1, powers[i]), ldexpf(1, -powers[i]), scaled);
+        const double worst = worst_ratio(scaled, one, ldexp(1, powers[i]));
+        printf("lights times 2^%d: off by %.2e at most\n", powers[i], worst);
+        REQUIRE_CMP(worst, <=, 4e-3);
+    }
+}
+
+/* Exposure is a hint about range: light does not depend on it. */
+static void exposure_does_not_change_light(void **state)
+{
+    (void)state;
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    float one[POINT_COUNT][3], other[POINT_COUNT][3];
+    light_corner(settings, 1, 1, one);
+    static const int powers[] = { -5, 3, 8 };
+    for (int i = 0; i < 3; i++) {
+        light_corner(settings, 1, ldexpf(1, powers[i]), other);
+        const double worst = worst_ratio(other, one, 1);
+        printf("exposure 2^%d: off by %.2e at most\n", powers[i], worst);
+        REQUIRE_CMP(worst, <=, 5e-3);
+    }
+}
+
+static void a_red_wall_reddens_what_faces_it(void **state)
+{
+    (void)state;
+    float found[POINT_COUNT][3];
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    light_corner(settings, 1, 1, found);
+    struct gi_test t;
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    light_add_box(&t, (double[]){ -3, -2, -3 }, (double[]){ -2, 3, 3 }, (float[]){ 0.8f, 0.1f, 0.05f }, 0);
+    const struct sdfgi_light_desc sun = light_sun(-0.8f, -0.6f, 0, 10);
+    light_create(&t, &sun);
+    gi_test_converge(&t, 80);
+    float near[3], far[3];
+    light_at(&t, (struct gi_test_point){ { -1.2f, 0, 0 }, { -1, 0, 0 } }, near);
+    light_at(&t, (struct gi_test_point){ { 1.5f, 0, 0 }, { 0, -1, 0 } }, far);
+    printf("before the red wall (%.3f %.3f %.3f), over the white floor (%.3f %.3f %.3f)\n", (double)near[0],
+           (double)near[1], (double)near[2], (double)far[0], (double)far[1], (double)far[2]);
+    /* The wall reflects eight times as much red as green; the floor in view below it dilutes that. */
+    REQUIRE_CMP(near[0], >, 2 * near[1]);
+    REQUIRE_CMP(near[1], >, near[2]);
+    REQUIRE_CMP(far[0], >, far[1]);
+    REQUIRE_CMP(far[0] / far[1], <, near[0] / near[1]);
+    gi_test_close(&t);
+}
+
+/* Without feedback a second surface throws back direct light alone; with it, strictly more. */
+static void feedback_adds_bounces(void **state)
+{
+    (void)state;
+    struct sdfgi_settings settings = light_settings(32, 0.4f);
+    float with[POINT_COUNT][3], without[POINT_COUNT][3];
+    light_corner(settings, 1, 1, with);
+    settings.bounce_feedback = 0;
+    light_corner(settings, 1, 1, without);
+    for (int i = 0; i < POINT_COUNT; i++)
+        for (int k = 0; k < 3; k++)
+            REQUIRE_CMP(with[i][k], >, without[i][k]);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energy_scales_lookups_and_nothing_else),
+        cmocka_unit_test(hard_31_lights_of_any_scale_give_the_same_picture),
+        cmocka_unit_test(exposure_does_not_change_light),
+        cmocka_unit_test(a_red_wall_reddens_what_faces_it),
+        cmocka_unit_test(feedback_adds_bounces),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

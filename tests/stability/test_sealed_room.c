@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ * A room without an opening stays dark, whatever shines outside (HARD_CASES row 45). */
+#include "light_scene.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define CELL_M  0.25
+#define SUN     100.0
+#define SKY     10.0
+#define OUTSIDE (0.8 * SUN + PI * SKY) /* W/m^2 on a roof */
+
+enum { SIDE = 5, POINT_COUNT = SIDE * SIDE * SIDE + 6 * SIDE * SIDE };
+
+static const double half[3] = { 2.9, 2.1, 3.3 }, center[3] = { 0.07, -0.04, 0.11 };
+
+static void to_world(const double rotation[static 9], const double p[static 3], float out[static 3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)(rotation[i] * p[0] + rotation[3 + i] * p[1] + rotation[6 + i] * p[2]);
+}
+
+/* A lattice through the air of the room, with varied normals, and one on each of its faces. */
+static void room_points(const double rotation[static 9], struct gi_test_point points[static POINT_COUNT])
+{
+    uint32_t count = 0;
+    for (int i = 0; i < SIDE * SIDE * SIDE; i++, count++) {
+        const double p[3] = { half[0] * 0.4 * (i % 5 - 2), half[1] * 0.4 * (i / 5 % 5 - 2),
+                              half[2] * 0.4 * (i / 25 - 2) };
+        const double n[3] = { i % 3 == 0, i % 3 == 1, i % 3 == 2 };
+        to_world(rotation, p, points[count].position);
+        to_world(rotation, n, points[count].normal);
+    }
+    for (int face = 0; face < 6; face++)
+        for (int i = 0; i < SIDE * SIDE; i++, count++) {
+            const int axis = face >> 1, u = (axis + 1) % 3, v = (axis + 2) % 3;
+            const double sign = (face & 1) ? -1 : 1;
+            double p[3], n[3] = { 0, 0, 0 };
+            p[axis] = sign * half[axis];
+            p[u] = half[u] * 0.45 * (i % 5 - 2);
+            p[v] = half[v] * 0.45 * (i / 5 - 2);
+            n[axis] = -sign;
+            to_world(rotation, p, points[count].position);
+            to_world(rotation, n, points[count].normal);
+        }
+    for (uint32_t i = 0; i < POINT_COUNT; i++)
+        for (int k = 0; k < 3; k++)
+            points[i].position[k] += (float)center[k];
+}
+
+static struct gi_test_point points[POINT_COUNT];
+static float found[POINT_COUNT][3];
+
+/* What the points inside get while sun and sky shine on `room`, which is taken over. */
+static void light_room(struct test_mesh room, const double rotation[static 9])
+{
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(64, (float)CELL_M);
+    gi_test_open(&t, &settings);
+    light_add(&t, room, 0.5f, 0);
+    light_add_box(&t, (double[]){ -20, -6, -20 }, (double[]){ 20, -5, 20 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    const struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, -0.36f, (float)SUN);
+    light_create(&t, &sun);
+    light_set_uniform_sky(&t, (float)SKY);
+    gi_test_converge(&t, 120);
+    room_points(rotation, points);
+    gi_test_irradiance(&t, points, POINT_COUNT, found);
+    gi_test_close(&t);
+}
+
+/* Brightest point inside over what a roof gets outside. */
+static void check_room(double wall_m, double angle_deg, double allowed)
+{
+    double rotation[9], most = 0, mean = 0;
+    test_rotation((double[]){ 0, 1, 0 }, angle_deg * PI / 180, rotation);
+    light_room(test_mesh_room(center, half, wall_m, rotation), rotation);
+    uint32_t worst = 0;
+    for (uint32_t i = 0; i < POINT_COUNT; i++) {
+        REQUIRE_TRUE(isfinite(found[i][1]));
+        mean += (double)found[i][1] / OUTSIDE / POINT_COUNT;
+        if ((double)found[i][1] > most) {
+            most = (double)found[i][1];
+            worst = i;
+        }
+    }
+    printf("sealed room, wall %.4f m (%.2f cells), %.0f degrees: inside over outside %.2e at most at (%.2f "
+           "%.2f %.2f), "
+           "%.2e in the mean\n",
+           wall_m, wall_m / CELL_M, angle_deg, most / OUTSIDE, (double)points[worst].position[0],
+           (double)points[worst].position[1], (double)points[worst].position[2], mean);
+    REQUIRE_CMP(most / OUTSIDE, <=, allowed);
+}
+
+static void hard_45_walls_of_one_cell_are_tight(void **state)
+{
+    (void)state;
+    check_room(CELL_M, 0, 1e-3);
+}
+
+static void hard_45_walls_of_one_cell_at_45_degrees_are_tight(void **state)
+{
+    (void)state;
+    check_room(CELL_M, 45, 1e-3);
+}
+
+static void hard_45_walls_of_a_quarter_cell_are_tight(void **state)
+{
+    (void)state;
+    check_room(CELL_M / 4, 0, 1e-2);
+}
+
+static void hard_45_walls_of_a_quarter_cell_at_45_degrees_are_tight(void **state)
+{
+    (void)state;
+    check_room(CELL_M / 4, 45, 1e-2);
+}
+
+/* The test above can fail: the same points are lit once the roof is off. Every point of the room then sees
+ * some sky. */
+static void a_room_without_a_roof_is_lit(void **state)
+{
+    (void)state;
+    struct test_mesh room = test_mesh_room(center, half, CELL_M, test_rotation_none);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < room.triangle_count; i++) {
+        const uint32_t *corner = &room.indices[3 * i];
+        double low = 1e30;
+        for (int k = 0; k < 3; k++)
+            low = fmin(low, (double)room.positions[3 * corner[k] + 1]);
+        if (low < center[1] + half[1] - 1e-3)
+            memmove(&room.indices[3 * kept++], corner, 3 * sizeof *corner);
+    }
+    REQUIRE_CMP(kept, ==, room.triangle_count - 4);
+    room.triangle_count = kept;
+    light_room(room, test_rotation_none);
+    double least = 1e30;
+    for (uint32_t i = 0; i < POINT_COUNT; i++)
+        least = fmin(least, (double)found[i][1] / OUTSIDE);
+    printf("room without a roof: inside over outside at least %.3f\n", least);
+    REQUIRE_CMP(least, >=, 0.01);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_45_walls_of_one_cell_are_tight),
+        cmocka_unit_test(hard_45_walls_of_one_cell_at_45_degrees_are_tight),
+        cmocka_unit_test(hard_45_walls_of_a_quarter_cell_are_tight),
+        cmocka_unit_test(hard_45_walls_of_a_quarter_cell_at_45_degrees_are_tight),
+        cmocka_unit_test(a_room_without_a_roof_is_lit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

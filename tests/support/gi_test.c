@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+#include "gi_test.h"
+
+#include "require.h"
+#include "test_memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void log_message(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
+{
+    struct gi_test *t = user;
+    t->messages[id]++;
+    if (level == SDFGI_LOG_ERROR && !t->gpu.messages.quiet)
+        fprintf(stderr, "sdfgi: %s\n", text);
+}
+
+struct sdfgi_settings gi_test_settings(void)
+{
+    struct sdfgi_settings s;
+    sdfgi_settings_default(&s);
+    s.enabled = true;
+    s.cascades = 1;
+    s.resolution = 64;
+    s.min_cell_size_m = 0.25f;
+    return s;
+}
+
+void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    memset(t, 0, sizeof *t);
+    gpu_test_open(&t->gpu, sdfgi_get_requirements);
+    const struct sdfgi_desc desc = {
+        .vulkan = { t->gpu.instance, t->gpu.physical_device, t->gpu.device, t->gpu.queue_family_index,
+                    vkGetInstanceProcAddr, NULL },
+        .frames_in_flight = 2,
+        .settings = settings,
+        .log = { log_message, t },
+    };
+    REQUIRE_CMP(sdfgi_create(&desc, &t->gi), ==, SDFGI_OK);
+}
+
+void gi_test_close(struct gi_test *t)
+{
+    sdfgi_destroy(t->gi);
+    for (uint32_t i = 0; i < t->buffer_count; i++)
+        gpu_test_buffer_destroy(&t->gpu, &t->buffers[i]);
+    gpu_test_close(&t->gpu);
+}
+
+sdfgi_mesh gi_test_mesh(struct gi_test *t, const struct test_mesh *mesh)
+{
+    REQUIRE_CMP(t->buffer_count, <, 2 * GI_TEST_MAX_MESHES);
+    const struct gpu_test_buffer positions = gpu_test_buffer_device(
+        &t->gpu, 12 * (VkDeviceSize)mesh->vertex_count, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, mesh->positions);
+    const struct gpu_test_buffer indices = gpu_test_buffer_device(
+        &t->gpu, 12 * (VkDeviceSize)mesh->triangle_count, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, mesh->indices);
+    t->buffers[t->buffer_count++] = positions;
+    t->buffers[t->buffer_count++] = indices;
+    struct sdfgi_mesh_desc desc = { .position_buffer = positions.buffer,
+                                    .index_buffer = indices.buffer,
+                                    .index_type = VK_INDEX_TYPE_UINT32,
+                                    .vertex_count = mesh->vertex_count,
+                                    .triangle_count = mesh->triangle_count };
+    test_mesh_bounds(mesh, desc.bounds_min, desc.bounds_max);
+    sdfgi_mesh handle;
+    REQUIRE_CMP(sdfgi_mesh_create(t->gi, &desc, &handle), ==, SDFGI_OK);
+    return handle;
+}
+
+sdfgi_material gi_test_material(struct gi_test *t, const float albedo[static 3],
+                                const float emission[static 3])
+{
+    struct sdfgi_material_desc desc = { .alpha = 1, .double_sided_emission = true };
+    memcpy(desc.albedo, albedo, sizeof desc.albedo);
+    memcpy(desc.emission, emission, sizeof desc.emission);
+    sdfgi_material handle;
+    REQUIRE_CMP(sdfgi_material_create(t->gi, &desc, &handle), ==, SDFGI_OK);
+    return handle;
+}
+
+sdfgi_instance gi_test_add(struct gi_test *t, const struct test_mesh *mesh, sdfgi_material material)
+{
+    const struct sdfgi_instance_desc desc = { .mesh = gi_test_mesh(t, mesh),
+                                              .material = material,
+                                              .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } } };
+    sdfgi_instance handle;
+    REQUIRE_CMP(sdfgi_instance_create(t->gi, &desc, &handle), ==, SDFGI_OK);
+    return handle;
+}
+
+static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct gi_test *t = user;
+    REQUIRE_CMP(sdfgi_update(t->gi, cmd, &t->frame), ==, SDFGI_OK);
+    t->frame.frame_index++;
+}
+
+void gi_test_update(struct gi_test *t, uint32_t count)
+{
+    for (uint32_t done = 0; done < count; done += 2)
+        gpu_test_submit_many(&t->gpu, count - done < 2 ? count - done : 2, record_update, t);
+}
+
+uint32_t gi_test_converge(struct gi_test *t, uint32_t limit)
+{
+    static struct sdfgi_report report;
+    for (uint32_t frames = 0; frames < limit; frames += 2) {
+        gi_test_update(t, 2);
+        sdfgi_get_report(t->gi, &report);
+        if (report.converged)
+            return frames + 2;
+    }
+    require_fail(__FILE__, __LINE__, "not converged after %u frames: change %g", limit,
+                 (double)t->gi->known_change);
+    return limit;
+}
+
+void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size)
+{
+    const struct gpu_buffer *buffer = &t->gi->resources->buffers[resource];
+    uint8_t *data = test_array_alloc(buffer->size, 1);
+    gpu_test_buffer_read(&t->gpu, buffer->handle, 0, buffer->size, data);
+    if (size)
+        *size = buffer->size;
+    return data;
+}
+
+uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z)
+{
+    const ivec4 wrap = t->gi->params.cascades[cascade].wrap;
+    const uint32_t n = t->gi->settings.resolution, mask = n - 1;
+    return ((x + (uint32_t)wrap.x) & mask) +
+           n * (((y + (uint32_t)wrap.y) & mask) + n * (((z + (uint32_t)wrap.z) & mask) + n * cascade));
+}
+
+struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade)
+{
+    const uint32_t n = t->gi->settings.resolution;
+    uint64_t *cells = gi_test_read(t, RESOURCE_BITS, NULL);
+    struct oracle_bits bits = oracle_bits_create(4 * n);
+    for (uint32_t z = 0; z < n; z++)
+        for (uint32_t y = 0; y < n; y++)
+            for (uint32_t x = 0; x < n; x++)
+                for (uint64_t rest = cells[gi_test_cell(t, cascade, x, y, z)]; rest; rest &= rest - 1) {
+                    const uint32_t bit = (uint32_t)__builtin_ctzll(rest);
+                    oracle_bits_set(&bits, 4 * x + (bit & 3), 4 * y + (bit >> 2 & 3), 4 * z + (bit >> 4));
+                }
+    free(cells);
+    return bits;
+}
+
+struct oracle_grid gi_test_grid(const struct gi_test *t, uint32_t cascade)
+{
+    struct oracle_grid grid;
+    const struct cascade *c = &t->gi->cascades[cascade];
+    for (int i = 0; i < 3; i++) {
+        grid.origin[i] = (double)c->origin[i] * c->cell_size[i];
+        grid.step[i] = c->cell_size[i] / 4;
+    }
+    return grid;
+}
+
+float *gi_test_distances(struct gi_test *t, uint32_t cascade)
+{
+    const uint32_t n = t->gi->settings.resolution;
+    uint16_t *stored = gi_test_read(t, RESOURCE_DISTANCE, NULL);
+    float *distances = test_array_alloc((size_t)n * n * n, sizeof *distances);
+    for (uint32_t z = 0, i = 0; z < n; z++)
+        for (uint32_t y = 0; y < n; y++)
+            for (uint32_t x = 0; x < n; x++, i++)
+                distances[i] = (float)stored[gi_test_cell(t, cascade, x, y, z)] / (32768.0f / (float)n);
+    free(stored);
+    return distances;
+}

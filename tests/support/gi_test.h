@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ * A context of the library on a test device, with meshes made in code, and a look at what its buffers hold.
+ */
+#ifndef TEST_GI_TEST_H
+#define TEST_GI_TEST_H
+
+#include "gpu_test.h"
+#include "internal.h"
+#include "meshes.h"
+#include "oracle_bits.h"
+
+enum { GI_TEST_MAX_MESHES = 64 };
+
+struct gi_test {
+    struct gpu_test gpu;
+    sdfgi *gi;
+    struct gpu_test_buffer buffers[2 * GI_TEST_MAX_MESHES];
+    uint32_t buffer_count;
+    struct sdfgi_frame_desc frame;
+    uint32_t messages[SDFGI_MESSAGE_COUNT]; /* how often each was logged */
+};
+
+/* Opens a device and a context that is switched on with `settings`; the camera stands in the origin. Must
+ * stay where it is until it is closed. */
+void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings);
+void gi_test_close(struct gi_test *t);
+
+/* Small and quick: 64 cells a side, one cascade, 0.25 m, enabled. */
+struct sdfgi_settings gi_test_settings(void);
+
+sdfgi_mesh gi_test_mesh(struct gi_test *t, const struct test_mesh *mesh);
+sdfgi_material gi_test_material(struct gi_test *t, const float albedo[static 3],
+                                const float emission[static 3]);
+/* An instance of `mesh` in world space, without a transform. */
+sdfgi_instance gi_test_add(struct gi_test *t, const struct test_mesh *mesh, sdfgi_material material);
+
+/* Updates `count` times, as a host with several frames in flight would. */
+void gi_test_update(struct gi_test *t, uint32_t count);
+/* Updates until light has settled; fails after `limit` frames. Returns how many it took. */
+uint32_t gi_test_converge(struct gi_test *t, uint32_t limit);
+
+/* A copy of a buffer; the caller frees it. */
+void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size);
+/* Solid bits of a cascade in cell space, whatever texels they are stored at. */
+struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade);
+/* World space to sub-voxels of a cascade. */
+struct oracle_grid gi_test_grid(const struct gi_test *t, uint32_t cascade);
+/* Index of a local cell in volumes with one element per cell. */
+uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z);
+/* Distances in cells, N^3, x fastest; the caller frees them. */
+float *gi_test_distances(struct gi_test *t, uint32_t cascade);
+
+/* Irradiance (W/m^2) by the host's lookup at points relative to the frame's origin. */
+struct gi_test_point {
+    float position[3], normal[3];
+};
+void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, uint32_t count,
+                        float (*irradiance)[3]);
+
+#endif

@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT */
+#include "unit.h"
+
+#include "image.h"
+#include "output_file.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { WIDTH = 37, HEIGHT = 35, COUNT = WIDTH * HEIGHT };
+
+static char folder[] = "sdfgi-test-image-XXXXXX";
+static float pixels[4 * COUNT];
+static char error[256];
+
+static const char *in_folder(const char *name)
+{
+    static char path[512];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+/* Numbers over twelve decades that differ in every pixel and channel. */
+static int make_folder_and_pixels(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4 * COUNT; i++)
+        pixels[i] =
+            i % 4 == 3 ? (float)(i % 101) / 100 : (float)pow(10, (i % 97) / 8.0 - 6) * (1 + (float)(i % 7));
+    return mkdtemp(folder) ? 0 : 1;
+}
+
+static int count_files(void)
+{
+    int count = 0;
+    DIR *dir = opendir(folder);
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));)
+        count += entry->d_name[0] != '.';
+    closedir(dir);
+    return count;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    DIR *dir = opendir(folder);
+    for (struct dirent *entry; dir && (entry = readdir(dir));)
+        unlink(in_folder(entry->d_name));
+    if (dir)
+        closedir(dir);
+    return rmdir(folder);
+}
+
+static struct image write_and_read(const char *name, uint32_t channels)
+{
+    struct image image;
+    if (!image_write_float(in_folder(name), pixels, WIDTH, HEIGHT, channels, error, sizeof error) ||
+        !image_read(&image, in_folder(name), error, sizeof error))
+        fail_msg("%s", error);
+    assert_int_equal(image.width, WIDTH);
+    assert_int_equal(image.height, HEIGHT);
+    assert_false(image.display_referred);
+    return image;
+}
+
+static float wanted_value(int i, uint32_t channels)
+{
+    const int c = i % 4;
+    if (c == 3)
+        return channels == 4 ? pixels[i] : 1;
+    return pixels[channels == 1 ? i - c : i];
+}
+
+static void float_formats_give_back_the_same_bits(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        uint32_t channels;
+    } cases[] = { { "1.exr", 1 }, { "3.exr", 3 }, { "4.exr", 4 }, { "1.pfm", 1 }, { "3.PFM", 3 } };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        struct image image = write_and_read(cases[k].name, cases[k].channels);
+        assert_int_equal(image.channels, cases[k].channels);
+        for (int i = 0; i < 4 * COUNT; i++)
+            assert_true(image.rgba[i] == wanted_value(i, cases[k].channels));
+        image_finish(&image);
+    }
+}
+
+/* RGBE shares an exponent: the error is at most 1/256 of the largest channel. */
+static void hdr_is_off_by_less_than_its_shared_exponent_allows(void **state)
+{
+    (void)state;
+    struct image image = write_and_read("3.hdr", 3);
+    for (int i = 0; i < COUNT; i++) {
+        const float *p = pixels + 4 * i;
+        const float largest = fmaxf(p[0], fmaxf(p[1], p[2]));
+        for (int c = 0; c < 3; c++)
+            assert_true(fabsf(image.rgba[4 * i + c] - p[c]) <= largest / 128);
+    }
+    image_finish(&image);
+}
+
+static void png_gives_back_the_same_bytes(void **state)
+{
+    (void)state;
+    static uint8_t bytes[4 * COUNT];
+    for (int i = 0; i < 4 * COUNT; i++)
+        bytes[i] = (uint8_t)(i * 7);
+    for (uint32_t channels = 3; channels <= 4; channels++) {
+        struct image image;
+        if (!image_write_png(in_folder("a.png"), bytes, WIDTH, HEIGHT, channels, error, sizeof error) ||
+            !image_read(&image, in_folder("a.png"), error, sizeof error))
+            fail_msg("%s", error);
+        assert_true(image.display_referred);
+        assert_int_equal(image.channels, channels);
+        for (int i = 0; i < 4 * COUNT; i++)
+            assert_int_equal(lroundf(image.rgba[i] * 255), i % 4 == 3 && channels == 3 ? 255 : bytes[i]);
+        image_finish(&image);
+    }
+}
+
+static void write_bytes(const char *name, const char *bytes, size_t size)
+{
+    FILE *file = fopen(in_folder(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+}
+
+static void a_big_endian_pfm_is_swapped(void **state)
+{
+    (void)state;
+    /* Two rows of one pixel, from the bottom: 1.0, then 2.0. */
+    write_bytes("big.pfm", "Pf\n1 2\n1.0\n\x3f\x80\x00\x00\x40\x00\x00\x00", 19);
+    struct image image;
+    assert_true(image_read(&image, in_folder("big.pfm"), error, sizeof error));
+    assert_true(image.rgba[0] == 2 && image.rgba[4] == 1);
+    image_finish(&image);
+}
+
+static void broken_files_give_one_line_that_names_them(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *bytes;
+    } cases[] = {
+        { "empty.exr", "" },
+        { "junk.exr", "this is no picture at all, but it is long enough to be read as a header" },
+        { "magic.exr", "\x76\x2f\x31\x01\x02" },
+        { "empty.hdr", "" },
+        { "cut.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 8\n\x02\x02" },
+        { "junk.png", "\x89PNG\r\n\x1a\n0000" },
+        { "empty.pfm", "" },
+        { "huge.pfm", "PF\n99999999 99999999\n-1\n" },
+        { "zero.pfm", "PF\n0 5\n-1\n" },
+        { "cut.pfm", "PF\n5 5\n-1\nabcd" },
+        { "scale.pfm", "PF\n5 5\nnan\nabcd" },
+        { "name.xyz", "" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct image image;
+        write_bytes(cases[i].name, cases[i].bytes, strlen(cases[i].bytes));
+        assert_false(image_read(&image, in_folder(cases[i].name), error, sizeof error));
+        assert_non_null(strstr(error, cases[i].name));
+        assert_null(strchr(error, '\n'));
+        assert_null(image.rgba);
+    }
+    struct image image;
+    assert_false(image_read(&image, in_folder("missing.exr"), error, sizeof error));
+    assert_non_null(strstr(error, "missing.exr"));
+}
+
+/* Every length from nothing to all of the file: no crash, and success only when every pixel is there. */
+static void truncated_files_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "t.exr", "t.pfm" };
+    for (int k = 0; k < 2; k++) {
+        struct image image = write_and_read(names[k], 3);
+        image_finish(&image);
+        struct stat status;
+        assert_int_equal(stat(in_folder(names[k]), &status), 0);
+        for (off_t size = status.st_size - 1; size >= 0; size -= 1 + size / 40) {
+            assert_int_equal(truncate(in_folder(names[k]), size), 0);
+            assert_false(image_read(&image, in_folder(names[k]), error, sizeof error));
+            assert_null(image.rgba);
+        }
+    }
+}
+
+static void an_unwritable_place_gives_one_line_and_no_file(void **state)
+{
+    (void)state;
+    const int before = count_files();
+    static const uint8_t bytes[4];
+    assert_false(image_write_float(in_folder("none/a.exr"), pixels, 2, 2, 3, error, sizeof error));
+    assert_non_null(strstr(error, "none/a.exr"));
+    assert_false(image_write_png(in_folder("none/a.png"), bytes, 1, 1, 3, error, sizeof error));
+    assert_false(image_write_float(in_folder("a.txt"), pixels, 2, 2, 3, error, sizeof error));
+    assert_false(image_write_float(in_folder("a.png"), pixels, 2, 2, 3, error, sizeof error));
+    assert_false(output_file_check(folder, error, sizeof error));
+    assert_false(output_file_check("/dev/null", error, sizeof error));
+    assert_true(output_file_check(in_folder("fine.exr"), error, sizeof error));
+    assert_int_equal(count_files(), before);
+}
+
+static void a_cancelled_file_leaves_the_old_one(void **state)
+{
+    (void)state;
+    write_bytes("old.txt", "old", 3);
+    const int before = count_files();
+    struct output_file file;
+    assert_true(output_file_begin(&file, in_folder("old.txt"), error, sizeof error));
+    fputs("new text", file.stream);
+    output_file_cancel(&file);
+    assert_int_equal(count_files(), before);
+    struct stat status;
+    assert_int_equal(stat(in_folder("old.txt"), &status), 0);
+    assert_int_equal(status.st_size, 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(float_formats_give_back_the_same_bits),
+        cmocka_unit_test(hdr_is_off_by_less_than_its_shared_exponent_allows),
+        cmocka_unit_test(png_gives_back_the_same_bytes),
+        cmocka_unit_test(a_big_endian_pfm_is_swapped),
+        cmocka_unit_test(broken_files_give_one_line_that_names_them),
+        cmocka_unit_test(truncated_files_are_refused),
+        cmocka_unit_test(an_unwritable_place_gives_one_line_and_no_file),
+        cmocka_unit_test(a_cancelled_file_leaves_the_old_one),
+    };
+    return cmocka_run_group_tests(tests, make_folder_and_pixels, remove_folder);
+}

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT
+ * Bad input to the program: one line on stderr that says what and where, an exit code other than 0, no file.
+ */
+#include "unit.h"
+
+#include <dirent.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static const char *program;
+static char folder[] = "sdfgi-test-program-XXXXXX";
+
+struct run {
+    int code;
+    char out[8192], err[8192];
+};
+
+static void read_text(const char *name, char *text, size_t size)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = '\0';
+    fclose(file);
+    unlink(path);
+}
+
+/* Runs the program inside the folder, with `environment` before its name. */
+static struct run run_program(const char *environment, const char *arguments)
+{
+    static struct run run;
+    char command[2048];
+    snprintf(command, sizeof command, "cd %s && %s '%s' %s >out.txt 2>err.txt", folder, environment, program,
+             arguments);
+    const int status = system(command);
+    assert_true(WIFEXITED(status));
+    run.code = WEXITSTATUS(status);
+    read_text("out.txt", run.out, sizeof run.out);
+    read_text("err.txt", run.err, sizeof run.err);
+    return run;
+}
+
+static void write_text(const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static int count_files(void)
+{
+    int count = 0;
+    DIR *dir = opendir(folder);
+    assert_non_null(dir);
+    for (const struct dirent *entry; (entry = readdir(dir));)
+        count += entry->d_name[0] != '.';
+    closedir(dir);
+    return count;
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder))
+        return 1;
+    write_text("broken.json", "{\"camera\":\n{]");
+    write_text("unknown.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0]},\"skies\":1}");
+    write_text("range.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":200}}");
+    write_text("broken.glb", "glTF is what this is not");
+    write_text("one.pfm", "Pf\n1 1\n-1\nabcd");
+    write_text("two.pfm", "Pf\n2 1\n-1\nabcdabcd");
+    write_text("cut.pfm", "Pf\n2 2\n-1\nabcd");
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static void bad_input_gives_one_line_and_no_file(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        { "nonsense", "nonsense" },
+        { "render --out a.png", "SCENE" },
+        { "render none.glb", "--out" },
+        { "render none.glb --out a.png", "none.glb" },
+        { "render broken.glb --out a.png", "broken.glb" },
+        { "render none.glb --out none/a.png", "none/a.png" },
+        { "render none.glb --out a.txt", "a.txt" },
+        { "render none.glb --out .", "\".\"" },
+        { "render none.glb --out a.png --report none/r.json", "none/r.json" },
+        { "render none.glb --out a.png --aov direct=none/d.exr", "none/d.exr" },
+        { "render none.glb --out a.png --aov direct=d.png", "d.png" },
+        { "render none.glb --out a.png --aov shadows=d.exr", "shadows" },
+        { "render none.glb --out a.png --view none.json", "none.json" },
+        { "render none.glb --out a.png --view broken.json", "broken.json: broken JSON in line 2" },
+        { "render none.glb --out a.png --view unknown.json", "unknown.json: skies: unknown key" },
+        { "render none.glb --out a.png --view range.json", "range.json: camera.yfov_deg" },
+        { "render none.glb --out a.png --set sdfgi_energy=1000", "sdfgi_energy" },
+        { "render none.glb --out a.png --set sdfgi_none=1", "sdfgi_none" },
+        { "render none.glb --out a.png --set energy", "key=value" },
+        { "render none.glb --out a.png --frames 1x", "1x" },
+        { "render none.glb --out a.png --size 10000x10000 --ssaa 4", "--ssaa" },
+        { "info --set cascades=9", "sdfgi_cascades" },
+        { "properties --xml --json", "--xml" },
+        { "compare one.pfm", "REFERENCE" },
+        { "compare one.pfm none.pfm", "none.pfm" },
+        { "compare one.pfm two.pfm", "expected equal sizes" },
+        { "compare one.pfm cut.pfm", "cut.pfm" },
+        { "compare one.pfm one.pfm --error-map none/e.png", "none/e.png" },
+    };
+    const int before = count_files();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const struct run run = run_program("", cases[i][0]);
+        if (run.code == 0 || !strstr(run.err, cases[i][1]) || strncmp(run.err, "sdfgi: ", 7) != 0 ||
+            strchr(run.err, '\n') != run.err + strlen(run.err) - 1 || run.out[0])
+            fail_msg("%s: code %d, stderr \"%s\", stdout \"%s\"", cases[i][0], run.code, run.err, run.out);
+        assert_int_equal(count_files(), before);
+    }
+}
+
+static void without_a_vulkan_device_info_says_so(void **state)
+{
+    (void)state;
+    const struct run run = run_program("VK_ICD_FILENAMES=/none.json VK_DRIVER_FILES=/none.json", "info");
+    assert_int_not_equal(run.code, 0);
+    assert_non_null(strstr(run.err, "Vulkan"));
+    assert_ptr_equal(strchr(run.err, '\n'), run.err + strlen(run.err) - 1);
+    /* The memory estimate needs no device. */
+    assert_non_null(strstr(run.out, "total"));
+}
+
+static void every_command_has_help(void **state)
+{
+    (void)state;
+    const struct run list = run_program("", "--help");
+    assert_int_equal(list.code, 0);
+    int commands = 0;
+    char name[32];
+    for (const char *line = strstr(list.out, "\n  "); line; line = strstr(line + 1, "\n  ")) {
+        char arguments[64];
+        assert_int_equal(sscanf(line, " %31s", name), 1);
+        snprintf(arguments, sizeof arguments, "%s --help", name);
+        const struct run run = run_program("", arguments);
+        assert_int_equal(run.code, 0);
+        assert_non_null(strstr(run.out, "usage: sdfgi"));
+        assert_non_null(strstr(run.out, name));
+        assert_string_equal(run.err, "");
+        commands++;
+    }
+    assert_true(commands >= 4);
+}
+
+static void a_picture_compared_with_itself_has_no_error(void **state)
+{
+    (void)state;
+    const struct run run = run_program("", "compare two.pfm two.pfm --json");
+    assert_int_equal(run.code, 0);
+    assert_non_null(strstr(run.out, "\"flip\":\t0"));
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2)
+        return EXIT_FAILURE;
+    program = argv[1]; /* an absolute path */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_input_gives_one_line_and_no_file),
+        cmocka_unit_test(without_a_vulkan_device_info_says_so),
+        cmocka_unit_test(every_command_has_help),
+        cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

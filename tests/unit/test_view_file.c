@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT */
+#include "unit.h"
+
+#include "view_file.h"
+
+#include <math.h>
+#include <modules/gltf/gltf_scene.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CAMERA "\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":60}"
+
+static char path[] = "sdfgi-test-view-XXXXXX";
+static char error[300];
+static struct host_view view;
+
+/* The host's own lives beside its Vulkan code, which a unit test does without. */
+void host_view_default(struct host_view *out)
+{
+    *out = (struct host_view){ .camera = { .position = { 0, 0, 5 }, .up = { 0, 1, 0 }, .yfov_rad = 1 },
+                               .punctual_scale = 1,
+                               .emissive_scale = 1,
+                               .default_albedo = { 0.8f, 0.8f, 0.8f } };
+}
+
+static int make_file(void **state)
+{
+    (void)state;
+    const int file = mkstemp(path);
+    return file < 0 || close(file);
+}
+
+static int remove_file(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static bool load(const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    return view_file_load(path, &view, error, sizeof error);
+}
+
+static void a_camera_is_enough(void **state)
+{
+    (void)state;
+    assert_true(load("{" CAMERA "}"));
+    assert_true(view.camera.position[2] == 2 && view.camera.up[1] == 1);
+    assert_true(fabsf(view.camera.yfov_rad - 1.0471976f) < 1e-6f);
+    assert_false(view.sun.enabled);
+    assert_true(view.punctual_scale == 1 && view.emissive_scale == 1);
+    assert_int_equal(view.materials, HOST_MATERIALS_GLTF);
+    assert_int_equal(view.light_count, 0);
+    view_file_finish(&view);
+}
+
+static void every_key_reaches_its_field(void **state)
+{
+    (void)state;
+    assert_true(
+        load("{" CAMERA ",\"sky\":{\"zenith\":[1,2,3],\"horizon\":[4,5,6],\"ground\":[7,8,9]},"
+             "\"sun\":{\"direction\":[0,-2,0],\"irradiance\":[3,2,1],\"angle_deg\":90},"
+             "\"lights\":[{\"type\":\"point\",\"position\":[1e7,2,3],\"intensity\":[4,5,6],\"radius\":0.5},"
+             "{\"type\":\"spot\",\"position\":[0,0,0],\"intensity\":[1,1,1],\"direction\":[1,0,0],"
+             "\"inner_deg\":10,\"outer_deg\":45}],"
+             "\"punctual_scale\":0,\"emissive_scale\":2,\"materials\":\"lambert\","
+             "\"default_albedo\":[0.1,0.2,0.3]}"));
+    assert_true(view.sky.zenith[1] == 2 && view.sky.horizon[2] == 6 && view.sky.ground[0] == 7);
+    assert_true(view.sun.enabled && view.sun.direction[1] == -2 && view.sun.irradiance[0] == 3);
+    assert_true(fabsf(view.sun.angle_rad - 1.5707963f) < 1e-6f);
+    assert_int_equal(view.light_count, 2);
+    assert_int_equal(view.lights[0].type, HOST_LIGHT_POINT);
+    assert_true(view.lights[0].position[0] == 1e7 && view.lights[0].radius_m == 0.5f);
+    assert_int_equal(view.lights[1].type, HOST_LIGHT_SPOT);
+    assert_true(fabsf(view.lights[1].outer_rad - 0.7853982f) < 1e-6f);
+    assert_true(view.punctual_scale == 0 && view.emissive_scale == 2);
+    assert_int_equal(view.materials, HOST_MATERIALS_LAMBERT);
+    assert_true(view.default_albedo[2] == 0.3f);
+    view_file_finish(&view);
+}
+
+static void a_uniform_sky_has_three_equal_colours(void **state)
+{
+    (void)state;
+    assert_true(load("{" CAMERA ",\"sky\":{\"radiance\":[0.1,0.2,0.3]},\"sun\":null}"));
+    assert_memory_equal(view.sky.zenith, view.sky.horizon, sizeof view.sky.zenith);
+    assert_memory_equal(view.sky.ground, view.sky.horizon, sizeof view.sky.ground);
+    assert_true(view.sky.zenith[2] == 0.3f);
+    view_file_finish(&view);
+}
+
+static void what_is_wrong_is_named_in_one_line(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        { "", "line 1" },
+        { "{\n" CAMERA ",\n}", "line 3" },
+        { "{" CAMERA "} x", "broken JSON" },
+        { "[]", "expected an object" },
+        { "{}", "camera: is missing" },
+        { "{\"camera\":3}", "camera: expected an object" },
+        { "{" CAMERA ",\"skies\":null}", "skies: unknown key" },
+        { "{" CAMERA "," CAMERA "}", "camera: given twice" },
+        { "{\"camera\":{\"position\":[0,1,2]}}", "camera.look_at: is missing" },
+        { "{\"camera\":{\"position\":[0,1],\"look_at\":[0,0,0]}}", "camera.position: expected an array" },
+        { "{\"camera\":{\"position\":[0,1,\"2\"],\"look_at\":[0,0,0]}}",
+          "camera.position: expected a number" },
+        { "{\"camera\":{\"position\":[0,1,1e999],\"look_at\":[0,0,0]}}", "camera.position: is inf" },
+        { "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,1,2]}}", "camera.look_at: equals" },
+        { "{\"camera\":{\"position\":[0,1,0],\"look_at\":[0,0,0]}}", "camera.up: is parallel" },
+        { "{\"camera\":{\"position\":[0,1,0],\"look_at\":[0,0,1],\"up\":[0,0,0]}}", "camera.up: has no" },
+        { "{\"camera\":{\"position\":[0,1,0],\"look_at\":[0,0,1],\"yfov_deg\":180}}",
+          "camera.yfov_deg: is 180" },
+        { "{" CAMERA ",\"sky\":{\"radiance\":[-1,0,0]}}", "sky.radiance: is -1" },
+        { "{" CAMERA ",\"sky\":{\"zenith\":[1,0,0]}}", "sky.horizon: is missing" },
+        { "{" CAMERA ",\"sky\":{\"radiance\":[1,0,0],\"zenith\":[1,0,0]}}", "sky.zenith: unknown key" },
+        { "{" CAMERA ",\"sky\":7}", "sky: expected an object" },
+        { "{" CAMERA ",\"sun\":{\"direction\":[0,0,0],\"irradiance\":[1,1,1]}}", "sun.direction: has no" },
+        { "{" CAMERA ",\"sun\":{\"direction\":[0,-1,0]}}", "sun.irradiance: is missing" },
+        { "{" CAMERA ",\"lights\":{}}", "lights: expected an array" },
+        { "{" CAMERA ",\"lights\":[{\"type\":\"area\"}]}", "lights[0].type: expected one of point,spot" },
+        { "{" CAMERA ",\"lights\":[{\"type\":\"point\",\"position\":[0,0,0],\"intensity\":[1,1,1],"
+          "\"direction\":[0,0,1]}]}",
+          "lights[0]: direction is for spot" },
+        { "{" CAMERA ",\"lights\":[{\"type\":\"spot\",\"position\":[0,0,0],\"intensity\":[1,1,1],"
+          "\"direction\":[0,0,1],\"inner_deg\":50,\"outer_deg\":40}]}",
+          "lights[0]: inner_deg" },
+        { "{" CAMERA ",\"materials\":\"toon\"}", "materials: expected one of gltf,lambert" },
+        { "{" CAMERA ",\"default_albedo\":[1,1,2]}", "default_albedo: is 2" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        if (load(cases[i][0]))
+            fail_msg("taken: %s", cases[i][0]);
+        assert_int_equal(strncmp(error, path, strlen(path)), 0);
+        if (!strstr(error, cases[i][1]) || strchr(error, '\n'))
+            fail_msg("\"%s\" does not say \"%s\"", error, cases[i][1]);
+        assert_null(view.lights);
+    }
+    assert_false(view_file_load("no-such-folder/view.json", &view, error, sizeof error));
+    assert_non_null(strstr(error, "no-such-folder/view.json"));
+}
+
+/* Broken anywhere, a file is refused and nothing is leaked or read out of bounds. */
+static void every_truncation_is_refused(void **state)
+{
+    (void)state;
+    const char whole[] =
+        "{" CAMERA ",\"lights\":[{\"type\":\"point\",\"position\":[1,2,3],\"intensity\":[4,5,6]}]}";
+    char part[sizeof whole];
+    for (size_t length = 0; length + 1 < sizeof whole; length++) {
+        memcpy(part, whole, length);
+        part[length] = '\0';
+        assert_false(load(part));
+    }
+    assert_true(load(whole));
+    view_file_finish(&view);
+}
+
+static void a_scene_without_camera_is_framed_whole(void **state)
+{
+    (void)state;
+    const struct gltf_scene scene = { .bounds_min = { 10, 0, -5 }, .bounds_max = { 14, 3, 7 } };
+    view_file_from_scene(&scene, &view);
+    /* The sphere around the bounds has the angular radius of half the field of view. */
+    double distance2 = 0;
+    for (int i = 0; i < 3; i++)
+        distance2 += pow(view.camera.position[i] - view.camera.look_at[i], 2);
+    assert_true(fabs(6.5 / sqrt(distance2) - sin(view.camera.yfov_rad / 2)) < 1e-6);
+    assert_true(view.camera.look_at[0] == 12 && view.camera.look_at[1] == 1.5 && view.camera.look_at[2] == 1);
+    assert_true(view.sun.enabled);
+}
+
+static void the_camera_of_a_scene_looks_along_minus_z(void **state)
+{
+    (void)state;
+    struct gltf_camera camera = { .transform = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1 },
+                                  .yfov_rad = 0.8f };
+    struct gltf_light light = { .type = GLTF_LIGHT_POINT };
+    const struct gltf_scene scene = {
+        .cameras = &camera, .camera_count = 1, .lights = &light, .light_count = 1
+    };
+    view_file_from_scene(&scene, &view);
+    assert_true(view.camera.position[0] == 5 && view.camera.look_at[0] == 5);
+    assert_true(view.camera.position[2] == 7 && view.camera.look_at[2] == 6);
+    assert_true(view.camera.yfov_rad == 0.8f);
+    assert_false(view.sun.enabled);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_camera_is_enough),
+        cmocka_unit_test(every_key_reaches_its_field),
+        cmocka_unit_test(a_uniform_sky_has_three_equal_colours),
+        cmocka_unit_test(what_is_wrong_is_named_in_one_line),
+        cmocka_unit_test(every_truncation_is_refused),
+        cmocka_unit_test(a_scene_without_camera_is_framed_whole),
+        cmocka_unit_test(the_camera_of_a_scene_looks_along_minus_z),
+    };
+    return cmocka_run_group_tests(tests, make_file, remove_file);
+}
