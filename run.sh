@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds everything, makes the sample world, and renders every view of it with global illumination off and on.
+# Pictures, reports and one contact sheet end up under out/. Takes no arguments; see RUN_* below.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")"
+# shellcheck source=scripts/packages.sh
+source scripts/packages.sh
+
+size=${RUN_SIZE:-480x270}         # of each picture
+# Frames to render with GI on, or "converged". Four make a ring, and light bounces once a frame.
+frames=${RUN_FRAMES:-12}
+# All cascades and cells as by default; the rays of twenty frames in four.
+settings=${RUN_SET-sdfgi_ray_count=125 sdfgi_frames_to_converge=4}
+seed=${RUN_SEED:-1}               # of the world
+out=out
+
+render() { # render VIEW off|on [OPTION...]
+    local view=$1 gi=$2
+    shift 2
+    build/sdfgi render "$out/world.glb" --view "$out/views/$view.view.json" --size "$size" --gi "$gi" "$@" \
+        --report "$out/reports/$view.$gi.json" --out "$out/pictures/$view.$gi.png" \
+        >"$out/reports/$view.$gi.log" 2>&1 || {
+        tail -n 5 "$out/reports/$view.$gi.log" >&2
+        die "rendering $view with GI $gi failed; all of it is in $out/reports/$view.$gi.log"
+    }
+}
+
+render_pair() { # on first: its exposure is used for both, so that the two can be compared
+    local view=$1 options=() setting exposure
+    for setting in $settings; do
+        options+=(--set "$setting")
+    done
+    render "$view" on --frames "$frames" "${options[@]}"
+    exposure=$(sed -n 's/^[[:space:]]*"exposure":[[:space:]]*\([-+.0-9eE]*\),$/\1/p' "$out/reports/$view.on.json")
+    [ -n "$exposure" ] || die "$out/reports/$view.on.json names no exposure"
+    render "$view" off --frames 2 --exposure "$exposure"
+    build/samples/contact_sheet "$out/$view.png" 2 1 "$out/pictures/$view.off.png" "$out/pictures/$view.on.png"
+}
+
+render_all() {
+    local view number=0 started=$SECONDS pictures=()
+    for view in "${views[@]}"; do
+        number=$((number + 1))
+        say "[$number/${#views[@]}, $((SECONDS - started)) s] $view"
+        render_pair "$view"
+        pictures+=("$out/pictures/$view.off.png" "$out/pictures/$view.on.png")
+    done
+    build/samples/contact_sheet "$out/contact_sheet.png" 4 1 "${pictures[@]}"
+}
+
+[ $# -eq 0 ] || die "takes no arguments; RUN_SIZE=WxH, RUN_FRAMES=N, RUN_SEED=N and RUN_SET=\"key=value ...\" change what it does"
+install_packages
+configure_and_build build
+choose_driver
+
+mkdir -p "$out/pictures" "$out/reports" || die "cannot make $out/"
+build/samples/open_world --seed "$seed" --out "$out/world.glb" --views "$out/views"
+mapfile -t views < <(cd "$out/views" && printf '%s\n' *.view.json | sed 's/\.view\.json$//')
+render_all
+
+reports=("${views[@]/#/$out/reports/}")
+build/samples/pass_table "${reports[@]/%/.on.json}"
+say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s: GI off on the left, on on the right, in $out/contact_sheet.png"

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+# Shared by run.sh and test.sh: the Debian packages, the build, and messages that say what went wrong.
+
+packages=(meson ninja-build pkg-config gcc g++ libvulkan-dev glslang-tools spirv-tools mesa-vulkan-drivers
+    vulkan-validationlayers libglfw3-dev libtinygltf-dev libstb-dev libcglm-dev libopenexr-dev libembree-dev
+    libcmocka-dev libcjson-dev libimgui-dev gnuplot-nox xvfb xauth)
+
+say() {
+    printf '%s\n' "== $*" >&2
+}
+
+die() {
+    printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+    exit 1
+}
+
+# Names of the packages that are not installed, one per line.
+missing_packages() {
+    local package status
+    for package in "${packages[@]}"; do
+        status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+        [ "$status" = installed ] || printf '%s\n' "$package"
+    done
+}
+
+install_packages() {
+    command -v dpkg-query >/dev/null || die "this needs Debian 12 or a relative of it; the packages are listed in scripts/packages.sh"
+    local missing
+    mapfile -t missing < <(missing_packages)
+    [ "${#missing[@]}" -gt 0 ] || return 0
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || die "not root and no sudo: install ${missing[*]}"
+        as_root=(sudo)
+    fi
+    say "installing ${missing[*]}"
+    "${as_root[@]}" apt-get -qq update || die "apt-get update failed"
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install --no-install-recommends -y \
+        "${missing[@]}" >/dev/null || die "apt-get could not install ${missing[*]}"
+}
+
+# configure_and_build FOLDER [meson options]: safe to call again and after an interruption.
+configure_and_build() {
+    local folder=$1
+    shift
+    if [ -f "$folder/build.ninja" ]; then
+        meson configure "$folder" "$@" >/dev/null || die "meson could not change the options of $folder"
+    else
+        say "configuring $folder"
+        mkdir -p "$folder"
+        meson setup "$folder" "$@" >"$folder/setup.log" 2>&1 || {
+            tail -n 20 "$folder/setup.log" >&2
+            die "meson setup failed; all of it is in $folder/setup.log"
+        }
+    fi
+    say "building"
+    ninja -C "$folder" --quiet || die "the build failed"
+    # The program is promised as $folder/sdfgi; meson puts it into the folder of its sources.
+    if [ -x "$folder/runtime/sdfgi" ]; then
+        ln -sfn runtime/sdfgi "$folder/sdfgi"
+    fi
+}
+
+# Unless a driver was chosen, lavapipe: it is everywhere and gives the same picture everywhere.
+choose_driver() {
+    [ -z "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] || return 0
+    local file
+    for file in /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json; do
+        if [ -f "$file" ]; then
+            export VK_DRIVER_FILES=$file VK_ICD_FILENAMES=$file
+            return 0
+        fi
+    done
+    die "no lavapipe driver found; install mesa-vulkan-drivers or set VK_DRIVER_FILES"
+}
