@@ -18,12 +18,11 @@ static const char *frame_problem(const struct sdfgi_frame_desc *d)
 /* Cascades follow the camera; one that moves is generated again. */
 static void place_cascades(struct sdfgi *gi, const double camera[3])
 {
-    static const double y_scales[] = { 0.5, 0.75, 1.0 };
     for (uint32_t c = 0; c < gi->settings.cascades; c++) {
         struct cascade *cascade = &gi->cascades[c];
         for (int i = 0; i < 3; i++)
-            cascade->cell_size[i] =
-                ldexp(gi->settings.min_cell_size_m, (int)c) * (i == 1 ? y_scales[gi->settings.y_scale] : 1.0);
+            cascade->cell_size[i] = ldexp(gi->settings.min_cell_size_m, (int)c) *
+                                    (i == 1 ? y_scale_factor(gi->settings.y_scale) : 1.0);
         if (cascade_place(cascade, gi->settings.resolution, camera))
             cascade->dirty = true;
     }

@@ -42,6 +42,8 @@ enum sdfgi_memory_category resource_category(enum resource resource);
 /* How a buffer is bound. */
 VkDescriptorType resource_descriptor(enum resource resource);
 uint64_t readback_size(uint32_t frames_in_flight);
+/* Height of a cell over its width. */
+double y_scale_factor(enum sdfgi_y_scale scale);
 /* Rays per ring: every one of the 25 texels gets the same number. */
 uint32_t ring_samples(const struct sdfgi_settings *settings);
 
@@ -284,6 +286,8 @@ void pass_dispatch(struct frame *frame, enum pass pass, const struct sdfgi_pass_
                    uint32_t y, uint32_t z);
 void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
 void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
+/* Zeroes a part of a buffer. */
+void pass_clear(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes);
 uint64_t pass_reads(enum pass pass);
 uint64_t pass_writes(enum pass pass);
 const char *pass_name(enum pass pass);

@@ -8,6 +8,14 @@
  * brings the defaults to just under 64 MiB a cascade, scratch included. */
 #define LIGHT_CELL_LAYERS 19
 
+double y_scale_factor(enum sdfgi_y_scale scale)
+{
+    static const double factors[] = {
+        [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1.0
+    };
+    return factors[scale];
+}
+
 uint32_t ring_samples(const struct sdfgi_settings *settings)
 {
     const uint32_t rays = settings->ray_count * settings->frames_to_converge;

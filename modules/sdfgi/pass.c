@@ -48,3 +48,9 @@ void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct
     /* How many cells that is was read back from the frame that listed them. */
     frame->gi->passes[pass].work += frame->gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];
 }
+
+void pass_clear(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes)
+{
+    gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << resource);
+    gpu_fill(&frame->rec, &frame->gi->resources->buffers[resource], offset, bytes, 0);
+}

@@ -13,22 +13,16 @@ void probe_place_record(struct frame *frame, uint32_t c)
     pass_end(frame);
 }
 
-static void clear_part(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes)
-{
-    gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << resource);
-    gpu_fill(&frame->rec, &frame->gi->resources->buffers[resource], offset, bytes, 0);
-}
-
 void probe_reset_record(struct frame *frame, uint32_t c, bool rays_too)
 {
     const struct extent *e = &frame->gi->resources->extent;
     const uint64_t rays = 4 * e->probes * e->ring_samples,
                    sums = (uint64_t)16 * SDFGI_IRRADIANCE_COUNT * e->probes;
     if (rays_too)
-        clear_part(frame, RESOURCE_RAYS, c * rays, rays);
-    clear_part(frame, RESOURCE_SUMS, c * sums, sums);
+        pass_clear(frame, RESOURCE_RAYS, c * rays, rays);
+    pass_clear(frame, RESOURCE_SUMS, c * sums, sums);
     if (frame->gi->cascades[c].fresh)
-        clear_part(frame, RESOURCE_PREVIOUS, c * sums / 2, sums / 2);
+        pass_clear(frame, RESOURCE_PREVIOUS, c * sums / 2, sums / 2);
 }
 
 void probe_trace_record(struct frame *frame, uint32_t c)

@@ -6,10 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double y_scales[] = {
-    [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1.0
-};
-
 static uint32_t log2_of(uint32_t power)
 {
     uint32_t bits = 0;
@@ -68,7 +64,7 @@ void upload_params(struct sdfgi *gi)
     p.sky_zenith = scaled(gi->scene.sky.zenith, sky);
     p.sky_horizon = scaled(gi->scene.sky.horizon, sky);
     p.sky_ground = scaled(gi->scene.sky.ground, sky);
-    p.scale = (vec4){ (float)y_scales[s->y_scale], gi->exposure, 1.0f / gi->exposure, s->energy };
+    p.scale = (vec4){ (float)y_scale_factor(s->y_scale), gi->exposure, 1.0f / gi->exposure, s->energy };
     p.bias = (vec4){ s->normal_bias_cells, s->probe_bias_cells, s->bounce_feedback,
                      gi->emission_unit * gi->exposure };
     p.size = (uvec4){ s->resolution, log2_of(s->resolution), s->resolution / SDFGI_PROBE_SPACING + 1,

@@ -184,21 +184,14 @@ static void record_raster(struct frame *frame, uint32_t c)
     pass_end(frame);
 }
 
-/* Zeroes a cascade's part of a volume of `bytes` per cascade. */
-static void clear_part(struct frame *frame, enum resource resource, uint32_t c, uint64_t bytes)
-{
-    gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << resource);
-    gpu_fill(&frame->rec, &frame->gi->resources->buffers[resource], c * bytes, bytes, 0);
-}
-
 void voxelize_record(struct frame *frame, uint32_t c)
 {
     struct sdfgi *gi = frame->gi;
     const struct extent *e = &gi->resources->extent;
-    clear_part(frame, RESOURCE_BITS, c, 8 * e->cells);
-    clear_part(frame, RESOURCE_LIGHT, c, 8 * e->cells);
-    clear_part(frame, RESOURCE_MASKS, c, e->cells);
-    clear_part(frame, RESOURCE_SCRATCH, 0, (uint64_t)SDFGI_ACCUM_PLANES * 4 * e->blocks);
+    pass_clear(frame, RESOURCE_BITS, c * 8 * e->cells, 8 * e->cells);
+    pass_clear(frame, RESOURCE_LIGHT, c * 8 * e->cells, 8 * e->cells);
+    pass_clear(frame, RESOURCE_MASKS, c * e->cells, e->cells);
+    pass_clear(frame, RESOURCE_SCRATCH, 0, (uint64_t)SDFGI_ACCUM_PLANES * 4 * e->blocks);
     if (gi->plan[PASS_VOXELIZE].run)
         record_compute(frame, c);
     if (gi->plan[PASS_VOXELIZE_RASTER].run)
@@ -210,5 +203,5 @@ void voxelize_record(struct frame *frame, uint32_t c)
     gi->passes[PASS_VOXEL_RESOLVE].work += e->blocks;
     pass_end(frame);
     /* The emissive bits have been read: the volume now belongs to light. */
-    clear_part(frame, RESOURCE_LIGHT, c, 8 * e->cells);
+    pass_clear(frame, RESOURCE_LIGHT, c * 8 * e->cells, 8 * e->cells);
 }
