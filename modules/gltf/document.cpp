@@ -98,14 +98,14 @@ std::string buffer_name(size_t index)
     return buffer_prefix + std::to_string(index);
 }
 
-bytes buffer_read(const importer &in, const container &box, const cJSON *buffer, size_t index)
+bytes buffer_read(importer &in, const container &box, const cJSON *buffer, size_t index)
 {
     const std::string what = label("buffers", index);
     const double length = member_get(buffer, "byteLength")->valuedouble;
     const std::string uri = text_get(buffer, "uri");
     bytes data;
     if (!uri.empty())
-        data = resource_read(in, uri, what);
+        data = resource_read(in, uri, what, max_file_size - in.buffer_bytes);
     else if (index == 0 && box.binary != nullptr)
         data.assign(box.binary, box.binary + box.binary_size);
     else
@@ -115,10 +115,11 @@ bytes buffer_read(const importer &in, const container &box, const cJSON *buffer,
     if (length > static_cast<double>(data.size()))
         fail("%s.byteLength is %.0f, and there are %zu bytes", what.c_str(), length, data.size());
     data.resize(static_cast<size_t>(length));
+    in.buffer_bytes += std::min<uint64_t>(data.size(), max_file_size - in.buffer_bytes);
     return data;
 }
 
-std::vector<bytes> buffers_take(const importer &in, const container &box, cJSON *document)
+std::vector<bytes> buffers_take(importer &in, const container &box, cJSON *document)
 {
     std::vector<bytes> buffers;
     cJSON *item = nullptr;

@@ -15,9 +15,6 @@ namespace gltf
 namespace
 {
 
-// tinygltf measures in 32-bit sizes.
-constexpr uint64_t max_file_size = UINT32_MAX;
-
 struct file_closer {
     void operator()(FILE *f) const
     {
@@ -113,7 +110,7 @@ bool path_stays_inside(const std::string &path)
 
 } // namespace
 
-bytes file_read(const std::string &path)
+bytes file_read(const std::string &path, uint64_t limit)
 {
     // Only plain files: opening a pipe or a device could wait for ever.
     struct stat status;
@@ -121,8 +118,9 @@ bytes file_read(const std::string &path)
         fail("%s", strerror(errno));
     if (!S_ISREG(status.st_mode))
         fail("not a plain file");
-    if (static_cast<uint64_t>(status.st_size) > max_file_size)
-        fail("larger than the limit of 4 GiB");
+    if (static_cast<uint64_t>(status.st_size) > limit)
+        fail("larger than %llu bytes, which are left of the limit of 4 GiB",
+             static_cast<unsigned long long>(limit));
     const std::unique_ptr<FILE, file_closer> file(fopen(path.c_str(), "rb"));
     if (!file)
         fail("%s", strerror(errno));
@@ -135,7 +133,7 @@ bytes file_read(const std::string &path)
 container container_read(const std::string &path)
 {
     container box;
-    box.file = file_read(path);
+    box.file = file_read(path, max_file_size);
     if (box.file.empty())
         fail("the file is empty");
     if (box.file.size() >= 4 && memcmp(box.file.data(), "glTF", 4) == 0) {
@@ -147,7 +145,7 @@ container container_read(const std::string &path)
     return box;
 }
 
-bytes resource_read(const importer &in, const std::string &uri, const std::string &what)
+bytes resource_read(const importer &in, const std::string &uri, const std::string &what, uint64_t limit)
 {
     if (uri.compare(0, 5, "data:") == 0) {
         const size_t comma = uri.find(',');
@@ -165,7 +163,7 @@ bytes resource_read(const importer &in, const std::string &uri, const std::strin
     if (!path_stays_inside(name))
         fail("%s: '%.200s' is not a path below the folder of the file", what.c_str(), name.c_str());
     try {
-        return file_read(in.folder + name);
+        return file_read(in.folder + name, limit);
     } catch (const bad_file &error) {
         fail("%s: '%.200s': %s", what.c_str(), name.c_str(), error.what());
     }

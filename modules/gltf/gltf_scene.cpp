@@ -30,6 +30,17 @@ char *text_copy(const std::string &text)
     return copy;
 }
 
+// Cut between characters of UTF-8, whose bytes after the first are 10xxxxxx.
+char *name_copy(const std::string &name)
+{
+    if (name.size() <= max_name_size)
+        return text_copy(name);
+    size_t size = max_name_size;
+    while (size > 0 && (static_cast<unsigned char>(name[size]) & 0xc0) == 0x80)
+        size--;
+    return text_copy(name.substr(0, size));
+}
+
 std::string label(const char *array, size_t index)
 {
     return std::string(array) + '[' + std::to_string(index) + ']';

@@ -125,7 +125,7 @@ void image_import(const importer &in, size_t index, gltf_image &image, uint64_t 
     if (source.buffer_view >= 0) {
         range = buffer_view_bytes(in.model, source.buffer_view, what);
     } else {
-        file = resource_read(in, source.uri, what);
+        file = resource_read(in, source.uri, what, max_file_size);
         range = { file.data(), file.size() };
     }
     jpeg_tables_check(range, what);

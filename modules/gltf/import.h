@@ -34,6 +34,11 @@ constexpr uint64_t max_indices = UINT64_C(1) << 28;
 constexpr uint64_t max_instances = UINT64_C(1) << 22;
 constexpr uint64_t max_texels = UINT64_C(1) << 31;
 constexpr int max_image_size = 16384;
+// Of one file, since tinygltf measures in 32 bits, and of all buffers: naming one file many times costs
+// nothing.
+constexpr uint64_t max_file_size = UINT32_MAX;
+// Bytes of a name that are kept. A mesh may have very many primitives, and each carries its node's name.
+constexpr size_t max_name_size = 255;
 // Elements of an accessor that has no data of its own (all zeros): nothing in the file backs their number.
 constexpr uint64_t max_zero_elements = UINT64_C(1) << 22;
 
@@ -70,14 +75,16 @@ struct importer {
     std::vector<image_source> images;
     omissions omitted;
     std::vector<std::vector<uint32_t>> mesh_primitives; // per mesh of the file: primitives of the scene
-    uint64_t vertices = 0, indices = 0;                 // unpacked so far
+    size_t materials_in_file = 0;
+    uint64_t vertices = 0, indices = 0; // unpacked so far
+    uint64_t buffer_bytes = 0;          // loaded so far
     gltf_scene *scene = nullptr;
 };
 
 // file.cpp
-bytes file_read(const std::string &path);
+bytes file_read(const std::string &path, uint64_t limit);
 container container_read(const std::string &path);
-bytes resource_read(const importer &in, const std::string &uri, const std::string &what);
+bytes resource_read(const importer &in, const std::string &uri, const std::string &what, uint64_t limit);
 
 // document.cpp
 void document_parse(importer &in, const container &box);
@@ -129,6 +136,7 @@ void camera_import(importer &in, std::vector<gltf_camera> &cameras, int index, c
 
 // gltf_scene.cpp
 char *text_copy(const std::string &text);
+char *name_copy(const std::string &name);
 std::string label(const char *array, size_t index);
 
 // Zeroed, to be freed by gltf_scene_destroy.

@@ -122,7 +122,7 @@ void light_import(importer &in, std::vector<gltf_light> &lights, int index, cons
     if (to.type == GLTF_LIGHT_SPOT)
         cone_import(from.spot, to);
     lights.push_back(to);
-    lights.back().name = text_copy(from.name);
+    lights.back().name = name_copy(from.name);
 }
 
 void camera_import(importer &in, std::vector<gltf_camera> &cameras, int index, const matrix4 &world)
@@ -137,7 +137,7 @@ void camera_import(importer &in, std::vector<gltf_camera> &cameras, int index, c
     else
         to.ymag = clamp_to(std::fabs(from.orthographic.ymag), 1e-6, max_intensity);
     cameras.push_back(to);
-    cameras.back().name = text_copy(from.name);
+    cameras.back().name = name_copy(from.name);
 }
 
 } // namespace gltf

@@ -176,7 +176,7 @@ void material_import(importer &in, const tinygltf::Material &from, gltf_material
     to.normal_texture = texture_ref_make(in, use_of(from.normalTexture), what + ".normalTexture");
     to.occlusion_texture = texture_ref_make(in, use_of(from.occlusionTexture), what + ".occlusionTexture");
     to.emissive_texture = texture_ref_make(in, use_of(from.emissiveTexture), what + ".emissiveTexture");
-    to.name = text_copy(from.name);
+    to.name = name_copy(from.name);
 }
 
 // glTF's default material, appended where a primitive has none.
@@ -202,6 +202,7 @@ void materials_import(importer &in)
 {
     textures_import(in, images_import(in));
     std::vector<tinygltf::Material> &materials = in.model.materials;
+    in.materials_in_file = materials.size();
     if (default_is_needed(in.model))
         materials.push_back(default_material());
     in.scene->materials = array_allocate<gltf_material>(materials.size());

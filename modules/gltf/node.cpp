@@ -154,7 +154,7 @@ void instances_add(importer &in, collection &out, const tinygltf::Node &node, co
         instance.primitive = primitive;
         std::copy_n(world.m, 16, instance.transform);
         out.instances.push_back(instance);
-        out.instances.back().node_name = text_copy(node.name);
+        out.instances.back().node_name = name_copy(node.name);
     }
 }
 

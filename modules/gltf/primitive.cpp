@@ -56,6 +56,14 @@ void zero_where_not_finite(std::vector<float> &values)
             value = 0;
 }
 
+// A factor of the base colour like the material's own, with the same range.
+void colors_clamp(std::vector<float> &colors)
+{
+    zero_where_not_finite(colors);
+    for (float &value : colors)
+        value = std::min(std::max(value, 0.0f), 1.0f);
+}
+
 void positions_check(const geometry &g, const std::string &what)
 {
     for (size_t i = 0; i < g.positions.size(); i++)
@@ -78,7 +86,7 @@ void attributes_read(const importer &in, const tinygltf::Primitive &from, geomet
     g.colors = attribute_read(in, from, n, { "COLOR_0", 3, 4, true }, what);
     zero_where_not_finite(g.uv0);
     zero_where_not_finite(g.uv1);
-    zero_where_not_finite(g.colors);
+    colors_clamp(g.colors);
 }
 
 // The vertices in drawing order: the indices, or all of them in turn.
@@ -87,11 +95,12 @@ std::vector<uint32_t> order_read(importer &in, const tinygltf::Primitive &from, 
 {
     const std::string user = what + ".indices";
     const uint64_t count = from.indices < 0 ? vertex_count : accessor_get(in.model, from.indices, user).count;
-    // Three per corner: a strip or fan has as many triangles as corners.
-    if (count > max_indices || in.indices + 3 * count > max_indices)
+    // A strip or fan has as many triangles as corners, but for two.
+    const uint64_t unpacked = from.mode == TINYGLTF_MODE_TRIANGLES ? count : 3 * count;
+    if (count > max_indices || in.indices + unpacked > max_indices)
         fail("%s: more than %llu indices in the file", what.c_str(),
              static_cast<unsigned long long>(max_indices));
-    in.indices += from.mode == TINYGLTF_MODE_TRIANGLES ? count : 3 * count;
+    in.indices += unpacked;
     std::vector<uint32_t> order;
     if (from.indices >= 0) {
         order = accessor_read_indices(in.model, from.indices, user);
@@ -116,10 +125,11 @@ void vertices_count(importer &in, uint64_t count, const std::string &what)
 
 int32_t material_of(const importer &in, const tinygltf::Primitive &from, const std::string &what)
 {
-    const int last = static_cast<int>(in.scene->material_count) - 1;
-    if (from.material > last)
-        fail("%s: material %d is out of range, there are %d", what.c_str(), from.material, last + 1);
-    return from.material < 0 ? last : from.material; // the default one was appended
+    if (from.material >= 0 && static_cast<size_t>(from.material) >= in.materials_in_file)
+        fail("%s: material %d is out of range, there are %zu", what.c_str(), from.material,
+             in.materials_in_file);
+    const int appended = static_cast<int>(in.scene->material_count) - 1;
+    return from.material < 0 ? appended : from.material;
 }
 
 bool second_uv_is_used(const gltf_material &m)
@@ -206,6 +216,7 @@ bool primitive_import(importer &in, const tinygltf::Primitive &from, gltf_primit
         return false;
     }
     geometry_complete(in, g, in.scene->materials[to.material], what);
+    in.scene->primitive_count++; // before its arrays are made: the scene frees what there is of them
     primitive_store(g, to);
     return true;
 }
@@ -227,10 +238,10 @@ void meshes_import(importer &in)
         const tinygltf::Mesh &mesh = in.model.meshes[m];
         in.mesh_primitives.emplace_back();
         for (size_t p = 0; p < mesh.primitives.size(); p++) {
-            gltf_primitive &to = in.scene->primitives[in.scene->primitive_count];
+            const uint32_t next = in.scene->primitive_count;
             const std::string what = label("meshes", m) + "." + label("primitives", p);
-            if (primitive_import(in, mesh.primitives[p], to, what))
-                in.mesh_primitives.back().push_back(in.scene->primitive_count++);
+            if (primitive_import(in, mesh.primitives[p], in.scene->primitives[next], what))
+                in.mesh_primitives.back().push_back(next);
         }
     }
 }

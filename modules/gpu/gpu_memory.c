@@ -11,18 +11,21 @@ static const struct {
                         VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT },
 };
 
-/* Index of a memory type with the required flags, if possible with the preferred ones; UINT32_MAX if there is
- * none. */
+/* Index of the first memory type with the required flags, if possible with the preferred ones too; UINT32_MAX
+ * if there is none. Vulkan sorts types so that those with flags nobody asked for come later: protected ones,
+ * and some that need a feature to be switched on. */
 static uint32_t memory_type(const struct gpu_device *device, uint32_t allowed, enum gpu_placement placement)
 {
     uint32_t found = UINT32_MAX;
-    for (uint32_t i = device->memory.memoryTypeCount; i-- > 0;) {
+    for (uint32_t i = 0; i < device->memory.memoryTypeCount; i++) {
         const VkMemoryPropertyFlags flags = device->memory.memoryTypes[i].propertyFlags;
         const VkMemoryPropertyFlags required = placements[placement].required;
         const VkMemoryPropertyFlags both = required | placements[placement].preferred;
         if (!(allowed >> i & 1) || (flags & required) != required)
             continue;
-        if (found == UINT32_MAX || (flags & both) == both)
+        if ((flags & both) == both)
+            return i;
+        if (found == UINT32_MAX)
             found = i;
     }
     return found;

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* Accessor 0: three positions; 1: indices 0 1 2; 2: indices 0 1 9; 3: positions with not-a-number. */
 static void base_draft(struct draft *d)
@@ -40,6 +41,10 @@ static const struct broken rows[] = {
     { "positions_of_the_wrong_type_are_refused", MESH("\"attributes\":{\"POSITION\":1}"), "1 components" },
     { "an_unknown_mode_is_refused", MESH(ATTRIBUTES ",\"mode\":9"), "mode 9" },
     { "a_missing_material_is_refused", MESH(ATTRIBUTES ",\"material\":3"), "material 3" },
+    { "the_default_material_has_no_index",
+      ",\"meshes\":[{\"primitives\":[{" ATTRIBUTES "},{" ATTRIBUTES
+      ",\"material\":0}]}],\"nodes\":[{\"mesh\":0}]",
+      "material 0 is out of range, there are 0" },
     { "attributes_of_different_lengths_are_refused",
       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3},"
       "{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2}]" MESH(
@@ -249,6 +254,18 @@ static void broken_buffers_are_refused(void **state)
 #undef BUFFER
 }
 
+/* The second file is a hole that takes no room on the disk; reading it would take 4 GiB of memory. */
+static void buffers_of_more_than_4_gib_in_all_are_refused(void **state)
+{
+    (void)state;
+    files_write_text("small.bin", "abc");
+    files_write_text("hole.bin", "abc");
+    assert_int_equal(truncate(files_path("hole.bin"), UINT32_MAX), 0);
+    text_is_refused("{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":3,\"uri\":\"small.bin\"},"
+                    "{\"byteLength\":3,\"uri\":\"hole.bin\"}]}",
+                    "buffers[1]: 'hole.bin': larger than 4294967292 bytes");
+}
+
 static void image_is_refused(const struct png *image, size_t keep, const char *wrong)
 {
     struct draft d = { 0 };
@@ -311,18 +328,19 @@ enum { ROW_COUNT = sizeof rows / sizeof *rows };
 
 int main(void)
 {
-    struct CMUnitTest tests[ROW_COUNT + 9] = {
+    struct CMUnitTest tests[ROW_COUNT + 10] = {
         cmocka_unit_test(the_unbroken_file_loads),
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(text_that_is_not_gltf_is_refused),
         cmocka_unit_test(deep_nesting_is_refused),
         cmocka_unit_test(broken_buffers_are_refused),
+        cmocka_unit_test(buffers_of_more_than_4_gib_in_all_are_refused),
         cmocka_unit_test(broken_images_are_refused),
         cmocka_unit_test(a_jpeg_with_too_many_huffman_codes_is_refused),
         cmocka_unit_test(missing_files_folders_and_pipes_are_refused),
         cmocka_unit_test(messages_end_where_the_buffer_does),
     };
     for (size_t i = 0; i < ROW_COUNT; i++)
-        tests[9 + i] = (struct CMUnitTest){ rows[i].name, row_is_refused, NULL, NULL, (void *)&rows[i] };
+        tests[10 + i] = (struct CMUnitTest){ rows[i].name, row_is_refused, NULL, NULL, (void *)&rows[i] };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }

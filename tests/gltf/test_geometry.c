@@ -265,12 +265,12 @@ static void stored_tangents_are_kept(void **state)
     gltf_scene_destroy(s);
 }
 
-static void broken_normals_and_uv_are_repaired(void **state)
+static void broken_normals_uv_and_colors_are_repaired(void **state)
 {
     (void)state;
     static const float normals[12] = { NAN, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 3 };
     static const float uv[8] = { NAN, INFINITY, 1, 1, 1, 0, 0, 0 };
-    static const float colors[12] = { NAN, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+    static const float colors[12] = { NAN, 1, -1, 1e30f, 0.5f, 1, 1, 1, 1, 1, 1, 1 };
     struct draft d = { 0 };
     draft_floats(&d, "VEC3", 4, square);
     draft_floats(&d, "VEC3", 4, normals);
@@ -282,7 +282,7 @@ static void broken_normals_and_uv_are_repaired(void **state)
     const struct gltf_primitive *const p = &s->primitives[0];
     floats_expect(p->normals, square_normals, 12, 0);
     floats_expect(p->uv0, (const float[]){ 0, 0, 1, 1 }, 4, 0);
-    floats_expect(p->colors, (const float[]){ 0, 1, 1, 1 }, 4, 0);
+    floats_expect(p->colors, (const float[]){ 0, 1, 0, 1, 1, 0.5f, 1, 1 }, 8, 0);
     gltf_scene_destroy(s);
 }
 
@@ -331,7 +331,7 @@ int main(void)
         cmocka_unit_test(missing_tangents_follow_u_and_mirror_with_v),
         cmocka_unit_test(tangents_without_usable_uv_stay_at_right_angles),
         cmocka_unit_test(stored_tangents_are_kept),
-        cmocka_unit_test(broken_normals_and_uv_are_repaired),
+        cmocka_unit_test(broken_normals_uv_and_colors_are_repaired),
         cmocka_unit_test(points_and_lines_are_left_out_and_counted),
         cmocka_unit_test(primitives_without_material_share_the_default_one),
     };

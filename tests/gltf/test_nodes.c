@@ -207,6 +207,20 @@ static void one_warning_names_everything_left_out(void **state)
     gltf_scene_destroy(s);
 }
 
+/* 254 bytes and a character of two: it goes whole. */
+static void long_names_are_cut_between_characters(void **state)
+{
+    (void)state;
+    char name[400] = { 0 }, rest[512];
+    memset(name, 'n', 254);
+    memcpy(name + 254, "\xc3\xa9 and more", 11);
+    snprintf(rest, sizeof rest, ",\"nodes\":[{\"mesh\":0,\"name\":\"%s\"}]", name);
+    struct gltf_scene *const s = nodes_load(rest);
+    name[254] = '\0';
+    assert_string_equal(s->instances[0].node_name, name);
+    gltf_scene_destroy(s);
+}
+
 static void whole_numbers_may_be_written_with_a_point(void **state)
 {
     (void)state;
@@ -229,6 +243,7 @@ int main(void)
         cmocka_unit_test(cameras_are_rigid_and_keep_their_lens),
         cmocka_unit_test(a_scene_without_meshes_is_empty),
         cmocka_unit_test(one_warning_names_everything_left_out),
+        cmocka_unit_test(long_names_are_cut_between_characters),
         cmocka_unit_test(whole_numbers_may_be_written_with_a_point),
     };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
