@@ -32,10 +32,11 @@ bool cascade_place(struct cascade *cascade, uint32_t resolution, const double ca
         const int64_t off_centre = cell - (cascade->origin[i] + half);
         if (cascade->placed && off_centre >= -spacing && off_centre <= spacing)
             continue;
-        /* Rounded to the nearest probe: at most half a spacing off, so that the way back to the threshold is
-         * at least half a spacing and a camera that oscillates around any point moves the cascade at most
-         * once. */
-        const int64_t origin = floor_div(cell - half + spacing / 2, spacing) * spacing;
+        /* A first place is the nearest probe. A step leads up to the camera, not past it: lookups have
+         * stopped reading what it takes away (schedule.c), and the way back to the threshold is longer than a
+         * spacing, so that a camera that oscillates around any point causes one step at most. */
+        const int64_t origin = cascade->placed ? cascade->origin[i] + off_centre / spacing * spacing
+                                               : floor_div(cell - half + spacing / 2, spacing) * spacing;
         moved = moved || !cascade->placed || origin != cascade->origin[i];
         cascade->origin[i] = origin;
     }
@@ -59,4 +60,80 @@ bool box_overlaps(const struct box *a, const struct box *b)
         if (a->max[i] < b->min[i] || a->min[i] > b->max[i])
             return false;
     return true;
+}
+
+struct cell_box cell_box_whole(uint32_t resolution)
+{
+    const int32_t n = (int32_t)resolution;
+    return (struct cell_box){ { 0, 0, 0 }, { n, n, n } };
+}
+
+struct cell_box cell_box_shifted(const struct cell_box *box, const int32_t by[3])
+{
+    struct cell_box shifted;
+    for (int i = 0; i < 3; i++) {
+        shifted.low[i] = box->low[i] + by[i];
+        shifted.high[i] = box->high[i] + by[i];
+    }
+    return shifted;
+}
+
+struct cell_box cell_box_common(const struct cell_box *a, const struct cell_box *b)
+{
+    struct cell_box common;
+    for (int i = 0; i < 3; i++) {
+        common.low[i] = a->low[i] > b->low[i] ? a->low[i] : b->low[i];
+        common.high[i] = a->high[i] < b->high[i] ? a->high[i] : b->high[i];
+    }
+    return cell_box_empty(&common) ? (struct cell_box){ 0 } : common;
+}
+
+bool cell_box_empty(const struct cell_box *box)
+{
+    for (int i = 0; i < 3; i++)
+        if (box->low[i] >= box->high[i])
+            return true;
+    return false;
+}
+
+uint64_t cell_box_cells(const struct cell_box *box)
+{
+    uint64_t cells = 1;
+    for (int i = 0; i < 3; i++)
+        cells *= (uint64_t)(box->high[i] > box->low[i] ? box->high[i] - box->low[i] : 0);
+    return cells;
+}
+
+uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole, struct cell_box out[3])
+{
+    uint32_t count = 0;
+    struct cell_box rest = *box;
+    for (int i = 0; i < 3; i++) {
+        struct cell_box below = rest, above = rest;
+        below.high[i] = hole->low[i];
+        above.low[i] = hole->high[i];
+        if (!cell_box_empty(&below))
+            out[count++] = below;
+        if (!cell_box_empty(&above) && count < 3)
+            out[count++] = above;
+        rest.low[i] = hole->low[i];
+        rest.high[i] = hole->high[i];
+    }
+    return count;
+}
+
+struct cell_box cascade_cells(const struct cascade *cascade, uint32_t resolution, const struct box *box)
+{
+    const double n = (double)resolution;
+    struct cell_box cells;
+    for (int i = 0; i < 3; i++) {
+        const double origin = (double)cascade->origin[i], spacing = SDFGI_PROBE_SPACING;
+        /* One sub-voxel more on either side: triangles set sub-voxels that they touch. */
+        const double margin = 1.0 / SDFGI_SUBVOXELS;
+        const double low = floor((box->min[i] / cascade->cell_size[i] - origin - margin) / spacing) * spacing;
+        const double high = ceil((box->max[i] / cascade->cell_size[i] - origin + margin) / spacing) * spacing;
+        cells.low[i] = (int32_t)fmin(fmax(low, 0), n);
+        cells.high[i] = (int32_t)fmin(fmax(high, 0), n);
+    }
+    return cells;
 }

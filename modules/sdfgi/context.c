@@ -20,12 +20,13 @@ static const char *desc_problem(const struct sdfgi_desc *d)
 static void forget_everything(struct sdfgi *gi)
 {
     memset(gi->cascades, 0, sizeof gi->cascades);
+    memset(&gi->schedule, 0, sizeof gi->schedule);
     memset(gi->slots, 0, sizeof gi->slots);
     memset(gi->passes, 0, sizeof gi->passes);
     memset(gi->counters, 0, sizeof gi->counters);
     memset(&gi->params, 0, sizeof gi->params);
     for (int c = 0; c < SDFGI_MAX_CASCADES; c++)
-        gi->cascades[c].dirty = true;
+        gi->cascades[c].rebuild = true;
     gi->ring = 1;
     gi->ring_frame = 0;
     gi->disturbed_ring = gi->known_ring = 0;

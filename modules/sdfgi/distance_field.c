@@ -1,27 +1,93 @@
 /* SPDX-License-Identifier: MIT
- * Stage 4: distances of a cascade, exactly or by a jump flood. */
+ * Stage 4: distances of a cascade, exactly and in parts, or by a jump flood. */
 #include "internal.h"
 
-static uint32_t groups_of(uint64_t elements)
+/* Cells that a pass looks at, as far as the host knows; how many were searched, counters tell. */
+static void count_cells(struct frame *frame, enum pass pass, uint32_t layers)
 {
-    return (uint32_t)((elements + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR);
+    const uint64_t n = frame->gi->settings.resolution;
+    frame->gi->passes[pass].work += 4 * layers * n * n;
 }
 
-static void record_exact(struct frame *frame, uint32_t c)
+static void record_occupancy(struct frame *frame, uint32_t c)
 {
-    struct sdfgi *gi = frame->gi;
-    const uint64_t cells = gi->resources->extent.cells;
-    struct sdfgi_pass_args args = { .cascade = c };
+    const struct sdfgi_pass_args args = { .cascade = c };
+    const uint32_t n = frame->gi->settings.resolution;
     pass_begin(frame, PASS_OCCUPANCY);
-    pass_dispatch(frame, PASS_OCCUPANCY, &args, groups_of(cells / 64), 1, 1);
-    args.step = 1;
-    pass_dispatch(frame, PASS_OCCUPANCY, &args, groups_of(cells / 4096), 1, 1);
-    gi->passes[PASS_OCCUPANCY].work += cells;
+    pass_dispatch(frame, PASS_OCCUPANCY, &args, n / 32, n, 1);
+    count_cells(frame, PASS_OCCUPANCY, n / 4);
+    pass_end(frame);
+}
+
+static int32_t clamp_to(int32_t value, int32_t low, int32_t high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+/* A box cut to where it can matter: all that lies further away than the cascade is wide is as far as that. */
+static void pack_box(const struct cell_box *box, uint32_t resolution, uint corners[static 3])
+{
+    const int32_t n = (int32_t)resolution;
+    for (int i = 0; i < 3; i++) {
+        const int32_t low = clamp_to(box->low[i], -n, 2 * n), high = clamp_to(box->high[i], -n, 2 * n);
+        corners[i] = ((uint)low & 0xffffu) | (uint)high << 16;
+    }
+}
+
+static bool box_is_empty(const struct cell_box *box)
+{
+    return box->low[0] >= box->high[0] || box->low[1] >= box->high[1] || box->low[2] >= box->high[2];
+}
+
+static struct sdfgi_stale_args stale_args(uint32_t resolution, uint32_t c, const struct distance_part *part)
+{
+    struct sdfgi_stale_args args = { .cascade = c, .first = part->first };
+    for (uint32_t i = 0; i < part->changed_count; i++)
+        if (!box_is_empty(&part->changed[i]))
+            pack_box(&part->changed[i], resolution, args.corners + 3 * args.box_count++);
+    return args;
+}
+
+static void record_stale(struct frame *frame, const struct sdfgi_stale_args *args, uint32_t count)
+{
+    pass_begin(frame, PASS_DISTANCE_STALE);
+    gpu_use(&frame->rec, GPU_USAGE_COMPUTE, pass_reads(PASS_DISTANCE_STALE),
+            pass_writes(PASS_DISTANCE_STALE));
+    gpu_push(&frame->rec, frame->gi->pipelines.layout, sizeof *args, args);
+    gpu_dispatch(&frame->rec, frame->gi->settings.resolution / 4, count, 1);
+    frame->gi->passes[PASS_DISTANCE_STALE].dispatches++;
+    count_cells(frame, PASS_DISTANCE_STALE, count);
+    pass_end(frame);
+}
+
+/* Some layers of blocks, for whose planes there is room. */
+static void record_search(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
+{
+    const uint32_t n = frame->gi->settings.resolution;
+    const struct sdfgi_pass_args args = { .cascade = c, .step = 4 * first, .source = 4 * (first + count) };
+    const uint32_t first_run = args.step / SDFGI_LINES,
+                   end_run = (args.source + SDFGI_LINES - 1) / SDFGI_LINES;
+    pass_begin(frame, PASS_DISTANCE_PLANE);
+    pass_dispatch(frame, PASS_DISTANCE_PLANE, &args, end_run - first_run, 4 * n, 1);
+    count_cells(frame, PASS_DISTANCE_PLANE, count);
     pass_end(frame);
 
     pass_begin(frame, PASS_DISTANCE_EXACT);
-    pass_dispatch_cells(frame, PASS_DISTANCE_EXACT, &args);
+    pass_dispatch(frame, PASS_DISTANCE_EXACT, &args, n / 2, count, 1);
+    count_cells(frame, PASS_DISTANCE_EXACT, count);
     pass_end(frame);
+}
+
+static void record_exact(struct frame *frame, uint32_t c, const struct distance_part *part)
+{
+    const uint32_t n = frame->gi->settings.resolution, room = n / 8, end = part->first + part->count;
+    const struct sdfgi_stale_args stale = stale_args(n, c, part);
+    if (part->changed_count > 0 && stale.box_count == 0)
+        return; /* boxes without a cell */
+    record_occupancy(frame, c);
+    record_stale(frame, &stale, part->count);
+    for (uint32_t first = part->first; first < end; first += room)
+        record_search(frame, c, first, first + room < end ? room : end - first);
 }
 
 static void flood_step(struct frame *frame, struct sdfgi_pass_args *args, uint32_t length)
@@ -52,10 +118,10 @@ static void record_flood(struct frame *frame, uint32_t c)
     pass_end(frame);
 }
 
-void distance_field_record(struct frame *frame, uint32_t c)
+void distance_field_record(struct frame *frame, uint32_t c, const struct distance_part *part)
 {
-    if (frame->gi->plan[PASS_FLOOD_STEP].run)
+    if (!frame->gi->plan[PASS_FLOOD_STEP].run)
+        record_exact(frame, c, part);
+    else if (part->first == 0)
         record_flood(frame, c);
-    else
-        record_exact(frame, c);
 }

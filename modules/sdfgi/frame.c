@@ -15,17 +15,12 @@ static const char *frame_problem(const struct sdfgi_frame_desc *d)
     return NULL;
 }
 
-/* Cascades follow the camera; one that moves is generated again. */
-static void place_cascades(struct sdfgi *gi, const double camera[3])
+static void size_cells(struct sdfgi *gi)
 {
-    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
-        struct cascade *cascade = &gi->cascades[c];
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
         for (int i = 0; i < 3; i++)
-            cascade->cell_size[i] = ldexp(gi->settings.min_cell_size_m, (int)c) *
-                                    (i == 1 ? y_scale_factor(gi->settings.y_scale) : 1.0);
-        if (cascade_place(cascade, gi->settings.resolution, camera))
-            cascade->dirty = true;
-    }
+            gi->cascades[c].cell_size[i] = ldexp(gi->settings.min_cell_size_m, (int)c) *
+                                           (i == 1 ? y_scale_factor(gi->settings.y_scale) : 1.0);
 }
 
 /* Takes over what the host says about the frame. */
@@ -41,27 +36,24 @@ static void take_frame(struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
     if (desc->seed != gi->seed) {
         gi->seed = desc->seed;
         for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
-            gi->cascades[c].dirty = true;
+            gi->cascades[c].rebuild = true;
     }
-    place_cascades(gi, desc->camera_position);
+    size_cells(gi);
+    schedule_frame(gi, desc->camera_position);
 }
 
-static bool any_dirty(const struct sdfgi *gi)
+static bool any_relisted(const struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].dirty)
+        if (gi->cascades[c].relist)
             return true;
     return false;
 }
 
-/* The coarsest dirty cascade: rays of finer ones may end in it. */
-static uint32_t coarsest_dirty(const struct sdfgi *gi)
+/* What rings have gathered no longer counts: nothing was there before, or light cells were missing. */
+static bool restarts(const struct sdfgi *gi)
 {
-    uint32_t coarsest = 0;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].dirty)
-            coarsest = c;
-    return coarsest;
+    return gi->schedule.from_nothing || any_relisted(gi);
 }
 
 static bool all_published(const struct sdfgi *gi)
@@ -86,15 +78,42 @@ static void restart_ring(struct sdfgi *gi)
     gi->disturbed_ring = gi->ring - 1;
 }
 
-static void make_plan(struct sdfgi *gi)
+/* Light that falls directly is new where a cascade is complete, and in all finer ones, into which its
+ * geometry throws shadows. */
+static void mark_relights(struct sdfgi *gi)
+{
+    uint32_t dirty = gi->lights_changed || any_relisted(gi) ? gi->settings.cascades : 0;
+    for (uint32_t i = 0; i < gi->schedule.step_count; i++)
+        if (gi->schedule.steps[i].kind == STEP_COMPLETE && gi->schedule.steps[i].cascade >= dirty)
+            dirty = gi->schedule.steps[i].cascade + 1;
+    const bool lit = gi->scene.lights.count > 0 || gi->lights_changed;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        gi->cascades[c].relight = lit && (gi->cascades[c].relight || c < dirty);
+}
+
+static bool any_relights(const struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].dirty)
+        if (gi->cascades[c].relight)
+            return true;
+    return false;
+}
+
+static void make_plan(struct sdfgi *gi)
+{
+    mark_relights(gi);
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (gi->cascades[c].fresh && gi->schedule.from_nothing)
             gi->cascades[c].published = false;
     const bool due = (gi->ring_frame + 1) % gi->settings.frames_to_update_lights == 0;
     const struct situation situation = {
         .enabled = true,
-        .any_dirty = any_dirty(gi),
+        .generates = schedule_has(gi, STEP_VOXELS),
+        .measures = schedule_has(gi, STEP_DISTANCE),
+        .completes = schedule_has(gi, STEP_COMPLETE),
+        .fresh = gi->schedule.from_nothing,
+        .relights = any_relights(gi),
+        .list_grew = any_relisted(gi),
         .has_geometry = gi->scene.instances.count > 0,
         .has_lights = gi->scene.lights.count > 0,
         .converged = gi->converged,
@@ -110,45 +129,84 @@ static void make_plan(struct sdfgi *gi)
 
 /* ---- Phases */
 
-/* Builds the volumes of cascades that moved or whose geometry changed. */
+/* Voxels and distances that are due in this frame. */
 static void generate(struct frame *frame)
 {
-    struct sdfgi *gi = frame->gi;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
-        if (!gi->cascades[c].dirty)
-            continue;
-        gi->cascades[c].fresh = true;
-        voxelize_record(frame, c);
-        distance_field_record(frame, c);
-        probe_place_record(frame, c);
-        occlusion_record(frame, c);
-        light_cache_list_record(frame, c);
+    const struct sdfgi *gi = frame->gi;
+    for (uint32_t i = 0; i < gi->schedule.step_count; i++) {
+        const struct step *step = &gi->schedule.steps[i];
+        const struct change *change = &gi->cascades[step->cascade].change;
+        const bool whole = cell_box_empty(&change->kept);
+        const struct distance_part part = { step->first, step->count, change->boxes,
+                                            whole ? 0 : change->count };
+        if (step->kind == STEP_VOXELS)
+            voxelize_record(frame, step->cascade, &step->box);
+        else if (step->kind == STEP_DISTANCE)
+            distance_field_record(frame, step->cascade, &part);
     }
 }
 
-/* Forgets rays that may end in a new cascade, and what this ring has summed so far. */
-static void forget(struct frame *frame)
+/* Probes and light cells where voxels and distances are complete; coarse cascades first, from which new
+ * probes of finer ones take their start. */
+static void complete(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    const uint32_t coarsest = coarsest_dirty(gi);
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        probe_reset_record(frame, c, c <= coarsest);
+    for (uint32_t c = gi->settings.cascades; c-- > 0;) {
+        const bool all = schedule_completes(gi, c);
+        if (all) {
+            probe_place_record(frame, c);
+            occlusion_record(frame, c);
+        }
+        if (restarts(gi))
+            probe_reset_record(frame, c);
+        else if (all)
+            probe_seed_record(frame, c);
+        if (all || gi->cascades[c].relist)
+            light_cache_list_record(frame, c);
+    }
 }
 
-/* Direct light where surfaces or lights are new; finer cascades too, into which coarser geometry throws
- * shadows. */
+/* Rays of a cascade go on into coarser ones, never into finer. */
+static void forget_rays(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    bool changed = false;
+    for (uint32_t c = gi->settings.cascades; c-- > 0;) {
+        changed = changed || schedule_completes(gi, c);
+        if (changed && !restarts(gi))
+            ray_forget_record(frame, c);
+    }
+}
+
+/* Surfaces, or the light on them, are not what they were in the frame before. */
+static bool light_is_new(const struct sdfgi *gi, uint32_t c)
+{
+    return schedule_completes(gi, c) || gi->cascades[c].relist || gi->lights_changed ||
+           gi->schedule.from_nothing;
+}
+
+/* Direct light: at once where a cascade has become complete or a light changed, else one cascade a frame in
+ * others. */
 static void light_directly(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    const uint32_t last = gi->lights_changed ? gi->settings.cascades - 1 : coarsest_dirty(gi);
-    for (uint32_t c = 0; c <= last; c++)
+    bool waited = schedule_has(gi, STEP_COMPLETE); /* such a frame has enough to do */
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        struct cascade *cascade = &gi->cascades[c];
+        const bool now = light_is_new(gi, c);
+        if (!cascade->relight || (!now && waited))
+            continue;
         light_cache_direct_record(frame, c);
+        cascade->relight = false;
+        waited = waited || !now;
+    }
 }
 
-static void light_surfaces(struct frame *frame)
+static void light_surfaces(struct frame *frame, bool new_alone)
 {
     for (uint32_t c = 0; c < frame->gi->settings.cascades; c++)
-        light_cache_bounce_record(frame, c);
+        if (!new_alone || light_is_new(frame->gi, c))
+            light_cache_bounce_record(frame, c);
 }
 
 /* Sends this frame's rays, and publishes what the probes have gathered. */
@@ -191,7 +249,7 @@ static void advance_ring(struct sdfgi *gi)
         gi->ring_frame++;
         return;
     }
-    if (gi->known_ring > gi->disturbed_ring && gi->known_change < SDFGI_CONVERGED_CHANGE)
+    if (schedule_idle(gi) && gi->known_ring > gi->disturbed_ring && gi->known_change < SDFGI_CONVERGED_CHANGE)
         gi->converged = true;
     gi->ring++;
     gi->ring_frame = 0;
@@ -201,27 +259,29 @@ static void record_work(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
     prepare_atlas(frame);
-    if (gi->plan[PASS_VOXEL_RESOLVE].run) {
+    if (gi->plan[PASS_REGION_CLEAR].run)
         clear_counters(frame, 0, SDFGI_COUNTER_LIGHT_CELLS);
-        generate(frame);
-        forget(frame);
-    } else if (gi->ring_frame == 0) {
+    else if (gi->ring_frame == 0)
         clear_counters(frame, SDFGI_COUNTER_VALUES_CLAMPED, SDFGI_COUNTER_MAX_IRRADIANCE);
+    generate(frame);
+    if (gi->plan[PASS_LIGHT_LIST].run) {
+        complete(frame);
+        forget_rays(frame);
     }
     if (gi->plan[PASS_LIGHT_DIRECT].run)
         light_directly(frame);
-    if (gi->plan[PASS_LIGHT_DIRECT].run || gi->plan[PASS_VOXEL_RESOLVE].run)
-        light_surfaces(frame);
+    if (gi->plan[PASS_LIGHT_DIRECT].run || gi->plan[PASS_LIGHT_LIST].run)
+        light_surfaces(frame, true);
     if (gi->plan[PASS_PROBE_TRACE].run)
         light_probes(frame);
     if (gi->plan[PASS_PROBE_BLEND].run)
-        light_surfaces(frame);
+        light_surfaces(frame, false);
     readback_record(frame);
 }
 
 static void record_frame(struct sdfgi *gi, struct frame *frame)
 {
-    if (any_dirty(gi))
+    if (restarts(gi))
         restart_ring(gi);
     make_plan(gi);
     upload_params(gi);
@@ -231,8 +291,9 @@ static void record_frame(struct sdfgi *gi, struct frame *frame)
         advance_ring(gi);
     }
     gpu_recorder_end(&frame->rec);
-    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
-        gi->cascades[c].dirty = c < gi->settings.cascades ? false : gi->cascades[c].dirty;
+    schedule_finish(gi);
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        gi->cascades[c].relist = false;
     gi->lights_changed = false;
     gi->command_count = frame->rec.command_count;
     gi->active = true;
@@ -267,6 +328,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     }
     struct frame frame = { .gi = gi, .slot = (uint32_t)(gi->frame % gi->frames_in_flight) };
     readback_read(gi, frame.slot);
+    light_cache_make_room(gi);
     gpu_recorder_begin(&frame.rec, &gi->device, cmd);
     gpu_timer_begin_frame(&gi->resources->timer, frame.slot);
     gi->slots[frame.slot].timed = true;

@@ -31,7 +31,8 @@ enum {
 
 /* Elements per cascade, and what else sizes in the resource table depend on. */
 struct extent {
-    uint64_t cells, blocks, probes, probes_per_side, light_cells, cascades, ring_samples, scratch, occlusion;
+    uint64_t cells, blocks, probes, probes_per_side, cascades, ring_samples, scratch, occlusion;
+    uint64_t light_cells, light_cells_max; /* room in the list, and how much it may become */
     uint32_t atlas_width, atlas_height;
 };
 
@@ -64,6 +65,7 @@ struct resources {
     VkPipeline raster_pipelines[2]; /* without and with textures */
     struct extent extent;
     bool atlas_ready; /* the atlas is in VK_IMAGE_LAYOUT_GENERAL */
+    uint64_t light_cells_refused; /* how many cells there was no room for; 0: always enough */
     uint64_t retired_at;
     struct resources *next_retired;
 };
@@ -128,19 +130,56 @@ struct scene {
 
 /* ---- Cascades: cascade.c */
 
+/* Local cells [low, high) of a cascade; empty if low >= high along an axis. */
+struct cell_box {
+    int32_t low[3], high[3];
+};
+
+/* What a cascade is making new, step by step. */
+struct change {
+    bool active;
+    struct cell_box boxes[SDFGI_MAX_CHANGES]; /* those within the cascade are generated; rays may end elsewhere in all */
+    uint32_t count;
+    struct cell_box kept;      /* complete all the while */
+    uint32_t box;              /* of `boxes`: next to be voxelised, ... */
+    int32_t slice;             /* ... from this cell on along its longest axis */
+    uint32_t layer;            /* of blocks: next to get distances */
+    uint64_t cells_left;
+    bool at_once;              /* in sight: as fast as the budget allows */
+};
+
 struct cascade {
     int64_t origin[3];   /* world index of the low corner's cell, a multiple of SDFGI_PROBE_SPACING */
     double cell_size[3]; /* metres */
     bool placed;
-    bool dirty;     /* geometry: generate it again */
-    bool fresh;     /* no ring has been completed since it was generated */
+    bool rebuild;   /* make it new whatever is there */
+    bool relist;    /* the list of its light cells was lost: write it again */
+    bool fresh;     /* no ring has been completed since nothing was there */
     bool published; /* its probes hold light */
+    bool waits;     /* the camera is too fast for it to step */
+    bool relight;   /* direct light is to be brought up to date */
+    struct cell_box window;  /* complete cells, which shaders may read */
+    double share_low[3], share_high[3]; /* the part of it that lookups read, see schedule.c */
+    bool share_moves;        /* it still widens */
+    struct change change;
+    struct box edits[SDFGI_MAX_CHANGES]; /* world: geometry changed there since the last change began */
+    uint32_t edit_count;
+    bool edited;    /* its last change was one of geometry */
 };
 
-/* Places a cascade around a camera: centred to within half a probe, moved only when the camera is more than a
- * whole probe spacing off centre. Returns true if it moved. */
+/* Places a cascade around a camera: at first centred to within half a probe; then moved by whole probe spacings,
+ * once the camera is more than one off centre. Returns true if it moved. */
 bool cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[3]);
 struct box cascade_box(const struct cascade *cascade, uint32_t resolution);
+/* Cells that a box in the world touches, widened to whole probe spacings, clipped to the cascade. */
+struct cell_box cascade_cells(const struct cascade *cascade, uint32_t resolution, const struct box *box);
+struct cell_box cell_box_whole(uint32_t resolution);
+struct cell_box cell_box_shifted(const struct cell_box *box, const int32_t by[3]);
+struct cell_box cell_box_common(const struct cell_box *a, const struct cell_box *b);
+bool cell_box_empty(const struct cell_box *box);
+uint64_t cell_box_cells(const struct cell_box *box);
+/* Cuts what is in `box` but not in `hole`, which it contains, into up to three boxes; returns how many. */
+uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole, struct cell_box out[3]);
 bool box_overlaps(const struct box *a, const struct box *b);
 /* Floored division and remainder: right for negative coordinates too. */
 int64_t floor_div(int64_t a, int64_t b);
@@ -152,6 +191,9 @@ enum need {
     NEED_VOXELS,
     NEED_VOXELS_RASTER,
     NEED_GENERATE,
+    NEED_COMPLETE,
+    NEED_SEED,
+    NEED_LIST,
     NEED_EXACT,
     NEED_FLOOD,
     NEED_OCCLUSION,
@@ -166,7 +208,10 @@ enum need {
 
 /* What is known about the scene and this frame when the plan is made. */
 struct situation {
-    bool enabled, any_dirty, has_geometry, has_lights, converged, lights_changed, publish, gathers;
+    bool enabled, has_geometry, has_lights, converged, lights_changed, publish, gathers;
+    bool generates, measures, completes; /* geometry, distances, cascades in this frame */
+    bool fresh;                          /* nothing was there before */
+    bool relights, list_grew;
     bool raster, flood, occlusion, masks;
 };
 
@@ -177,6 +222,39 @@ struct decision {
 
 /* Pure: the same situation gives the same plan. */
 void plan_make(const struct situation *situation, struct decision plan[PASS_COUNT]);
+
+/* ---- Schedule: schedule.c */
+
+enum step_kind { STEP_VOXELS, STEP_DISTANCE, STEP_COMPLETE };
+
+struct step {
+    enum step_kind kind;
+    uint32_t cascade;
+    struct cell_box box;   /* voxels */
+    uint32_t first, count; /* distances: layers of 4^3 blocks along z */
+};
+
+enum { SDFGI_MAX_STEPS = 64 };
+
+struct schedule {
+    double camera[3], velocity[3]; /* m, m per frame (a running mean) */
+    bool has_camera;
+    double carry; /* cells that the frame before could not use */
+    struct step steps[SDFGI_MAX_STEPS]; /* of this frame */
+    uint32_t step_count;
+    bool from_nothing;      /* no cascade was complete before this frame */
+    uint64_t cells;         /* voxelised or given distances in this frame */
+    uint64_t steps_begun; /* since the start */
+};
+
+/* Starts what cascades need and decides how much of it this frame does. */
+void schedule_frame(struct sdfgi *gi, const double camera[3]);
+/* Marks what was done as done, once it has been recorded. */
+void schedule_finish(struct sdfgi *gi);
+bool schedule_has(const struct sdfgi *gi, enum step_kind kind);
+/* True if a cascade becomes complete in this frame. */
+bool schedule_completes(const struct sdfgi *gi, uint32_t cascade);
+bool schedule_idle(const struct sdfgi *gi);
 
 /* ---- Context */
 
@@ -211,6 +289,7 @@ struct sdfgi {
     uint64_t frame; /* calls of sdfgi_update */
 
     struct cascade cascades[SDFGI_MAX_CASCADES];
+    struct schedule schedule;
     bool materials_changed, lights_changed, params_changed;
     float emission_unit; /* radiance of the brightest material */
     struct sdfgi_frame_params params;
@@ -259,12 +338,15 @@ enum sdfgi_result resources_create(struct sdfgi *gi, const struct sdfgi_settings
 void resources_destroy(struct sdfgi *gi, struct resources *resources);
 /* Destroys them once no frame in flight can use them. */
 void resources_retire(struct sdfgi *gi);
+/* Exchanges the list of light cells for an empty one with room for `light_cells` a cascade, and the descriptor
+ * sets with it. Changes nothing if memory is short. */
+bool resources_grow_light_cells(struct sdfgi *gi, uint64_t light_cells);
 void resources_collect(struct sdfgi *gi, bool all);
 
 void scene_init(struct sdfgi *gi);
 void scene_finish(struct sdfgi *gi);
 void scene_collect(struct sdfgi *gi);
-/* Marks the cascades that a box touches, and restarts convergence. */
+/* Has the cascades that a box touches make it new, and restarts convergence. */
 void scene_touch(struct sdfgi *gi, const struct box *box);
 /* The light is no longer what it was: go on until it has settled again. */
 void light_disturb(struct sdfgi *gi);
@@ -285,6 +367,9 @@ void pass_end(struct frame *frame);
 void pass_dispatch(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args, uint32_t x,
                    uint32_t y, uint32_t z);
 void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
+/* One thread per `per_thread` cells of args' box. */
+void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+                       uint32_t per_thread);
 void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
 /* Zeroes a part of a buffer. */
 void pass_clear(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes);
@@ -293,15 +378,31 @@ uint64_t pass_writes(enum pass pass);
 const char *pass_name(enum pass pass);
 const char *pass_unit(enum pass pass);
 
-void voxelize_record(struct frame *frame, uint32_t cascade);
-void distance_field_record(struct frame *frame, uint32_t cascade);
+void voxelize_record(struct frame *frame, uint32_t cascade, const struct cell_box *box);
+
+/* Layers of blocks of 4^3 cells along z whose distances to make. Where anything is known of how bits changed, cells outside
+ * `changed` have the bits that their stored distances were made from, and hold those distances; inside, the bits are new and
+ * the distances are not looked at. The same boxes go with all parts of a change. */
+struct distance_part {
+    uint32_t first, count;
+    const struct cell_box *changed; /* up to SDFGI_MAX_CHANGES */
+    uint32_t changed_count;         /* 0: everything is new */
+};
+
+/* Makes distances equal, bit for bit, to those made of the same bits as a whole. Searches only blocks that a change may have
+ * reached. The flood cannot be cut: it makes all of a cascade with its first layer, and nothing with the others. */
+void distance_field_record(struct frame *frame, uint32_t cascade, const struct distance_part *part);
 void occlusion_record(struct frame *frame, uint32_t cascade);
 void probe_place_record(struct frame *frame, uint32_t cascade);
+/* Makes room where the newest counters known say that the list was too short. */
+void light_cache_make_room(struct sdfgi *gi);
 void light_cache_list_record(struct frame *frame, uint32_t cascade);
 void light_cache_direct_record(struct frame *frame, uint32_t cascade);
 void light_cache_bounce_record(struct frame *frame, uint32_t cascade);
-/* Empties the sums of this ring, and the ray cache too if rays may end somewhere new. */
-void probe_reset_record(struct frame *frame, uint32_t cascade, bool rays_too);
+/* Empties the sums of this ring, the one before and the ray cache. */
+void probe_reset_record(struct frame *frame, uint32_t cascade);
+void probe_seed_record(struct frame *frame, uint32_t cascade);
+void ray_forget_record(struct frame *frame, uint32_t cascade);
 void probe_trace_record(struct frame *frame, uint32_t cascade);
 void probe_blend_record(struct frame *frame, uint32_t cascade, bool ring_ends);
 

@@ -4,9 +4,13 @@
 
 #include <string.h>
 
-/* Light cells a list holds, in layers of n^2 cells: surfaces grow with the square of the resolution. It
- * brings the defaults to just under 64 MiB a cascade, scratch included. */
-#define LIGHT_CELL_LAYERS 19
+/* Light cells a list holds at first, in layers of n^2 cells: surfaces grow with the square of the resolution.
+ * The sample world's village has 5.3. */
+#define LIGHT_CELL_LAYERS 8
+
+/* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades: with the defaults a
+ * cascade then takes just under 64 MiB, scratch included. */
+#define LIGHT_CELL_SHARE (19.0 / 128)
 
 double y_scale_factor(enum sdfgi_y_scale scale)
 {
@@ -27,6 +31,13 @@ uint32_t ring_frames(const struct sdfgi_settings *settings)
     return (ring_samples(settings) + settings->ray_count - 1) / settings->ray_count;
 }
 
+static uint64_t light_cells_max(uint64_t cells)
+{
+    const uint64_t least = 128 * 128 * 128;
+    const uint64_t share = (uint64_t)(LIGHT_CELL_SHARE * (double)(cells > least ? cells : least));
+    return share < cells ? share : cells;
+}
+
 struct extent extent_from_settings(const struct sdfgi_settings *settings)
 {
     const uint64_t n = settings->resolution;
@@ -37,6 +48,7 @@ struct extent extent_from_settings(const struct sdfgi_settings *settings)
         .probes = side * side * side,
         .probes_per_side = side,
         .light_cells = LIGHT_CELL_LAYERS * n * n,
+        .light_cells_max = light_cells_max(n * n * n),
         .cascades = settings->cascades,
         .ring_samples = ring_samples(settings),
         .occlusion = 4,

@@ -40,11 +40,24 @@ void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi
     frame->gi->passes[pass].work += frame->gi->resources->extent.cells;
 }
 
+void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+                       uint32_t per_thread)
+{
+    const struct cell_box box = { { args->low.x, args->low.y, args->low.z },
+                                  { args->high.x, args->high.y, args->high.z } };
+    const uint64_t cells = cell_box_cells(&box), threads = cells / per_thread;
+    pass_dispatch(frame, pass, args, (uint32_t)((threads + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR), 1,
+                  1);
+    frame->gi->passes[pass].work += threads;
+}
+
 void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
 {
+    /* light_args leaves two records per cascade: a thread for each cell, and eight. */
+    const uint32_t record = args->cascade + (pass == PASS_CELL_MASK ? SDFGI_MAX_CASCADES : 0);
     gpu_use(&frame->rec, GPU_USAGE_INDIRECT, pass_reads(pass) | RESOURCE_BIT(INDIRECT), pass_writes(pass));
     pass_prepare(frame, pass, args);
-    gpu_dispatch_indirect(&frame->rec, &frame->gi->resources->buffers[RESOURCE_INDIRECT], 16 * args->cascade);
+    gpu_dispatch_indirect(&frame->rec, &frame->gi->resources->buffers[RESOURCE_INDIRECT], 16 * record);
     /* How many cells that is was read back from the frame that listed them. */
     frame->gi->passes[pass].work += frame->gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];
 }

@@ -13,19 +13,26 @@
 
 /* clang-format off */
 #define SDFGI_PASSES(X)                                                                                              \
+    X(REGION_CLEAR,    region_clear,    "cells",       0, R(BITS) | R(LIGHT) | R(MASKS) | R(SCRATCH), GENERATE)         \
     X(VOXELIZE,        voxelize,        "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS)   \
     X(VOXELIZE_RASTER, voxelize_raster, "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS_RASTER) \
     X(VOXEL_RESOLVE,   voxel_resolve,   "blocks",      R(BITS) | R(SCRATCH) | R(LIGHT), R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(COUNTERS), GENERATE) \
     X(OCCUPANCY,       occupancy,       "cells",       R(BITS), R(SCRATCH), EXACT)                                   \
-    X(DISTANCE_EXACT,  distance_exact,  "cells",       R(BITS) | R(SCRATCH), R(DISTANCE), EXACT)                     \
+    X(DISTANCE_STALE,  distance_stale,  "cells",       R(DISTANCE), R(SCRATCH) | R(COUNTERS), EXACT)                 \
+    X(DISTANCE_PLANE,  distance_plane,  "cells",       R(BITS) | R(SCRATCH), R(SCRATCH), EXACT)                      \
+    X(DISTANCE_EXACT,  distance_exact,  "cells",       R(SCRATCH), R(DISTANCE), EXACT)                               \
     X(FLOOD_SEED,      flood_seed,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \
     X(FLOOD_STEP,      flood_step,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \
     X(FLOOD_DISTANCE,  flood_distance,  "cells",       R(SCRATCH), R(DISTANCE), FLOOD)                               \
-    X(PROBE_PLACE,     probe_place,     "probes",      R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS), GENERATE)     \
+    X(PROBE_PLACE,     probe_place,     "probes",      R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS), COMPLETE)     \
+    X(PROBE_LINK,      probe_link,      "probes",      R(BITS) | R(DISTANCE), R(PROBES), COMPLETE)                      \
+    X(PROBE_SEED,      probe_seed,      "probes",      R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE), SEED) \
     X(OCCLUSION_TRACE, occlusion_trace, "rays",        R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION), OCCLUSION)   \
-    X(LIGHT_LIST,      light_list,      "cells",       R(BITS) | R(DISTANCE), R(LIGHT) | R(LIGHT_CELLS) | R(COUNTERS), GENERATE) \
-    X(LIGHT_ARGS,      light_args,      "cascades",    R(COUNTERS), R(INDIRECT), GENERATE)                           \
+    X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST)           \
+    X(LIGHT_ARGS,      light_args,      "cascades",    0, R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST)              \
+    X(LIGHT_LIST,      light_list,      "light cells", R(SCRATCH), R(LIGHT) | R(LIGHT_CELLS), LIST)                  \
     X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(COUNTERS), R(LIGHT_CELLS) | R(MASKS), MASKS) \
+    X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES), R(RAYS), SEED)                                       \
     X(LIGHT_DIRECT,    light_direct,    "light cells", R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS), R(LIGHT_CELLS) | R(COUNTERS), DIRECT) \
     X(LIGHT_BOUNCE,    light_bounce,    "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS), LIGHT) \
     X(PROBE_TRACE,     probe_trace,     "rays",        R(BITS) | R(DISTANCE) | R(PROBES) | R(LIGHT), R(RAYS) | R(SUMS) | R(COUNTERS), TRACE) \

@@ -7,20 +7,27 @@
 #include "voxelize_raster.frag.h"
 #include "voxelize_raster_textured.frag.h"
 #include "voxelize_textured.comp.h"
+#include "region_clear.comp.h"
 #include "voxel_resolve.comp.h"
 #include "occupancy.comp.h"
+#include "distance_stale.comp.h"
+#include "distance_plane.comp.h"
 #include "distance_exact.comp.h"
 #include "flood_seed.comp.h"
 #include "flood_step.comp.h"
 #include "flood_distance.comp.h"
 #include "probe_place.comp.h"
+#include "probe_link.comp.h"
+#include "probe_seed.comp.h"
 #include "occlusion_trace.comp.h"
-#include "light_list.comp.h"
+#include "light_mark.comp.h"
 #include "light_args.comp.h"
+#include "light_list.comp.h"
 #include "cell_mask.comp.h"
 #include "light_direct.comp.h"
 #include "light_bounce.comp.h"
 #include "probe_trace.comp.h"
+#include "ray_forget.comp.h"
 #include "probe_blend.comp.h"
 #include "gather.comp.h"
 
@@ -147,7 +154,7 @@ static VkResult pipeline_layouts(struct sdfgi *gi)
     const VkDescriptorSetLayout voxelize[3] = { p->set_layout, p->mesh_layout, p->material_layout };
     const VkDescriptorSetLayout gather[2] = { p->set_layout, p->gather_layout };
     VkResult result =
-        pipeline_layout(&gi->device, &p->set_layout, 1, sizeof(struct sdfgi_pass_args), &p->layout);
+        pipeline_layout(&gi->device, &p->set_layout, 1, sizeof(struct sdfgi_stale_args), &p->layout);
     if (result == VK_SUCCESS)
         result = pipeline_layout(&gi->device, voxelize, 3, sizeof(struct sdfgi_voxelize_args),
                                  &p->voxelize_layout);

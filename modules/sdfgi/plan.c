@@ -11,47 +11,62 @@ struct need_row {
 
 static bool needs_voxels(const struct situation *s)
 {
-    return s->any_dirty && s->has_geometry && !s->raster;
+    return s->generates && s->has_geometry && !s->raster;
 }
 
 static bool needs_voxels_raster(const struct situation *s)
 {
-    return s->any_dirty && s->has_geometry && s->raster;
+    return s->generates && s->has_geometry && s->raster;
 }
 
 static bool needs_generate(const struct situation *s)
 {
-    return s->any_dirty;
+    return s->generates;
+}
+
+static bool needs_complete(const struct situation *s)
+{
+    return s->completes;
+}
+
+static bool needs_seed(const struct situation *s)
+{
+    return s->completes && !s->fresh;
+}
+
+static bool needs_list(const struct situation *s)
+{
+    return s->completes || s->list_grew;
 }
 
 static bool needs_exact(const struct situation *s)
 {
-    return s->any_dirty && !s->flood;
+    return s->measures && !s->flood;
 }
 
 static bool needs_flood(const struct situation *s)
 {
-    return s->any_dirty && s->flood;
+    return s->measures && s->flood;
 }
 
 static bool needs_occlusion(const struct situation *s)
 {
-    return s->any_dirty && s->occlusion;
+    return s->completes && s->occlusion;
 }
 
 static bool needs_masks(const struct situation *s)
 {
-    return s->any_dirty && s->masks;
+    return needs_list(s) && s->masks;
 }
 
 static bool needs_direct(const struct situation *s)
 {
-    return (s->any_dirty && s->has_lights) || s->lights_changed;
+    return (s->relights && s->has_lights) || s->lights_changed;
 }
 
 static bool needs_light(const struct situation *s)
 {
-    return !s->converged && (s->publish || s->any_dirty || s->lights_changed);
+    return !s->converged && (s->publish || needs_list(s) || s->relights || s->lights_changed);
 }
 
 static bool needs_trace(const struct situation *s)
@@ -73,11 +88,18 @@ static const struct need_row needs[NEED_COUNT] = {
     [NEED_VOXELS] = { needs_voxels, "geometry in a cascade is new", "no geometry in a cascade changed" },
     [NEED_VOXELS_RASTER] = { needs_voxels_raster, "geometry in a cascade is new",
                              "sdfgi_voxelizer is compute, or no geometry in a cascade changed" },
-    [NEED_GENERATE] = { needs_generate, "a cascade moved or its geometry changed", "no cascade changed" },
-    [NEED_EXACT] = { needs_exact, "a cascade changed and sdfgi_sdf_method is exact",
-                     "sdfgi_sdf_method is flood, or no cascade changed" },
-    [NEED_FLOOD] = { needs_flood, "a cascade changed and sdfgi_sdf_method is flood",
-                     "sdfgi_sdf_method is exact, or no cascade changed" },
+    [NEED_GENERATE] = { needs_generate, "a cascade moved or its geometry changed",
+                        "no cascade changed, or its voxels are due in another frame" },
+    [NEED_COMPLETE] = { needs_complete, "the voxels and distances of a change are complete",
+                        "no cascade changed, or its voxels and distances are not complete" },
+    [NEED_SEED] = { needs_seed, "probes are new, or what they see is, beside others that stay",
+                    "no change is complete, or nothing was there before" },
+    [NEED_LIST] = { needs_list, "surfaces in a cascade changed, or the list of light cells grew",
+                    "no change is complete, and the list of light cells has room" },
+    [NEED_EXACT] = { needs_exact, "a change calls for distances and sdfgi_sdf_method is exact",
+                     "sdfgi_sdf_method is flood, or no distances are due" },
+    [NEED_FLOOD] = { needs_flood, "a change calls for distances and sdfgi_sdf_method is flood",
+                     "sdfgi_sdf_method is exact, or no distances are due" },
     [NEED_OCCLUSION] = { needs_occlusion, "a cascade changed and sdfgi_visibility is probe_depth",
                          "sdfgi_visibility is not probe_depth, or no cascade changed" },
     [NEED_MASKS] = { needs_masks, "a cascade changed and lookups read cell masks",

@@ -1,28 +1,49 @@
 /* SPDX-License-Identifier: MIT
- * Stage 7: places the probes of a cascade, traces this frame's rays, publishes irradiance. */
+ * Stage 7: places the probes of a cascade, gives new ones a start, traces this frame's rays, publishes
+ * irradiance. */
 #include "internal.h"
 
-void probe_place_record(struct frame *frame, uint32_t c)
+static void record_probes(struct frame *frame, enum pass pass, uint32_t c, uint64_t work)
 {
     const uint32_t probes = (uint32_t)frame->gi->resources->extent.probes;
-    const struct sdfgi_pass_args args = { .cascade = c };
-    pass_begin(frame, PASS_PROBE_PLACE);
-    pass_dispatch(frame, PASS_PROBE_PLACE, &args, (probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1,
-                  1);
-    frame->gi->passes[PASS_PROBE_PLACE].work += probes;
+    pass_begin(frame, pass);
+    pass_dispatch(frame, pass, &(struct sdfgi_pass_args){ .cascade = c }, probes, 1, 1);
+    frame->gi->passes[pass].work += work;
     pass_end(frame);
 }
 
-void probe_reset_record(struct frame *frame, uint32_t c, bool rays_too)
+void probe_place_record(struct frame *frame, uint32_t c)
+{
+    struct sdfgi *gi = frame->gi;
+    const uint32_t probes = (uint32_t)gi->resources->extent.probes;
+    record_probes(frame, PASS_PROBE_PLACE, c, probes);
+    pass_begin(frame, PASS_PROBE_LINK);
+    pass_dispatch(frame, PASS_PROBE_LINK, &(struct sdfgi_pass_args){ .cascade = c },
+                  (probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1, 1);
+    gi->passes[PASS_PROBE_LINK].work += probes;
+    pass_end(frame);
+}
+
+void probe_reset_record(struct frame *frame, uint32_t c)
 {
     const struct extent *e = &frame->gi->resources->extent;
     const uint64_t rays = 4 * e->probes * e->ring_samples,
                    sums = (uint64_t)16 * SDFGI_IRRADIANCE_COUNT * e->probes;
-    if (rays_too)
-        pass_clear(frame, RESOURCE_RAYS, c * rays, rays);
+    pass_clear(frame, RESOURCE_RAYS, c * rays, rays);
     pass_clear(frame, RESOURCE_SUMS, c * sums, sums);
     if (frame->gi->cascades[c].fresh)
         pass_clear(frame, RESOURCE_PREVIOUS, c * sums / 2, sums / 2);
+}
+
+void probe_seed_record(struct frame *frame, uint32_t c)
+{
+    record_probes(frame, PASS_PROBE_SEED, c, frame->gi->resources->extent.probes);
+}
+
+void ray_forget_record(struct frame *frame, uint32_t c)
+{
+    const struct extent *e = &frame->gi->resources->extent;
+    record_probes(frame, PASS_RAY_FORGET, c, e->probes * e->ring_samples);
 }
 
 void probe_trace_record(struct frame *frame, uint32_t c)

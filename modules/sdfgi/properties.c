@@ -98,6 +98,11 @@ static const struct row rows[] = {
     LIVE(frames_to_update_lights, "sdfgi_frames_to_update_lights", INT, 1, 1, 16, "frames", "",
         "less time per frame", "frames until a changed light is seen",
         "Frames over which the direct light of all cells is brought up to date."),
+    LIVE(max_scroll_cells, "sdfgi_max_scroll_cells_per_frame", INT, 4194304, 262144, 134217728, "cells", "",
+        "fine cascades that keep up with faster cameras, and changed geometry that is seen sooner",
+        "time of the frames in which cascades step or geometry changes, in proportion",
+        "At most so many cells are voxelised or given distances in a frame, once there is anything to show. A step of a cascade "
+        "of 128 cells takes 2,228,224. Where the camera is faster, fine cascades wait and coarser ones answer."),
     RECREATE(resolution, "sdfgi_resolution", INT, 128, 32, 256, "cells", "32,64,128,256",
         "range at the same cell size, or detail at the same range", "memory and time with the third power",
         "Cells along a side of each cascade, a power of two."),
@@ -276,6 +281,8 @@ static void row_format(const struct row *row, double value, char *text, size_t t
         snprintf(text, text_size, "%s", value != 0 ? "true" : "false");
     else if (row->info.type == SDFGI_PROPERTY_ENUM && choice_name(row->info.choices, (int)value, choice))
         snprintf(text, text_size, "%s", choice);
+    else if (row->info.type == SDFGI_PROPERTY_INT)
+        snprintf(text, text_size, "%.0f", value);
     else
         format_float(value, text, text_size);
 }

@@ -23,15 +23,20 @@ static void report_passes(const struct sdfgi *gi, struct sdfgi_report *report)
         };
 }
 
-static void report_memory(const struct sdfgi *gi, struct sdfgi_memory *memory)
+static void add_memory(const struct resources *r, struct sdfgi_memory *memory)
 {
-    const struct resources *r = gi->resources;
-    if (!r)
-        return;
     for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++)
         memory->bytes[resource_category((enum resource)i)] += r->buffers[i].size;
     memory->bytes[resource_category(RESOURCE_IRRADIANCE)] += resource_size(RESOURCE_IRRADIANCE, &r->extent);
     memory->bytes[SDFGI_MEMORY_READBACK] += r->readback.size;
+}
+
+static void report_memory(const struct sdfgi *gi, struct sdfgi_memory *memory)
+{
+    if (gi->resources)
+        add_memory(gi->resources, memory);
+    for (const struct resources *r = gi->retired; r; r = r->next_retired)
+        add_memory(r, memory);
     for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
         memory->total_bytes += memory->bytes[i];
 }
@@ -81,6 +86,18 @@ static float converged_fraction(const struct sdfgi *gi)
     return fminf(fmaxf(way, 0.0f), 0.99f);
 }
 
+static void report_scroll(const struct sdfgi *gi, struct sdfgi_scroll_report *scroll)
+{
+    scroll->steps_begun = gi->schedule.steps_begun;
+    scroll->cells = gi->schedule.cells;
+    scroll->budget_cells = gi->settings.max_scroll_cells;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        scroll->pending_cells += gi->cascades[c].change.cells_left;
+        scroll->cascades_changing += gi->cascades[c].change.active;
+        scroll->cascades_waiting += gi->cascades[c].waits;
+    }
+}
+
 void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
 {
     memset(report, 0, sizeof *report);
@@ -92,4 +109,6 @@ void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
     report_passes(gi, report);
     report_memory(gi, &report->memory);
     report_health(gi, report);
+    if (gi->resources)
+        report_scroll(gi, &report->scroll);
 }

@@ -23,8 +23,8 @@ static void check_limits(const VkPhysicalDeviceLimits *limits, struct sdfgi_requ
           RESOURCE_BUFFER_COUNT + 4 },
         { "maxStorageBufferRange", limits->maxStorageBufferRange, UINT64_C(64) << 20 },
         { "maxPushConstantsSize", limits->maxPushConstantsSize, sizeof(struct sdfgi_voxelize_args) },
-        { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, 64 },
-        { "maxComputeSharedMemorySize", limits->maxComputeSharedMemorySize, 12288 },
+        { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, SDFGI_GROUP_LINES },
+        { "maxComputeSharedMemorySize", limits->maxComputeSharedMemorySize, 16384 },
         { "maxBoundDescriptorSets", limits->maxBoundDescriptorSets, 3 },
         { "maxImageDimension2D", limits->maxImageDimension2D, 2048 },
     };

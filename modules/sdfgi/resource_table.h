@@ -22,7 +22,7 @@
     X(EMISSION,    VOLUMES, 8 * s->blocks * s->cascades,                          "as BITS")                               \
     X(NORMALS,     VOLUMES, 4 * s->blocks * s->cascades,                          "as BITS")                               \
     X(LIGHT,       VOLUMES, 8 * s->cells * s->cascades,                           "relit while not converged; emissive bits during generation") \
-    X(LIGHT_CELLS, LISTS,   12 * s->light_cells * s->cascades,                    "as BITS; direct light until a light changes") \
+    X(LIGHT_CELLS, LISTS,   12 * s->light_cells * s->cascades,                    "as BITS; direct light until a light changes; grows")  \
     X(MASKS,       VOLUMES, s->cells * s->cascades,                               "as BITS")                               \
     X(PROBES,      PROBES,  4 * s->probes * s->cascades,                          "as BITS")                               \
     X(RAYS,        PROBES,  4 * s->probes * s->cascades * s->ring_samples,        "until any cascade it may reach changes") \
@@ -30,7 +30,7 @@
     X(PREVIOUS,    PROBES,  8 * 25 * s->probes * s->cascades,                     "until the ring after it ends")          \
     X(OCCLUSION,   PROBES,  s->occlusion,                                         "as BITS; 4 bytes unless probe_depth is chosen") \
     X(COUNTERS,    LISTS,   4 * SDFGI_COUNTER_COUNT,                              "one ring or one generation")            \
-    X(INDIRECT,    LISTS,   16 * SDFGI_MAX_CASCADES,                              "as LIGHT_CELLS")
+    X(INDIRECT,    LISTS,   2 * 16 * SDFGI_MAX_CASCADES,                          "as LIGHT_CELLS")
 /* clang-format on */
 
 enum resource {

@@ -9,12 +9,17 @@
      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                                   \
      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
 
+static VkResult create_buffer(struct sdfgi *gi, struct resources *r, enum resource resource,
+                              const struct extent *extent)
+{
+    return gpu_buffer_init(&gi->device, &r->buffers[resource], resource_size(resource, extent), BUFFER_USAGE,
+                           GPU_DEVICE_LOCAL, resource_name(resource));
+}
+
 static VkResult create_buffers(struct sdfgi *gi, struct resources *r)
 {
     for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++) {
-        const VkResult result =
-            gpu_buffer_init(&gi->device, &r->buffers[i], resource_size((enum resource)i, &r->extent),
-                            BUFFER_USAGE, GPU_DEVICE_LOCAL, resource_name((enum resource)i));
+        const VkResult result = create_buffer(gi, r, (enum resource)i, &r->extent);
         if (result != VK_SUCCESS)
             return result;
     }
@@ -189,14 +194,54 @@ void resources_destroy(struct sdfgi *gi, struct resources *r)
     host_free(&gi->allocator, r);
 }
 
+static void retire(struct sdfgi *gi, struct resources *r)
+{
+    r->retired_at = gi->frame;
+    r->next_retired = gi->retired;
+    gi->retired = r;
+}
+
 void resources_retire(struct sdfgi *gi)
 {
-    if (!gi->resources)
-        return;
-    gi->resources->retired_at = gi->frame;
-    gi->resources->next_retired = gi->retired;
-    gi->retired = gi->resources;
+    if (gi->resources)
+        retire(gi, gi->resources);
     gi->resources = NULL;
+}
+
+/* Takes the new list and sets from `fresh`, and leaves the old list and the pool of the old sets there. */
+static void exchange_light_cells(struct resources *r, struct resources *fresh)
+{
+    const struct gpu_buffer list = r->buffers[RESOURCE_LIGHT_CELLS];
+    const VkDescriptorPool pool = r->pool;
+    r->buffers[RESOURCE_LIGHT_CELLS] = fresh->buffers[RESOURCE_LIGHT_CELLS];
+    r->pool = fresh->pool;
+    r->set = fresh->set;
+    memcpy(r->gather_sets, fresh->gather_sets, sizeof r->gather_sets);
+    fresh->buffers[RESOURCE_LIGHT_CELLS] = list;
+    fresh->pool = pool;
+}
+
+bool resources_grow_light_cells(struct sdfgi *gi, uint64_t light_cells)
+{
+    struct resources *r = gi->resources;
+    struct extent extent = r->extent;
+    extent.light_cells = light_cells;
+    struct resources *fresh = host_alloc(&gi->allocator, sizeof *fresh);
+    if (!fresh)
+        return false;
+    memset(fresh, 0, sizeof *fresh);
+    VkResult result = create_buffer(gi, fresh, RESOURCE_LIGHT_CELLS, &extent);
+    if (result == VK_SUCCESS)
+        result = create_sets(gi, fresh);
+    if (result != VK_SUCCESS) {
+        resources_destroy(gi, fresh);
+        return false;
+    }
+    exchange_light_cells(r, fresh);
+    r->extent = extent;
+    write_set(gi, r);
+    retire(gi, fresh);
+    return true;
 }
 
 void resources_collect(struct sdfgi *gi, bool all)

@@ -32,13 +32,49 @@ void light_disturb(struct sdfgi *gi)
     gi->disturbed_ring = gi->ring;
 }
 
+static struct box box_around(const struct box *a, const struct box *b)
+{
+    struct box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = fmin(a->min[i], b->min[i]);
+        box.max[i] = fmax(a->max[i], b->max[i]);
+    }
+    return box;
+}
+
+static double box_volume(const struct box *box)
+{
+    return (box->max[0] - box->min[0]) * (box->max[1] - box->min[1]) * (box->max[2] - box->min[2]);
+}
+
+/* Adds a box to those that changed; with no room left, the one that grows least takes it in. */
+static void add_edit(struct cascade *cascade, const struct box *box)
+{
+    uint32_t best = 0;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < cascade->edit_count; i++) {
+        const struct box both = box_around(&cascade->edits[i], box);
+        const double growth = box_volume(&both) - box_volume(&cascade->edits[i]);
+        if (growth <= 0)
+            return;
+        if (growth < least) {
+            least = growth;
+            best = i;
+        }
+    }
+    if (cascade->edit_count < SDFGI_MAX_CHANGES)
+        cascade->edits[cascade->edit_count++] = *box;
+    else
+        cascade->edits[best] = box_around(&cascade->edits[best], box);
+}
+
 void scene_touch(struct sdfgi *gi, const struct box *box)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++) {
         struct cascade *cascade = &gi->cascades[c];
         const struct box own = cascade_box(cascade, gi->settings.resolution);
         if (cascade->placed && box_overlaps(&own, box)) {
-            cascade->dirty = true;
+            add_edit(cascade, box);
             light_disturb(gi);
         }
     }
@@ -47,7 +83,7 @@ void scene_touch(struct sdfgi *gi, const struct box *box)
 static void touch_everything(struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
-        gi->cascades[c].dirty = true;
+        gi->cascades[c].rebuild = true;
     light_disturb(gi);
 }
 

@@ -14,6 +14,33 @@ static uint32_t log2_of(uint32_t power)
     return bits;
 }
 
+static ivec4 corner(const int32_t at[3], int32_t w)
+{
+    return (ivec4){ at[0], at[1], at[2], w };
+}
+
+/* What shaders may read of a cascade, and what became new in this frame. */
+static void fill_change(const struct sdfgi *gi, uint32_t c, struct sdfgi_cascade_params *p)
+{
+    const struct cascade *cascade = &gi->cascades[c];
+    const struct change *change = &cascade->change;
+    const bool completes = schedule_completes(gi, c);
+    const struct cell_box *kept = completes ? &change->kept : &cascade->window;
+    const uint32_t count = completes ? change->count : 0;
+    p->window_low = corner(cascade->window.low, (int32_t)count);
+    p->window_high = corner(cascade->window.high, 0);
+    p->share_low =
+        (vec4){ (float)cascade->share_low[0], (float)cascade->share_low[1], (float)cascade->share_low[2], 0 };
+    p->share_high = (vec4){ (float)cascade->share_high[0], (float)cascade->share_high[1],
+                            (float)cascade->share_high[2], 0 };
+    p->kept_low = corner(kept->low, 0);
+    p->kept_high = corner(kept->high, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        p->changed[2 * i] = corner(change->boxes[i].low, 0);
+        p->changed[2 * i + 1] = corner(change->boxes[i].high, 0);
+    }
+}
+
 static struct sdfgi_cascade_params cascade_params(const struct sdfgi *gi, uint32_t c)
 {
     const struct cascade *cascade = &gi->cascades[c], *first = &gi->cascades[0];
@@ -29,13 +56,15 @@ static struct sdfgi_cascade_params cascade_params(const struct sdfgi *gi, uint32
         /* Cell space of cascade c = (cell space of cascade 0 + first origin) / 2^c - own origin. */
         shift[i] = ldexp((double)first->origin[i], -(int)c) - (double)cascade->origin[i];
     }
-    return (struct sdfgi_cascade_params){
+    struct sdfgi_cascade_params p = {
         .origin_rel = { (float)origin[0], (float)origin[1], (float)origin[2], (float)cascade->cell_size[0] },
         .wrap = { wrap[0], wrap[1], wrap[2], 0 },
         .probe_wrap = { probe_wrap[0], probe_wrap[1], probe_wrap[2], 0 },
         .from_first = { (float)shift[0], (float)shift[1], (float)shift[2], ldexpf(1.0f, -(int)c) },
         .probe_base = { probe_base[0], probe_base[1], probe_base[2], 0 },
     };
+    fill_change(gi, c, &p);
+    return p;
 }
 
 static vec4 scaled(const float color[3], float factor)

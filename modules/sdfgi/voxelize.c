@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Stage 3: draws or dispatches every instance that touches a cascade into its solid bits, and resolves
+ * Stage 3: draws or dispatches every instance that touches a box of cells into its solid bits, and resolves
  * albedo, emission and normals. */
 #include "internal.h"
 
@@ -9,21 +9,25 @@
 enum { GROUP_WIDTH = 32768, MAX_SLICES = 64 };
 /* Columns that one thread walks before another one is worth its share of the triangle's set-up. */
 #define COLUMNS_PER_THREAD 8
+/* Threads of one draw beyond which triangles are not cut further: most of a large mesh is elsewhere. */
+#define MOST_THREADS 4e6
 
-/* Sub-voxel columns that a triangle of the mesh is likely to cover: the largest side of its box, shared out
- * evenly. */
-static double columns_per_triangle(const struct cascade *cascade, uint32_t resolution,
+/* Sub-voxel columns that a triangle of the mesh is likely to cover in the box: the largest side of the
+ * instance's bounds, shared out evenly, but no more than the box has. */
+static double columns_per_triangle(const struct cascade *cascade, const struct cell_box *box,
                                    const struct instance *instance, uint32_t triangles)
 {
-    double size[3], largest = 0;
-    for (int i = 0; i < 3; i++)
+    double size[3], room[3], largest = 0, most = 0;
+    for (int i = 0; i < 3; i++) {
         size[i] =
-            fmin((instance->bounds.max[i] - instance->bounds.min[i]) / cascade->cell_size[i], resolution) *
-                SDFGI_SUBVOXELS +
-            1;
-    for (int i = 0; i < 3; i++)
+            (instance->bounds.max[i] - instance->bounds.min[i]) / cascade->cell_size[i] * SDFGI_SUBVOXELS + 1;
+        room[i] = fmin(size[i], (box->high[i] - box->low[i]) * SDFGI_SUBVOXELS);
+    }
+    for (int i = 0; i < 3; i++) {
         largest = fmax(largest, size[i] * size[(i + 1) % 3]);
-    return 4 * largest / triangles;
+        most = fmax(most, room[i] * room[(i + 1) % 3]);
+    }
+    return fmin(4 * largest / triangles, most);
 }
 
 static void share_out(struct sdfgi_voxelize_args *args, double columns)
@@ -31,7 +35,9 @@ static void share_out(struct sdfgi_voxelize_args *args, double columns)
     args->threads = args->slices = 1;
     while (args->threads < SDFGI_GROUP_TRIANGLE && args->threads * COLUMNS_PER_THREAD < columns)
         args->threads *= 2;
-    while (args->slices < MAX_SLICES && args->slices * args->threads * COLUMNS_PER_THREAD < columns)
+    const double triangles = (double)args->triangle_count;
+    while (args->slices < MAX_SLICES && args->slices * args->threads * COLUMNS_PER_THREAD < columns &&
+           triangles * args->threads * args->slices < MOST_THREADS)
         args->slices *= 2;
 }
 
@@ -41,15 +47,35 @@ static double determinant(const float m[9])
            (double)m[6] * (m[1] * m[5] - m[2] * m[4]);
 }
 
-/* Object space to sub-voxels of the cascade; differences of large numbers are taken in double. */
-static void fill_rows(const struct cascade *cascade, const struct sdfgi_transform *t, vec4 rows[3])
+/* Parts of a sub-voxel to which an instance's place is rounded, so that far from the world's origin, where
+ * doubles are coarser, it comes out the same. Well below the margin of edges. */
+#define ANCHOR_PARTS 4096.0
+/* Sub-voxels from the cascade beyond which nothing of an instance can be in it: fits 32 bits. */
+#define FARTHEST_ANCHOR 1e9
+
+/* Object space to sub-voxels from the instance's anchor, the sub-voxel in which its origin lies. All that is
+ * rounded is rounded alike wherever the cascade stands; where that is enters as whole numbers. */
+static void fill_rows(const struct cascade *cascade, const struct sdfgi_transform *t,
+                      struct sdfgi_voxelize_args *args)
 {
+    int32_t anchor[3];
     for (int i = 0; i < 3; i++) {
         const double scale = SDFGI_SUBVOXELS / cascade->cell_size[i];
-        const double low = (double)cascade->origin[i] * cascade->cell_size[i];
-        rows[i] = (vec4){ (float)(t->basis[i] * scale), (float)(t->basis[3 + i] * scale),
-                          (float)(t->basis[6 + i] * scale), (float)((t->translation[i] - low) * scale) };
+        const double place = t->translation[i] * scale, whole = floor(place);
+        const double from_cascade = whole - (double)cascade->origin[i] * SDFGI_SUBVOXELS;
+        const double part = floor((place - whole) * ANCHOR_PARTS + 0.5) / ANCHOR_PARTS;
+        anchor[i] = (int32_t)fmin(fmax(from_cascade, -FARTHEST_ANCHOR), FARTHEST_ANCHOR);
+        args->rows[i] = (vec4){ (float)(t->basis[i] * scale), (float)(t->basis[3 + i] * scale),
+                                (float)(t->basis[6 + i] * scale), (float)part };
     }
+    args->anchor.x = anchor[0];
+    args->anchor.y = anchor[1];
+    args->anchor.z = anchor[2];
+}
+
+static uint32_t packed_corner(const int32_t corner[3])
+{
+    return (uint32_t)corner[0] | (uint32_t)corner[1] << 10 | (uint32_t)corner[2] << 20;
 }
 
 static uint32_t mesh_flags(const struct sdfgi_mesh_desc *d)
@@ -63,7 +89,8 @@ static uint32_t mesh_flags(const struct sdfgi_mesh_desc *d)
 }
 
 static struct sdfgi_voxelize_args voxelize_args(const struct sdfgi *gi, uint32_t c,
-                                                const struct instance *instance, const struct mesh *mesh)
+                                                const struct cell_box *box, const struct instance *instance,
+                                                const struct mesh *mesh)
 {
     const struct sdfgi_mesh_desc *d = &mesh->desc;
     struct sdfgi_voxelize_args args = {
@@ -80,10 +107,11 @@ static struct sdfgi_voxelize_args voxelize_args(const struct sdfgi *gi, uint32_t
         .index_offset = (uint32_t)(d->index_offset / 4),
         .vertex_count = d->vertex_count,
         .group_width = GROUP_WIDTH,
+        .anchor.w = (int32_t)packed_corner(box->low),
+        .box_high = packed_corner(box->high),
     };
-    share_out(&args,
-              columns_per_triangle(&gi->cascades[c], gi->settings.resolution, instance, d->triangle_count));
-    fill_rows(&gi->cascades[c], &instance->desc.transform, args.rows);
+    share_out(&args, columns_per_triangle(&gi->cascades[c], box, instance, d->triangle_count));
+    fill_rows(&gi->cascades[c], &instance->desc.transform, &args);
     if (determinant(instance->desc.transform.basis) < 0)
         args.flags |= SDFGI_MESH_MIRRORED;
     return args;
@@ -95,6 +123,7 @@ struct binder {
     VkPipelineBindPoint point;
     VkPipeline plain, textured, bound;
     VkDescriptorSet mesh, material;
+    const struct cell_box *box;
 };
 
 static void bind_set(struct binder *b, uint32_t index, VkDescriptorSet set, VkDescriptorSet *bound)
@@ -116,7 +145,7 @@ static void draw_instance(struct binder *b, uint32_t cascade, const struct insta
     b->bound = pipeline;
     bind_set(b, 1, mesh->set, &b->mesh);
     bind_set(b, 2, material->set, &b->material);
-    const struct sdfgi_voxelize_args args = voxelize_args(gi, cascade, instance, mesh);
+    const struct sdfgi_voxelize_args args = voxelize_args(gi, cascade, b->box, instance, mesh);
     gpu_push(&b->frame->rec, gi->pipelines.voxelize_layout, sizeof args, &args);
     const uint32_t triangles = args.triangle_count;
     enum pass pass = PASS_VOXELIZE;
@@ -133,10 +162,22 @@ static void draw_instance(struct binder *b, uint32_t cascade, const struct insta
     gi->passes[pass].work += triangles;
 }
 
+/* The box in the world, and a sub-voxel more: triangles set sub-voxels that they touch. */
+static struct box world_box(const struct cascade *cascade, const struct cell_box *cells)
+{
+    struct box box;
+    for (int i = 0; i < 3; i++) {
+        const double margin = 1.0 / SDFGI_SUBVOXELS, size = cascade->cell_size[i];
+        box.min[i] = ((double)(cascade->origin[i] + cells->low[i]) - margin) * size;
+        box.max[i] = ((double)(cascade->origin[i] + cells->high[i]) + margin) * size;
+    }
+    return box;
+}
+
 static void draw_instances(struct binder *b, uint32_t c)
 {
     struct sdfgi *gi = b->frame->gi;
-    const struct box box = cascade_box(&gi->cascades[c], gi->settings.resolution);
+    const struct box box = world_box(&gi->cascades[c], b->box);
     const struct pool *instances = &gi->scene.instances;
     gpu_bind_set(&b->frame->rec, b->point, gi->pipelines.voxelize_layout, 0, gi->resources->set);
     for (uint32_t i = 0; i < instances->end; i++) {
@@ -146,10 +187,11 @@ static void draw_instances(struct binder *b, uint32_t c)
     }
 }
 
-static void record_compute(struct frame *frame, uint32_t c)
+static void record_compute(struct frame *frame, uint32_t c, const struct cell_box *box)
 {
     struct pipelines *p = &frame->gi->pipelines;
     struct binder b = { .frame = frame,
+                        .box = box,
                         .point = VK_PIPELINE_BIND_POINT_COMPUTE,
                         .plain = p->passes[PASS_VOXELIZE],
                         .textured = p->voxelize_textured };
@@ -159,11 +201,12 @@ static void record_compute(struct frame *frame, uint32_t c)
     pass_end(frame);
 }
 
-static void record_raster(struct frame *frame, uint32_t c)
+static void record_raster(struct frame *frame, uint32_t c, const struct cell_box *box)
 {
     struct sdfgi *gi = frame->gi;
     struct resources *r = gi->resources;
     struct binder b = { .frame = frame,
+                        .box = box,
                         .point = VK_PIPELINE_BIND_POINT_GRAPHICS,
                         .plain = r->raster_pipelines[0],
                         .textured = r->raster_pipelines[1] };
@@ -184,24 +227,29 @@ static void record_raster(struct frame *frame, uint32_t c)
     pass_end(frame);
 }
 
-void voxelize_record(struct frame *frame, uint32_t c)
+static void record_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+                       uint32_t per_thread)
+{
+    pass_begin(frame, pass);
+    pass_dispatch_box(frame, pass, args, per_thread);
+    pass_end(frame);
+}
+
+void voxelize_record(struct frame *frame, uint32_t c, const struct cell_box *box)
 {
     struct sdfgi *gi = frame->gi;
-    const struct extent *e = &gi->resources->extent;
-    pass_clear(frame, RESOURCE_BITS, c * 8 * e->cells, 8 * e->cells);
-    pass_clear(frame, RESOURCE_LIGHT, c * 8 * e->cells, 8 * e->cells);
-    pass_clear(frame, RESOURCE_MASKS, c * e->cells, e->cells);
-    pass_clear(frame, RESOURCE_SCRATCH, 0, (uint64_t)SDFGI_ACCUM_PLANES * 4 * e->blocks);
+    struct sdfgi_pass_args args = {
+        .low = { box->low[0], box->low[1], box->low[2], 0 },
+        .high = { box->high[0], box->high[1], box->high[2], 0 },
+        .cascade = c,
+    };
+    record_box(frame, PASS_REGION_CLEAR, &args, 4);
     if (gi->plan[PASS_VOXELIZE].run)
-        record_compute(frame, c);
+        record_compute(frame, c, box);
     if (gi->plan[PASS_VOXELIZE_RASTER].run)
-        record_raster(frame, c);
-
-    const struct sdfgi_pass_args args = { .cascade = c };
-    pass_begin(frame, PASS_VOXEL_RESOLVE);
-    pass_dispatch(frame, PASS_VOXEL_RESOLVE, &args, (uint32_t)(e->blocks / SDFGI_GROUP_LINEAR), 1, 1);
-    gi->passes[PASS_VOXEL_RESOLVE].work += e->blocks;
-    pass_end(frame);
+        record_raster(frame, c, box);
+    record_box(frame, PASS_VOXEL_RESOLVE, &args, 8);
     /* The emissive bits have been read: the volume now belongs to light. */
-    pass_clear(frame, RESOURCE_LIGHT, c * 8 * e->cells, 8 * e->cells);
+    args.step = 1;
+    record_box(frame, PASS_REGION_CLEAR, &args, 4);
 }

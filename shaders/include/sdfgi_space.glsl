@@ -32,6 +32,13 @@ bool cell_inside(ivec3 cell)
     return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(space_resolution())));
 }
 
+/* True for cells that are complete: while a cascade scrolls, those of both its old and its new place. */
+bool cell_served(uint cascade, ivec3 cell)
+{
+    return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].window_low.xyz)) &&
+           all(lessThan(cell, sdfgi_frame.cascades[cascade].window_high.xyz));
+}
+
 /* Texel of a local cell: volumes are toroidal. */
 uvec3 cell_texel(uint cascade, ivec3 cell)
 {
@@ -141,9 +148,6 @@ uint probe_index(uint cascade, ivec3 probe)
     return uint(slot.x + side * (slot.y + side * (slot.z + side * int(cascade))));
 }
 
-#define SDFGI_PROBE_DEAD 0x80000000u
-#define SDFGI_PROBE_MOVED 0x40000000u
-
 /* A probe's state: moved ones stand in the centre of the cell at offset (5 bits each, biased by 16) of its corner. */
 uint probe_pack_moved(ivec3 offset)
 {
@@ -151,9 +155,24 @@ uint probe_pack_moved(ivec3 offset)
     return SDFGI_PROBE_MOVED | o.x | o.y << 5u | o.z << 10u;
 }
 
+/* Whether a probe sees the next one along an axis. */
+bool probe_is_linked(uint state, int axis)
+{
+    return (state >> (SDFGI_PROBE_LINK_SHIFT + uint(axis)) & 1u) != 0u;
+}
+
 bool probe_is_dead(uint state)
 {
     return (state & SDFGI_PROBE_DEAD) != 0u;
+}
+
+/* True if the probe's cells are complete. */
+bool probe_is_served(uint cascade, ivec3 probe)
+{
+    const ivec3 cell = probe * SDFGI_PROBE_SPACING;
+    return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].window_low.xyz)) &&
+           all(lessThanEqual(cell, sdfgi_frame.cascades[cascade].window_high.xyz)) &&
+           all(lessThan(sdfgi_frame.cascades[cascade].window_low.xyz, sdfgi_frame.cascades[cascade].window_high.xyz));
 }
 
 /* Position in cell space. */

@@ -71,7 +71,7 @@ bool trace_cell(uvec2 bits, ivec3 cell, vec3 origin, vec3 dir, vec3 inv_dir, ino
 
 bool trace_is_light_cell(uint cascade, ivec3 cell)
 {
-    return cell_inside(cell) && (sdfgi_light[cell_index(cascade, cell)].y & SDFGI_LIGHT_VALID) != 0u;
+    return cell_served(cascade, cell) && (sdfgi_light[cell_index(cascade, cell)].y & SDFGI_LIGHT_VALID) != 0u;
 }
 
 /* The light cell before the surface that was hit: the last empty cell that the ray crossed, if it shares a face with the
@@ -96,12 +96,21 @@ bool trace_light_cell(uint cascade, ivec3 hit_cell, uint face, ivec3 last, vec3 
     return trace_is_light_cell(cascade, cell);
 }
 
-/* Follows a ray from `pos` in cell space of `cascade` along the metric unit vector `dir` for at most `range` cell
- * widths of that cascade, walking on into coarser cascades up to `last_cascade`. */
-trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
+/* Parameter at which a ray leaves the cells of a cascade that may be read; below 0 if it starts beyond them. */
+float trace_leave(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir)
+{
+    const vec3 low = vec3(sdfgi_frame.cascades[cascade].window_low.xyz - base);
+    const vec3 high = vec3(sdfgi_frame.cascades[cascade].window_high.xyz - base);
+    const vec3 far = (mix(low, high, greaterThan(inv_dir, vec3(0.0))) - origin) * inv_dir;
+    return min(far.x, min(far.y, far.z));
+}
+
+/* Follows a ray from `pos` for at most `range` cell widths of its cascade, walking on into coarser cascades up to
+ * `last_cascade`. `pos` and all cells in the first cascade count from the cell `base`, so that rounding can be made the same
+ * wherever a cascade stands; no step is longer than `longest` cells. */
+trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3 dir, float range, float longest)
 {
     trace_hit result = trace_hit(false, false, false, cascade, ivec3(0), 0u, range);
-    const float size = float(space_resolution());
     vec3 dir_cell = cells_from_metric(dir);
     dir_cell = mix(dir_cell, vec3(1e-20), lessThan(abs(dir_cell), vec3(1e-20)));
     const vec3 inv_dir = 1.0 / dir_cell;
@@ -110,6 +119,8 @@ trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float r
     float t = 0.0;
     float scale = 1.0;     /* cell widths of the first cascade per cell width of this one */
     float travelled = 0.0; /* before `origin`, in the first cascade's cell widths */
+    float leave = trace_leave(cascade, base, origin, inv_dir);
+    bool left = false;
     ivec3 cell = ivec3(floor(origin));
     ivec3 last_empty = ivec3(-8);
     int axis = 0;
@@ -119,31 +130,36 @@ trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float r
             return result;
 
         /* Leave for the next coarser cascade, or for the sky. */
-        if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(size)))) {
+        if (left || !cell_served(cascade, cell + base)) {
             if (cascade >= last_cascade)
                 return result;
             travelled += t * scale;
-            const vec3 first = first_from_cascade(cascade, origin + dir_cell * t);
+            const vec3 first = first_from_cascade(cascade, origin + dir_cell * t + vec3(base));
             cascade += 1u;
             scale *= 2.0;
+            base = ivec3(0);
             origin = cascade_from_first(cascade, first);
             t = 0.0;
+            leave = trace_leave(cascade, base, origin, inv_dir);
+            left = false;
             cell = ivec3(floor(origin));
             last_empty = ivec3(-8);
             continue;
         }
 
-        const float distance = cell_distance(cascade, cell);
+        const float distance = cell_distance(cascade, cell + base);
         const vec3 here = origin + dir_cell * t;
-        const float free = distance - length(metric_from_cells(here - vec3(cell) - 0.5)) - TRACE_MARGIN;
+        const float free = min(distance - length(metric_from_cells(here - vec3(cell) - 0.5)) - TRACE_MARGIN, longest);
         if (free > TRACE_MIN_STEP) {
-            t += free;
+            /* The distance knows nothing of what lies beyond the cascade: no step leads further than its border. */
+            t = min(t + free, leave);
+            left = t >= leave;
             cell = ivec3(floor(origin + dir_cell * t));
             continue;
         }
 
         /* Cells whose nearest sub-voxel is further than half their diagonal have none of their own. */
-        const uvec2 bits = distance < 1.0 ? cell_bits(cascade, cell) : uvec2(0u);
+        const uvec2 bits = distance < 1.0 ? cell_bits(cascade, cell + base) : uvec2(0u);
         if (bits == uvec2(0u)) {
             last_empty = cell;
             float t_exit;
@@ -156,8 +172,8 @@ trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float r
             result.hit = true;
             result.cascade = cascade;
             result.axis = trace_face(axis, dir_cell);
-            result.has_cell =
-                trace_light_cell(cascade, cell, result.axis, last_empty, origin + dir_cell * t, dir_cell, t, result.cell);
+            result.has_cell = trace_light_cell(cascade, cell + base, result.axis, last_empty + base,
+                                               origin + vec3(base) + dir_cell * t, dir_cell, t, result.cell);
             return result;
         }
         cell[axis] += dir_cell[axis] > 0.0 ? 1 : -1;
@@ -167,6 +183,25 @@ trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float r
     result.cascade = cascade;
     result.distance = travelled + t * scale;
     return result;
+}
+
+/* The same from `pos` in cell space of `cascade`. */
+trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
+{
+    return trace_from(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9);
+}
+
+/* Longest step, in cells, of rays whose outcome is kept while a cascade scrolls: distances further off may have changed where
+ * nothing near has, and with them the rounding of steps. */
+#define TRACE_KEPT_STEP 3.0
+
+/* True if no set sub-voxel lies between two points, which count from the cell `base`: the same at the same place, wherever
+ * the cascade stands. */
+bool trace_visible_from(uint cascade, ivec3 base, vec3 from, vec3 to)
+{
+    const vec3 way = metric_from_cells(to - from);
+    const float range = length(way);
+    return range < 1e-4 || !trace_from(cascade, cascade, base, from, way / range, range, TRACE_KEPT_STEP).hit;
 }
 
 /* True if no set sub-voxel lies between two points of a cascade's cell space. */

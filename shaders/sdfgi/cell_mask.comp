@@ -1,32 +1,51 @@
 /* SPDX-License-Identifier: MIT
- * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. One thread per light
- * cell. */
+ * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. Eight
+ * threads per light cell; those whose cage nothing new touches keep theirs, unless all were lost (args.fresh = 1). */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
+#include "changed.glsl"
 #include "light_cells.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
+const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
+shared uint masks[CELLS];
+
+bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
+{
+    const ivec3 base = cage * SDFGI_PROBE_SPACING;
+    const uint state = sdfgi_probes[probe_index(args.cascade, cage + corner)];
+    return !probe_is_dead(state) &&
+           trace_visible_from(args.cascade, base, vec3(cell - base) + 0.5, probe_position(corner, state));
+}
+
 void main()
 {
-    const uint entry = gl_GlobalInvocationID.x;
-    if (entry >= light_cell_count(args.cascade))
-        return;
-    const uint slot = light_cell_slot(args.cascade, entry);
+    const uint lane = gl_LocalInvocationIndex, k = lane & 7u;
+    const uint entry = gl_WorkGroupID.x * CELLS + lane / 8u;
+    const bool listed = entry < light_cell_count(args.cascade);
+    const uint slot = light_cell_slot(args.cascade, listed ? entry : 0u);
     const uint texel = sdfgi_light_cells[slot] & 0xffffffu;
     const ivec3 cell = light_cell_position(args.cascade, texel);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
-    uint mask = 0u;
-    for (int k = 0; k < 8; k++) {
-        const ivec3 probe = cage + ivec3(k & 1, k >> 1 & 1, k >> 2);
-        const uint state = sdfgi_probes[probe_index(args.cascade, probe)];
-        if (!probe_is_dead(state) && trace_visible(args.cascade, vec3(cell) + 0.5, probe_position(probe, state)))
-            mask |= 1u << k;
-    }
+    const uint index = cell_index(args.cascade, cell), shift = 8u * (index & 3u);
+    const bool again = args.fresh != 0u || changed_near(args.cascade, cage * SDFGI_PROBE_SPACING,
+                                                        (cage + 1) * SDFGI_PROBE_SPACING, 0);
+    if (k == 0u)
+        masks[lane / 8u] = again ? 0u : sdfgi_masks[index >> 2u] >> shift & 0xffu;
+    barrier();
+    if (listed && again && sees(cell, cage, ivec3(k & 1u, k >> 1u & 1u, k >> 2u)))
+        atomicOr(masks[lane / 8u], 1u << k);
+    barrier();
+    if (!listed || k > 0u)
+        return;
+    const uint mask = masks[lane / 8u];
     sdfgi_light_cells[slot] = texel | mask << 24u;
-    const uint index = cell_index(args.cascade, cell);
-    atomicOr(sdfgi_masks[index >> 2u], mask << (8u * (index & 3u)));
+    if (again) {
+        atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << shift));
+        atomicOr(sdfgi_masks[index >> 2u], mask << shift);
+    }
 }

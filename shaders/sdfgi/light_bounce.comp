@@ -27,6 +27,8 @@ void main()
     const uint slot = light_cell_slot(args.cascade, entry);
     const uint packed = sdfgi_light_cells[slot];
     const ivec3 cell = light_cell_position(args.cascade, packed);
+    if (!cell_served(args.cascade, cell))
+        return;
     const uint facing = light_cell_facing(args.cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
 

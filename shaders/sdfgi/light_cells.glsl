@@ -22,7 +22,7 @@ uint light_cell_count(uint cascade)
 uint light_cell_hash(uint cascade, ivec3 cell)
 {
     const ivec3 base = sdfgi_frame.cascades[cascade].probe_base.xyz * SDFGI_PROBE_SPACING;
-    return random_hash3(base + cell, cascade);
+    return random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
 }
 
 /* First word of an entry. Texel indices have at most 24 bits, masks 8. */
@@ -53,7 +53,7 @@ uint light_cell_facing(uint cascade, ivec3 cell)
     uint facing = 0u;
     for (uint axis = 0u; axis < 6u; axis++) {
         const ivec3 behind = cell - surface_axis_step(axis);
-        if (cell_inside(behind) && cell_bits(cascade, behind) != uvec2(0u))
+        if (cell_served(cascade, behind) && cell_bits(cascade, behind) != uvec2(0u))
             facing |= 1u << axis;
     }
     return facing;

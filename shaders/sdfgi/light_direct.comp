@@ -52,6 +52,8 @@ void main()
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
+    if (!cell_served(args.cascade, cell))
+        return;
     const vec3 pos = vec3(cell) + 0.5;
     const vec3 position = position_from_cascade(args.cascade, pos);
     const uint facing = light_cell_facing(args.cascade, cell);

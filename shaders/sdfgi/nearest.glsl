@@ -49,29 +49,6 @@ uvec3 nearest_slabs(uvec2 bits)
     return uvec3((column | column >> 4u) & 15u, y, z);
 }
 
-/* Least of dx2 over the set bits of four rows, plus dy2, for one layer of 16 bits. */
-float nearest_layer2(uint layer, vec4 dx2, vec4 dy2)
-{
-    const uvec4 rows = uvec4(layer) >> uvec4(0u, 4u, 8u, 12u);
-    vec4 d = mix(vec4(1e30), vec4(dx2.x), notEqual(rows & 1u, uvec4(0u)));
-    d = min(d, mix(vec4(1e30), vec4(dx2.y), notEqual(rows & 2u, uvec4(0u))));
-    d = min(d, mix(vec4(1e30), vec4(dx2.z), notEqual(rows & 4u, uvec4(0u))));
-    d = min(d, mix(vec4(1e30), vec4(dx2.w), notEqual(rows & 8u, uvec4(0u)))) + dy2;
-    return min(min(d.x, d.y), min(d.z, d.w));
-}
-
-/* Squared distance in cell widths from a point to the nearest set sub-voxel of a cell; `at` is the point in sub-voxels from
- * the centre of the cell's first. Without a loop: software drivers stop a shader after 65,535 iterations. */
-float nearest_in_cell2(uvec2 bits, vec3 at)
-{
-    const vec3 size = metric_from_cells(vec3(0.25));
-    const vec4 steps = vec4(0.0, 1.0, 2.0, 3.0);
-    const vec4 dx = (steps - at.x) * size.x, dy = (steps - at.y) * size.y, dz = (steps - at.z) * size.z;
-    const vec4 dx2 = dx * dx, dy2 = dy * dy, dz2 = dz * dz;
-    return min(min(nearest_layer2(bits.x & 0xffffu, dx2, dy2) + dz2.x, nearest_layer2(bits.x >> 16u, dx2, dy2) + dz2.y),
-               min(nearest_layer2(bits.y & 0xffffu, dx2, dy2) + dz2.z, nearest_layer2(bits.y >> 16u, dx2, dy2) + dz2.w));
-}
-
 /* Offers the sub-voxels of `other` to `cell`: the box around the cell first, then around its bits, then the bits. Most
  * candidates fall to a box, which is what makes measuring to 64 sub-voxels affordable. */
 void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)

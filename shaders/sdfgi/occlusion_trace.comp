@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Depth to the nearest set sub-voxel in 16x16 directions around each probe, then mean and mean of squares over each
  * texel and its neighbours, as unorm16 of the range (half floats lose the variance, HARD_CASES row 43). One workgroup per
- * probe. Shared memory: 256 depths. */
+ * probe; those that nothing new comes near keep theirs. Shared memory: 256 depths. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_OCCLUSION
+#include "changed.glsl"
 #include "probe_common.glsl"
 #include "../include/sdfgi_trace.glsl"
 
@@ -13,6 +14,8 @@ layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
+/* Range of depths, and how far a probe may have moved. */
+const int NEAR = int(SDFGI_OCCLUSION_RANGE) + 4;
 shared float depth[TEXELS];
 
 float trace_depth(vec3 pos, uint texel)
@@ -46,7 +49,8 @@ void main()
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = probe_index(args.cascade, probe);
     const uint state = sdfgi_probes[slot];
-    if (probe_is_dead(state))
+    const ivec3 corner = probe * SDFGI_PROBE_SPACING;
+    if (probe_is_dead(state) || !changed_near(args.cascade, corner, corner, NEAR))
         return;
     const vec3 pos = probe_position(probe, state);
     for (uint i = gl_LocalInvocationIndex; i < TEXELS; i += uint(SDFGI_GROUP_OCCLUSION))

@@ -1,34 +1,41 @@
 /* SPDX-License-Identifier: MIT
- * Masks of occupied cells per block (args.step = 0), then of occupied blocks per group (args.step = 1). One thread per
- * block or group. */
+ * Which rows of sub-voxels along z hold bits, see occupancy.glsl. Four threads per column of cells along z. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "occupancy.glsl"
 
-layout(local_size_x = SDFGI_GROUP_LINEAR) in;
+layout(local_size_x = SDFGI_GROUP_LINES) in;
+layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-bool occupied(ivec3 at)
+const uint COLUMNS = 32u;
+
+shared uint rows[COLUMNS];
+
+/* Rows set in the eight cells of a run. */
+uint rows_of_run(uint x, uint y, uint run)
 {
-    if (args.step == 0u)
-        return cell_bits(args.cascade, at) != uvec2(0u);
-    return occupancy_mask(occupancy_block_slot(at)) != uvec2(0u);
+    uvec2 bits = uvec2(0u);
+    for (uint i = 0u; i < 8u; i++)
+        bits |= cell_bits(args.cascade, ivec3(x, y, 8u * run + i));
+    const uint any_half = bits.x | bits.y;
+    return (any_half | any_half >> 16u) & 0xffffu;
 }
 
 void main()
 {
-    const uint bits = args.step == 0u ? occupancy_block_bits() : occupancy_group_bits();
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= 1u << (3u * bits))
-        return;
-    const uint side_mask = (1u << bits) - 1u;
-    const ivec3 at = ivec3(i & side_mask, i >> bits & side_mask, i >> (2u * bits));
-    uvec2 mask = uvec2(0u);
-    for (int z = 0; z < 4; z++)
-        for (int y = 0; y < 4; y++)
-            for (int x = 0; x < 4; x++)
-                if (occupied(4 * at + ivec3(x, y, z)))
-                    mask[z >> 1] |= 1u << (x + 4 * y + 16 * (z & 1));
-    const uint slot = args.step == 0u ? occupancy_block_slot(at) : occupancy_group_slot(at);
-    sdfgi_scratch[slot] = mask.x;
-    sdfgi_scratch[slot + 1u] = mask.y;
+    const uint own = gl_LocalInvocationIndex % COLUMNS, part = gl_LocalInvocationIndex / COLUMNS;
+    const uint x = COLUMNS * gl_WorkGroupID.x + own, y = gl_WorkGroupID.y;
+    if (part == 0u)
+        rows[own] = 0u;
+    barrier();
+    uint found = 0u;
+    for (uint run = 2u * part; run < sdfgi_frame.size.x >> 3u; run += 2u * SDFGI_GROUP_LINES / COLUMNS) {
+        const uint two = rows_of_run(x, y, run) | rows_of_run(x, y, run + 1u) << 16u;
+        sdfgi_scratch[runs_slot(x, y, run)] = two;
+        found |= two;
+    }
+    atomicOr(rows[own], (found | found >> 16u) & 0xffffu);
+    barrier();
+    if (part == 0u)
+        sdfgi_scratch[rows_slot(x, y)] = rows[own];
 }

@@ -1,40 +1,67 @@
 /* SPDX-License-Identifier: MIT
- * Which cells are occupied, as masks in the scratch buffer while distances are made: per block of 4^3 cells a bit per
- * cell, then per group of 4^3 blocks a bit per block; bit x + 4 y + 16 z as in the solid bits. Local coordinates. */
+ * What the exact distance search keeps in the scratch buffer, N cells a side, in words:
+ *   planes    2 N^3   distance within a layer of sub-voxels, for half of the layers of cells along z at a time
+ *   runs      N^3/16  per eight cells along z a bit per row of sub-voxels along z that is set anywhere in them: x + 4 y;
+ *                     two to a word
+ *   rows      N^2     the same per column of cells along z
+ *   layers    4 N     per layer of sub-voxels along y whether it holds a bit
+ *   stale     N^2/8   a bit per block of 4^3 cells to search, along y: two words each
+ * Coordinates are local, and lengths odd numbers of half a sub-voxel, so that all arithmetic is in integers and no order of
+ * work changes a result. */
 #ifndef SDFGI_OCCUPANCY_GLSL
 #define SDFGI_OCCUPANCY_GLSL
 
-#include "nearest.glsl"
+#include "pass.glsl"
 
-uint occupancy_index(ivec3 at, uint side_bits)
+uint occupancy_side_bits()
 {
-    return uint(at.x) | uint(at.y) << side_bits | uint(at.z) << (2u * side_bits);
+    return sdfgi_frame.size.y;
 }
 
-uint occupancy_block_bits()
+/* Two cells along x times four along z lie side by side: what one workgroup of distance_exact reads of a layer. */
+uint plane_slot(uint layer, uint x, uint z)
 {
-    return sdfgi_frame.size.y - 2u;
+    const uint bits = occupancy_side_bits();
+    const uint tile = ((layer << (bits - 1u) | x >> 1u) << (bits - 3u)) | z >> 2u;
+    return tile << 3u | (x & 1u) << 2u | (z & 3u);
 }
 
-uint occupancy_group_bits()
+uint runs_slot(uint x, uint y, uint run)
 {
-    return sdfgi_frame.size.y - 4u;
+    const uint bits = occupancy_side_bits();
+    return (2u << (3u * bits)) + (((run >> 1u) << bits | y) << bits | x);
 }
 
-/* First word of a block's mask and of a group's. */
-uint occupancy_block_slot(ivec3 block)
+uint rows_slot(uint x, uint y)
 {
-    return 2u * occupancy_index(block, occupancy_block_bits());
+    return runs_slot(x, y, sdfgi_frame.size.x >> 3u);
 }
 
-uint occupancy_group_slot(ivec3 group)
+uint layers_slot(uint layer)
 {
-    return 2u * ((1u << (3u * occupancy_block_bits())) + occupancy_index(group, occupancy_group_bits()));
+    return rows_slot(0u, sdfgi_frame.size.x) + layer;
 }
 
-uvec2 occupancy_mask(uint slot)
+uint stale_slot(uint block_x, uint block_z)
 {
-    return uvec2(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u]);
+    return layers_slot(4u * sdfgi_frame.size.x) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
+}
+
+/* ---- Squared lengths: 16 per square of half a sub-voxel, so that heights scaled by 1/2 or 3/4 stay whole numbers */
+
+uint distance_y_weight()
+{
+    const uint quarters = uint(4.0 * space_y_scale() + 0.5);
+    return quarters * quarters;
+}
+
+/* Stored form, rounded down: a step is N / 32768 cells, a cell 8 half sub-voxels. */
+uint distance_encode(uint length2)
+{
+    const uint square = length2 << (20u - 2u * occupancy_side_bits()); /* at most 3 * 2^30 */
+    uint root = uint(sqrt(float(square)));
+    root -= uint(root * root > square);
+    return root + uint((root + 1u) * (root + 1u) <= square);
 }
 
 #endif

@@ -4,20 +4,17 @@
  * start again: a static scene repeats a fixed ring and so converges exactly. One workgroup per probe. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "probe_common.glsl"
+#include "probe_store.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-/* Mean radiance and weight of the last complete ring, four half floats. */
-layout(std430, set = 0, binding = SDFGI_BINDING_PREVIOUS) buffer sdfgi_previous_buffer { uvec2 sdfgi_previous[]; };
-layout(set = 0, binding = SDFGI_BINDING_IRRADIANCE_STORE, rgba16f) uniform writeonly image2DArray irradiance_store;
-
+/* Share of a ring's weight, stored as a half float, from which on nothing is missing. */
+const float COMPLETE = 0.99;
 const float HALF_MAX = 65504.0;
 /* Change is measured against a texel's own brightness plus this share of the brightest, below which nobody sees it. */
 const float DARK_SHARE = 1.0 / 512.0;
 
-shared vec3 texels[SDFGI_IRRADIANCE_COUNT];
 shared uint group_change;
 shared uint group_brightest;
 
@@ -36,11 +33,13 @@ vec3 blend_texel(uint at)
     const uvec2 packed = sdfgi_previous[at];
     const vec4 before = vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
     const bool ring_ends = args.step != 0u;
-    const float rest = ring_ends || args.fresh != 0u ? 0.0 : max(before.w - sum.w, 0.0);
+    /* A probe that was new in the middle of a ring has missed its beginning. */
+    const bool whole = ring_ends && sum.w > COMPLETE * before.w;
+    const float rest = whole || args.fresh != 0u ? 0.0 : max(before.w - sum.w, 0.0);
     const vec3 value = min((sum.rgb + rest * before.rgb) / max(sum.w + rest, 1e-12), vec3(HALF_MAX));
     if (ring_ends) {
         measure_change(value, before.rgb, args.fresh != 0u);
-        sdfgi_previous[at] = uvec2(packHalf2x16(value.rg), packHalf2x16(vec2(value.b, sum.w)));
+        probe_store_previous(at, value, sum.w + rest);
         sdfgi_sums[at] = vec4(0.0);
     }
     return value;
@@ -50,7 +49,7 @@ void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = probe_index(args.cascade, probe);
-    if (probe_is_dead(sdfgi_probes[slot]))
+    if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(args.cascade, probe))
         return;
     const uint i = gl_LocalInvocationIndex;
     if (i == 0u) {
@@ -61,12 +60,7 @@ void main()
     if (i < uint(SDFGI_IRRADIANCE_COUNT))
         texels[i] = blend_texel(slot * uint(SDFGI_IRRADIANCE_COUNT) + i);
     barrier();
-    if (i < uint(SDFGI_IRRADIANCE_STRIDE * SDFGI_IRRADIANCE_STRIDE)) {
-        const ivec2 coord = ivec2(i % uint(SDFGI_IRRADIANCE_STRIDE), i / uint(SDFGI_IRRADIANCE_STRIDE));
-        const ivec2 source = octahedral_border_source(coord - 1, SDFGI_IRRADIANCE_TEXELS);
-        imageStore(irradiance_store, ivec3(probe_atlas_corner(args.cascade, probe) + coord, int(args.cascade)),
-                   vec4(texels[source.x + SDFGI_IRRADIANCE_TEXELS * source.y], 0.0));
-    }
+    probe_store_texels(args.cascade, probe);
     if (i == 0u && args.step != 0u) {
         atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE], group_change);
         atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_IRRADIANCE], group_brightest);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Samples of a probe's ring: ring.z directions, spread evenly over the 25 texels of its octahedron and jittered inside
- * them. Every probe has its own jitter, fixed by its place in the world. */
+ * Samples of a probe's ring: ring.z directions, spread evenly over its octahedron. Every probe shifts them by an amount of
+ * its own, fixed by its place in the world. */
 #ifndef SDFGI_PROBE_COMMON_GLSL
 #define SDFGI_PROBE_COMMON_GLSL
 
@@ -17,18 +17,22 @@ ivec3 probe_from_linear(uint i)
     return ivec3(i % side, i / side % side, i / (side * side));
 }
 
-/* Direction of a sample (unit) and its solid angle up to a constant factor. */
+/* Direction of a sample (unit) and its solid angle up to a constant factor. One sequence over the whole map: with one of
+ * 20 points in each of the 25 texels, edges of walls cost three times the error (docs/decisions.md). */
 vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_angle)
 {
-    const uint n = uint(SDFGI_IRRADIANCE_COUNT);
-    const uint texel = s % n;
-    const ivec3 world = probe + sdfgi_frame.cascades[cascade].probe_base.xyz;
-    const uint shift = random_hash3(world, sdfgi_frame.light.w + texel + n * cascade);
-    const vec2 jitter = random_r2(s / n, shift);
-    const vec2 at = vec2(texel % uint(SDFGI_IRRADIANCE_TEXELS), texel / uint(SDFGI_IRRADIANCE_TEXELS)) + jitter;
-    const vec3 point = octahedral_point(at * (2.0 / float(SDFGI_IRRADIANCE_TEXELS)) - 1.0);
+    const ivec3 world = (probe + sdfgi_frame.cascades[cascade].probe_base.xyz) & (SDFGI_HASH_PERIOD - 1);
+    const uint shift = random_hash3(world, sdfgi_frame.light.w + cascade);
+    const vec3 point = octahedral_point(random_r2(s, shift) * 2.0 - 1.0);
     solid_angle = octahedral_solid_angle(point);
     return normalize(point);
+}
+
+/* Weight that a texel sums up over a ring, less a tenth, so that a whole ring always reaches it: the mean of a direction's
+ * solid angle times its cosine is pi / 4. */
+float probe_ring_weight()
+{
+    return 0.9 * 0.25 * 3.14159265 * float(sdfgi_frame.ring.z);
 }
 
 /* Directions of the stored texels: they span the map from edge to edge, so that all six axes are among them and walls,

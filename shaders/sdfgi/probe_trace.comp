@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
+#include "ray_cache.glsl"
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/rgbe.glsl"
 #include "../lib/light_pack.glsl"
@@ -13,9 +14,6 @@
 
 layout(local_size_x = SDFGI_GROUP_PROBE) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
-
-/* Per probe and sample: where its ray ends. Cell texel, cascade and axis of the light it reads, plus 1; or a code. */
-layout(std430, set = 0, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer { uint sdfgi_rays[]; };
 
 const uint MAX_RAYS = 128u;
 shared vec4 ray_dir[MAX_RAYS];   /* w: solid angle */
@@ -28,9 +26,7 @@ uint cache_pack(trace_hit hit)
         return SDFGI_RAY_SKY;
     if (!hit.has_cell)
         return SDFGI_RAY_UNLIT;
-    const uint cell_bits_count = 3u * sdfgi_frame.size.y;
-    const uint where = texel_index(cell_texel(hit.cascade, hit.cell)) | hit.cascade << cell_bits_count;
-    return (where | hit.axis << (cell_bits_count + 3u)) + 1u;
+    return ray_pack(hit.cascade, hit.cell, hit.axis);
 }
 
 vec3 cache_light(uint code, vec3 dir)
@@ -39,9 +35,20 @@ vec3 cache_light(uint code, vec3 dir)
         return sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
     if (code == SDFGI_RAY_UNLIT)
         return vec3(0.0);
-    const uint bits = 3u * sdfgi_frame.size.y + 3u;
-    const uint cell = (code - 1u) & ((1u << bits) - 1u);
-    return light_unpack_axis(sdfgi_light[cell], (code - 1u) >> bits);
+    uint axis;
+    return light_unpack_axis(sdfgi_light[ray_light_index(code, axis)], axis);
+}
+
+/* A hit whose cell has left the cascade is as good as unknown. */
+bool cache_holds(uint code)
+{
+    if (code == SDFGI_RAY_UNKNOWN)
+        return false;
+    if (code >= SDFGI_RAY_UNLIT)
+        return true;
+    uint cascade;
+    const ivec3 cell = ray_cell(code, cascade);
+    return cell_served(cascade, cell);
 }
 
 uint trace_sample(ivec3 probe, uint state, vec3 dir)
@@ -58,7 +65,7 @@ void main()
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = probe_index(args.cascade, probe);
     const uint state = sdfgi_probes[slot];
-    if (probe_is_dead(state))
+    if (probe_is_dead(state) || !probe_is_served(args.cascade, probe))
         return;
     const uint rays = min(sdfgi_frame.ring.x, MAX_RAYS);
     if (gl_LocalInvocationIndex == 0u)
@@ -71,7 +78,7 @@ void main()
         const vec3 dir = probe_sample_direction(args.cascade, probe, s, solid_angle);
         const uint at = slot * sdfgi_frame.ring.z + s;
         uint code = sdfgi_rays[at];
-        if (code == SDFGI_RAY_UNKNOWN) {
+        if (!cache_holds(code)) {
             code = trace_sample(probe, state, dir);
             sdfgi_rays[at] = code;
         }

@@ -19,8 +19,8 @@ layout(std430, set = 0, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buf
     uint sdfgi_albedo[];
 };
 
-/* x: RGB9E5 mean of the emissive samples in units of the scene's brightest emission; y: per axis 5 bits, the share of
- * what is seen from that side that emits. */
+/* x: RGB9E5 radiance, in units of the scene's brightest emission, that leaves the block on the side on which it emits most, mean
+ * over all that is seen from there; y: per axis 5 bits, the share of that which leaves on this side. */
 layout(std430, set = 0, binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
 {
     uvec2 sdfgi_emission[];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Means of albedo, emission and normals from the accumulators. One thread per block of 2x2x2 cells. */
+ * Means of albedo, emission and normals from the accumulators. One thread per block of 2x2x2 cells of the box. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_SURFACE
@@ -38,63 +38,86 @@ uint resolve_normals(uint block)
 uvec2 block_bits[8];
 uvec2 block_emissive[8];
 
-bool block_bit(bool emissive, ivec3 sub)
+/* The 16 sub-voxels of a cell at a depth along an axis, in any order that is the same for all depths. */
+uvec2 slice_of(uvec2 bits, int major, int depth)
 {
-    const int cell = (sub.x >> 2) + 2 * (sub.y >> 2) + 4 * (sub.z >> 2);
-    const uvec2 bits = emissive ? block_emissive[cell] : block_bits[cell];
-    const uint shift = uint((sub.x & 3) + 4 * (sub.y & 3) + 16 * (sub.z & 1));
-    return (((sub.z & 2) == 0 ? bits.x : bits.y) >> shift & 1u) != 0u;
+    if (major == 0)
+        return bits >> uint(depth) & 0x11111111u;
+    if (major == 1)
+        return bits >> uint(4 * depth) & 0x000f000fu;
+    return uvec2((depth < 2 ? bits.x : bits.y) >> uint(16 * (depth & 1)) & 0xffffu, 0u);
 }
 
 /* Of the sub-voxels seen first by someone who looks along -axis, the share that emits. Emitters a sub-voxel before a
  * wall, or on one side of it, keep their power whatever lies behind them. */
-uint resolve_seen_share(uint axis)
+float resolve_seen_share(uint axis)
 {
     const int major = int(axis >> 1u);
     int seen = 0, emissive = 0;
-    for (int i = 0; i < 64; i++) {
-        ivec3 sub;
-        sub[(major + 1) % 3] = i & 7;
-        sub[(major + 2) % 3] = i >> 3;
-        for (int depth = 0; depth < 8; depth++) {
-            sub[major] = (axis & 1u) == 0u ? 7 - depth : depth;
-            if (block_bit(false, sub)) {
-                seen += 1;
-                emissive += block_bit(true, sub) ? 1 : 0;
-                break;
-            }
+    for (int column = 0; column < 4; column++) {
+        uvec2 hidden = uvec2(0u);
+        for (int i = 0; i < 8; i++) {
+            const int depth = (axis & 1u) == 0u ? 7 - i : i;
+            ivec3 cell;
+            cell[major] = depth >> 2;
+            cell[(major + 1) % 3] = column & 1;
+            cell[(major + 2) % 3] = column >> 1;
+            const int c = cell.x + 2 * cell.y + 4 * cell.z;
+            const uvec2 solid = slice_of(block_bits[c], major, depth & 3) & ~hidden;
+            const ivec2 both = bitCount(solid), emits = bitCount(solid & slice_of(block_emissive[c], major, depth & 3));
+            seen += both.x + both.y;
+            emissive += emits.x + emits.y;
+            hidden |= solid;
         }
     }
-    return seen > 0 ? uint(round(31.0 * float(emissive) / float(seen))) : 0u;
+    return seen > 0 ? float(emissive) / float(seen) : 0.0;
+}
+
+/* Share of its sub-voxels that a lamp fills: those of a small one, and the rim of a larger, it fills in part. Where surfaces
+ * that face different ways meet, what one leaves of a sub-voxel is the other's. */
+float resolve_filled(float covered, int bits, uint facing)
+{
+    const bool corner = bitCount((facing | facing >> 1u) & 0x15u) > 1;
+    const int most_of_speck = 8;
+    return corner && bits > most_of_speck ? 1.0 : min(covered / (float(max(bits, 1)) * SDFGI_EMISSION_STEPS), 1.0);
 }
 
 uvec2 resolve_emission(uint block, uvec3 block_texel)
 {
-    const uint count = accumulated(SDFGI_ACCUM_EMISSION_COUNT, block);
-    if (count == 0u)
+    const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
+    if (covered == 0.0)
         return uvec2(0u);
+    int bits = 0;
     for (uint i = 0u; i < 8u; i++) {
         const uvec3 texel = 2u * block_texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
         const uint index = texel_index(texel) | args.cascade << (3u * sdfgi_frame.size.y);
         block_bits[i] = sdfgi_bits[index];
         block_emissive[i] = sdfgi_light[index];
+        bits += bitCount(block_emissive[i].x) + bitCount(block_emissive[i].y);
     }
     const uint facing = accumulated(SDFGI_ACCUM_EMISSION_FACING, block);
-    uint shares = 0u;
-    for (uint axis = 0u; axis < 6u; axis++)
-        if ((facing >> axis & 1u) != 0u)
-            shares |= resolve_seen_share(axis) << (5u * axis);
-    const vec3 mean = accumulated3(SDFGI_ACCUM_EMISSION, block) / (float(count) * SDFGI_EMISSION_STEPS);
-    return uvec2(rgbe_encode(mean), shares);
+    float shares[6], largest = 0.0;
+    for (uint axis = 0u; axis < 6u; axis++) {
+        shares[axis] = (facing >> axis & 1u) != 0u ? resolve_seen_share(axis) : 0.0;
+        largest = max(largest, shares[axis]);
+    }
+    /* Relative to the largest: a lamp that fills a thousandth of its block would round to none. */
+    uint packed = 0u;
+    for (uint axis = 0u; axis < 6u && largest > 0.0; axis++)
+        packed |= uint(round(31.0 * shares[axis] / largest)) << (5u * axis);
+    const vec3 mean = accumulated3(SDFGI_ACCUM_EMISSION, block) / covered;
+    return uvec2(rgbe_encode(mean * resolve_filled(covered, bits, facing) * largest), packed);
 }
 
 void main()
 {
-    const uint block = gl_GlobalInvocationID.x;
-    if (block >= block_count())
+    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / 2u;
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= size.x * size.y * size.z)
         return;
-    const uint bits = sdfgi_frame.size.y - 1u;
-    const uvec3 block_texel = uvec3(block, block >> bits, block >> (2u * bits)) & (sdfgi_frame.size.x / 2u - 1u);
+    const ivec3 cell = args.low.xyz + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const uvec3 block_texel = cell_texel(args.cascade, cell) / 2u;
+    const uint block = block_index(args.cascade, cell);
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
     const uint out_index = block + args.cascade * block_count();

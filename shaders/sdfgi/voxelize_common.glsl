@@ -30,12 +30,12 @@ layout(set = 2, binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emi
  * open a seam between triangles that share it. */
 const float EDGE_MARGIN = 1.0 / 256.0;
 /* Surfaces exactly between two sub-voxels go to the upper one, however the transform rounds. */
-const float TIE_BIAS = 1.0 / 1024.0;
+const float TIE_BIAS = 1.0 / 2048.0;
 /* Beyond this (sub-voxels) floats cannot place an edge to within a sub-voxel. */
 const float MAX_COORDINATE = 1e9;
 
 struct triangle {
-    vec3 v[3];        /* sub-voxels, axes permuted: z is the dominant axis */
+    vec3 v[3];        /* sub-voxels from the anchor, axes permuted: z is the dominant axis */
     vec2 slope;       /* dz/dx, dz/dy */
     vec3 edges[3];    /* inside where dot(edge, (x, y, 1)) >= 0, in sub-voxels */
     vec3 bary_x, bary_y, bary_0; /* barycentric coordinates = bary_0 + x bary_x + y bary_y */
@@ -52,9 +52,20 @@ vec3 permute(vec3 p, int axis)
     return axis == 0 ? p.yzx : (axis == 1 ? p.zxy : p.xyz);
 }
 
+ivec3 permute(ivec3 p, int axis)
+{
+    return axis == 0 ? p.yzx : (axis == 1 ? p.zxy : p.xyz);
+}
+
 ivec3 unpermute(ivec3 p, int axis)
 {
     return axis == 0 ? p.zxy : (axis == 1 ? p.yzx : p.xyz);
+}
+
+/* The box to fill, in sub-voxels from the anchor. */
+ivec3 box_corner(uint packed)
+{
+    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor.xyz;
 }
 
 uint mesh_index(uint i)
@@ -88,13 +99,14 @@ bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
     return true;
 }
 
-/* Sets up everything that does not depend on the column. False if the triangle has no area or misses the volume. */
+/* Sets up everything that does not depend on the column. False if the triangle has no area or misses the box. Nothing but
+ * the range of columns depends on the box or on where the cascade is: a sub-voxel comes out the same whenever it is made. */
 bool triangle_setup(inout triangle t, vec3 v[3])
 {
-    const float size = float(space_resolution() * SDFGI_SUBVOXELS);
+    const ivec3 box_low = box_corner(uint(args.anchor.w)), box_high = box_corner(args.box_high);
     const vec3 low = min(v[0], min(v[1], v[2]));
     const vec3 high = max(v[0], max(v[1], v[2]));
-    if (any(lessThan(high, vec3(-0.5))) || any(greaterThan(low, vec3(size + 0.5))))
+    if (any(lessThan(high, vec3(box_low) - 0.5)) || any(greaterThan(low, vec3(box_high) + 0.5)))
         return false;
     const vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
     const vec3 height = abs(normal);
@@ -128,8 +140,9 @@ bool triangle_setup(inout triangle t, vec3 v[3])
     const vec3 plow = permute(low, t.axis), phigh = permute(high, t.axis);
     t.tiny = all(lessThan(phigh - plow, vec3(1.0)));
     /* A column's centre, or a point half a sub-voxel beside it along x or y, must be inside. */
-    t.columns = ivec4(max(ivec2(ceil(plow.xy - 1.0 - EDGE_MARGIN)), ivec2(0)),
-                      min(ivec2(floor(phigh.xy + EDGE_MARGIN)), ivec2(int(size) - 1)));
+    const vec2 first = max(plow.xy - 1.0 - EDGE_MARGIN, vec2(permute(box_low, t.axis).xy));
+    const vec2 last = min(phigh.xy + EDGE_MARGIN, vec2(permute(box_high, t.axis).xy - 1));
+    t.columns = ivec4(ivec2(ceil(first)), ivec2(floor(last)));
     return t.columns.x <= t.columns.z && t.columns.y <= t.columns.w;
 }
 
@@ -146,13 +159,19 @@ float triangle_height(triangle t, vec2 p)
     return t.v[0].z + dot(t.slope, p - t.v[0].xy);
 }
 
-/* The sub-voxel (permuted axes) that the triangle sets in a column, if any. */
+/* The column that a triangle smaller than a sub-voxel sets, whatever it crosses. */
+ivec2 tiny_column(triangle t)
+{
+    return ivec2(floor((t.v[0].xy + t.v[1].xy + t.v[2].xy) / 3.0));
+}
+
+/* The sub-voxel (permuted axes) in which the triangle meets a column; true if it sets it. */
 bool triangle_column(triangle t, ivec2 column, out ivec3 sub)
 {
     const vec2 centre = vec2(column) + 0.5;
     const float z = triangle_height(t, centre);
     sub = ivec3(column, int(floor(z + TIE_BIAS)));
-    if (t.tiny && all(equal(column, ivec2(floor((t.v[0].xy + t.v[1].xy + t.v[2].xy) / 3.0)))))
+    if (t.tiny && all(equal(column, tiny_column(t))))
         return true;
     if (triangle_inside(t, centre))
         return true;
@@ -252,14 +271,60 @@ void accumulate_surface(triangle t, uint block, surface_sample s)
     }
 }
 
-void accumulate_emission(triangle t, uint block, uint cell, uint bit, surface_sample s)
+/* Keeps the part of a polygon where dot(side, (x, y, 1)) >= 0. */
+void polygon_clip(inout vec2 corners[7], inout int count, vec3 side)
 {
-    const uvec3 emission = uvec3(clamp(s.emission, 0.0, 1.0) * SDFGI_EMISSION_STEPS + 0.5);
+    vec2 kept[7];
+    int kept_count = 0;
+    for (int i = 0; i < count; i++) {
+        const vec2 a = corners[i], b = corners[(i + 1) % count];
+        const float da = dot(side, vec3(a, 1.0)), db = dot(side, vec3(b, 1.0));
+        if (da >= 0.0 && kept_count < 7)
+            kept[kept_count++] = a;
+        if (da >= 0.0 != db >= 0.0 && kept_count < 7)
+            kept[kept_count++] = mix(a, b, da / (da - db));
+    }
+    corners = kept;
+    count = kept_count;
+}
+
+/* Share of a column's cross-section that the triangle covers: lamps smaller than a sub-voxel, and the rims of larger ones,
+ * keep their power. */
+float triangle_coverage(triangle t, ivec2 column)
+{
+    if (t.tiny)
+        return all(equal(column, tiny_column(t))) ? 0.5 * t.lod_area : 0.0;
+    vec2 corners[7];
+    int count = 3;
+    for (int i = 0; i < 3; i++)
+        corners[i] = t.v[i].xy - vec2(column);
+    polygon_clip(corners, count, vec3(1.0, 0.0, 0.0));
+    polygon_clip(corners, count, vec3(-1.0, 0.0, 1.0));
+    polygon_clip(corners, count, vec3(0.0, 1.0, 0.0));
+    polygon_clip(corners, count, vec3(0.0, -1.0, 1.0));
+    float area = 0.0;
+    for (int i = 0; i < count; i++) {
+        const vec2 a = corners[i], b = corners[(i + 1) % count];
+        area += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * abs(area);
+}
+
+/* Adds what an emitter covers of a column, whether it sets a sub-voxel there or not. */
+void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
+{
+    const float covered = min(triangle_coverage(t, column), 1.0) * SDFGI_EMISSION_STEPS;
+    const uvec3 emission = uvec3(clamp(s.emission, 0.0, 1.0) * covered + 0.5);
     if (emission == uvec3(0u))
         return;
     for (uint i = 0u; i < 3u; i++)
         accumulate(SDFGI_ACCUM_EMISSION + i, block, emission[i]);
-    accumulate(SDFGI_ACCUM_EMISSION_COUNT, block, 1u);
+    accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered + 0.5));
+}
+
+/* Until the light cells are listed, the light volume holds which sub-voxels emit. */
+void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s)
+{
     uint facing = 0u;
     for (uint axis = 0u; axis < 6u; axis++) {
         const float height = t.normal[axis >> 1u] * ((axis & 1u) == 0u ? 1.0 : -1.0);
@@ -267,38 +332,49 @@ void accumulate_emission(triangle t, uint block, uint cell, uint bit, surface_sa
             facing |= 1u << axis;
     }
     atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * block_count() + block], facing);
-    /* Until the light cells are listed, the light volume holds which sub-voxels emit. */
     if (bit < 32u)
         atomicOr(sdfgi_light[cell].x, 1u << bit);
     else
         atomicOr(sdfgi_light[cell].y, 1u << (bit - 32u));
 }
 
+/* Testing first spares contended atomics where many triangles share a sub-voxel (HARD_CASES row 17). */
+void store_bit(uint cell, uint bit)
+{
+    const uint word_bit = 1u << (bit & 31u);
+    if (bit < 32u) {
+        if ((sdfgi_bits[cell].x & word_bit) == 0u)
+            atomicOr(sdfgi_bits[cell].x, word_bit);
+    } else if ((sdfgi_bits[cell].y & word_bit) == 0u) {
+        atomicOr(sdfgi_bits[cell].y, word_bit);
+    }
+}
+
 /* Tests one column and stores what it finds. */
 void triangle_store_column(triangle t, ivec2 column)
 {
+    const bool emits = sdfgi_materials[args.material].emission.rgb != vec3(0.0);
     ivec3 permuted;
-    if (!triangle_column(t, column, permuted))
+    const bool set = triangle_column(t, column, permuted);
+    const ivec3 from_anchor = unpermute(permuted, t.axis);
+    if ((!set && !emits) || any(lessThan(from_anchor, box_corner(uint(args.anchor.w)))) ||
+        any(greaterThanEqual(from_anchor, box_corner(args.box_high))))
         return;
-    const ivec3 sub = unpermute(permuted, t.axis);
+    const ivec3 sub = from_anchor + args.anchor.xyz;
     const ivec3 cell = sub >> 2;
-    if (!cell_inside(cell))
-        return;
     const surface_sample s = triangle_sample(t, column);
     if (s.albedo.a < sdfgi_materials[args.material].emission.w)
+        return;
+    const uint block = block_index(args.cascade, cell);
+    if (emits)
+        accumulate_emission(t, column, block, s);
+    if (!set)
         return;
     const uint index = cell_index(args.cascade, cell);
     const ivec3 inner = sub & 3;
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
-    const uint word_bit = 1u << (bit & 31u);
-    /* Testing first spares contended atomics where many triangles share a sub-voxel (HARD_CASES row 17). */
-    if (bit < 32u) {
-        if ((sdfgi_bits[index].x & word_bit) == 0u)
-            atomicOr(sdfgi_bits[index].x, word_bit);
-    } else if ((sdfgi_bits[index].y & word_bit) == 0u) {
-        atomicOr(sdfgi_bits[index].y, word_bit);
-    }
-    const uint block = block_index(args.cascade, cell);
+    store_bit(index, bit);
     accumulate_surface(t, block, s);
-    accumulate_emission(t, block, index, bit, s);
+    if (s.emission != vec3(0.0))
+        store_emitter(t, block, index, bit, s);
 }

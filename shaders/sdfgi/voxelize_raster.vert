@@ -30,7 +30,7 @@ bool is_needle(triangle t)
 }
 
 /* Corner of a right triangle around the box of the columns. */
-vec2 box_corner(triangle t, int corner)
+vec2 columns_corner(triangle t, int corner)
 {
     const vec2 low = vec2(t.columns.xy) - 0.5, size = vec2(t.columns.zw - t.columns.xy) + 2.0;
     return low + vec2(corner == 1 ? 2.0 * size.x : 0.0, corner == 2 ? 2.0 * size.y : 0.0);
@@ -52,6 +52,6 @@ void main()
     if (!triangle_setup(t, v))
         return;
     const float size = float(space_resolution() * SDFGI_SUBVOXELS);
-    const vec2 at = is_needle(t) ? box_corner(t, corner) : widened_corner(t, corner);
-    gl_Position = vec4(at / size * 2.0 - 1.0, 0.5, 1.0);
+    const vec2 at = is_needle(t) ? columns_corner(t, corner) : widened_corner(t, corner);
+    gl_Position = vec4((at + vec2(permute(args.anchor.xyz, t.axis).xy)) / size * 2.0 - 1.0, 0.5, 1.0);
 }

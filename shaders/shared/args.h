@@ -4,6 +4,7 @@
 #define SDFGI_SHARED_ARGS_H
 
 #include "types.h"
+#include "constants.h"
 
 #define SDFGI_MESH_INDEX_NONE 0u
 #define SDFGI_MESH_INDEX_16 1u
@@ -13,7 +14,8 @@
 #define SDFGI_MESH_MIRRORED 16u /* the transform turns triangles inside out */
 
 struct sdfgi_voxelize_args {
-    vec4 rows[3];        /* object space to sub-voxels of the cascade: row-major 3x4 */
+    vec4 rows[3];        /* object space to sub-voxels from the instance's anchor: row-major 3x4 */
+    ivec4 anchor;        /* xyz: the anchor's sub-voxel in the cascade; w: low corner of the box of cells to fill, 10 bits each */
     uint cascade;
     uint triangle_count;
     uint threads;        /* of a workgroup that share a triangle: a power of two up to SDFGI_GROUP_TRIANGLE */
@@ -26,9 +28,9 @@ struct sdfgi_voxelize_args {
     uint index_offset;
     uint vertex_count;
     uint group_width;    /* workgroups along x */
-    uint reserved;
+    uint box_high;       /* high corner of the box, as anchor.w */
 };
-SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 112);
+SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 128);
 
 #define SDFGI_MATERIAL_ALBEDO_TEXTURE 1u
 #define SDFGI_MATERIAL_EMISSION_TEXTURE 2u
@@ -45,12 +47,23 @@ SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
 
 /* Passes over cells, probes and light cells. */
 struct sdfgi_pass_args {
+    ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high) */
     uint cascade;
-    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring */
+    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring; region_clear: 1 for light alone */
     uint source;          /* flood: which of the two pointer halves is read */
-    uint fresh;           /* probe passes: 1 if no earlier ring counts */
+    uint fresh;           /* 1: probe passes, no earlier ring counts; cell_mask, no earlier mask counts */
 };
-SDFGI_ASSERT_SIZE(sdfgi_pass_args, 16);
+SDFGI_ASSERT_SIZE(sdfgi_pass_args, 48);
+
+/* Boxes of cells that changed: distances near them are searched anew. */
+
+struct sdfgi_stale_args {
+    uint cascade;
+    uint first;           /* block along z */
+    uint box_count;       /* 0: everything changed */
+    uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: first cell, and 16 bits above the one after the last */
+};
+SDFGI_ASSERT_SIZE(sdfgi_stale_args, 84);
 
 struct sdfgi_gather_args {
     vec4 inverse_view_projection[4]; /* columns */

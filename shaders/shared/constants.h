@@ -4,7 +4,10 @@
 #define SDFGI_SHARED_CONSTANTS_H
 
 #define SDFGI_MAX_CASCADES 8
+#define SDFGI_MAX_CHANGES 6   /* boxes of cells that a cascade makes new at once: three that enter it, three that leave */
 #define SDFGI_PROBE_SPACING 8 /* cells between probes */
+/* Probes after which hashed places repeat: a scene moved by so many probes has the same light to the bit. */
+#define SDFGI_HASH_PERIOD 64
 #define SDFGI_SUBVOXELS 4     /* sub-voxels along a side of a cell: 64 bits per cell */
 
 /* Probes: an octahedron of this many texels a side, plus a border of one for bilinear filtering. */
@@ -25,6 +28,13 @@
 #define SDFGI_RAY_SKY 0xffffffffu
 #define SDFGI_RAY_UNLIT 0xfffffffeu
 
+/* A probe's state, in sdfgi_space.glsl's packing. NEW: until the next placement, as it is new or stands elsewhere, and
+ * what it gathered is not its own. */
+#define SDFGI_PROBE_DEAD 0x80000000u
+#define SDFGI_PROBE_MOVED 0x40000000u
+#define SDFGI_PROBE_NEW 0x20000000u
+#define SDFGI_PROBE_LINK_SHIFT 15u /* three bits: sees the next probe along x, y, z */
+
 /* Second word of a light cell: it is one. */
 #define SDFGI_LIGHT_VALID 0x40000000u
 
@@ -34,6 +44,8 @@
 /* Workgroup sizes. */
 #define SDFGI_GROUP_CELLS 4        /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
+#define SDFGI_GROUP_LINES 128      /* threads that share eight lines of cells, or a layer */
+#define SDFGI_LINES 8              /* lines of a workgroup */
 #define SDFGI_GROUP_TRIANGLE 32    /* threads that share one triangle */
 #define SDFGI_GROUP_PROBE 32       /* threads that share one probe */
 #define SDFGI_GROUP_OCCLUSION 64   /* threads that share one probe's 256 depths */
@@ -42,7 +54,7 @@
 /* Accumulators per albedo block (2x2x2 cells), planes of one uint per block in the scratch buffer. */
 #define SDFGI_ACCUM_ALBEDO 0       /* 3: sum of albedo in 1/255 */
 #define SDFGI_ACCUM_EMISSION 3     /* 3: sum of emission in SDFGI_EMISSION_STEPS of the scene's brightest */
-#define SDFGI_ACCUM_EMISSION_COUNT 6
+#define SDFGI_ACCUM_EMISSION_COVERED 6 /* cross-sections of columns that emitters cover, in 1/SDFGI_EMISSION_STEPS */
 #define SDFGI_ACCUM_EMISSION_FACING 7 /* OR of a bit per axis +x -x +y -y +z -z that emission is seen from */
 #define SDFGI_ACCUM_NORMAL 8       /* 3 classes (dominant axis x, y, z) of (count, slope, slope) */
 #define SDFGI_ACCUM_PLANES 17
@@ -60,6 +72,7 @@
 #define SDFGI_COUNTER_MAX_IRRADIANCE 7 /* float bits: brightest probe texel of the last ring */
 #define SDFGI_COUNTER_DEAD_PROBES 8
 #define SDFGI_COUNTER_VOXELS 9         /* sub-voxel samples that the voxeliser accepted */
+#define SDFGI_COUNTER_DISTANCE_CELLS 10 /* cells whose distances the exact search made anew */
 #define SDFGI_COUNTER_LIGHT_CELLS 16   /* per cascade, unclamped */
 #define SDFGI_COUNTER_COUNT 32
 

@@ -14,8 +14,14 @@ struct sdfgi_cascade_params {
     ivec4 probe_wrap; /* xyz: slot of probe (0, 0, 0), in [0, probes_per_side) */
     vec4 from_first;  /* cell space = xyz + w * cell space of cascade 0 */
     ivec4 probe_base; /* xyz: world index of probe (0, 0, 0), low 32 bits: seeds its ray directions */
+    ivec4 window_low, window_high; /* xyz: cells [low, high) are complete and may be read; empty if low = high.
+                                      window_low.w: boxes in `changed` */
+    vec4 share_low, share_high;    /* xyz: cells that lookups read, within the window; moves smoothly where that jumps */
+    ivec4 kept_low, kept_high;     /* xyz: cells that were complete before this frame */
+    ivec4 changed[2 * SDFGI_MAX_CHANGES]; /* low and high corner of each box that became new in this frame, cells
+                                             that left the cascade included: those lie outside [0, resolution) */
 };
-SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 80);
+SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 176 + 32 * SDFGI_MAX_CHANGES);
 
 struct sdfgi_frame_params {
     SDFGI_STRUCT(sdfgi_cascade_params) cascades[SDFGI_MAX_CASCADES];
@@ -27,7 +33,7 @@ struct sdfgi_frame_params {
     uvec4 ring;       /* x: rays per frame, y: first sample of this frame, z: samples in the ring,
                          w: float bits of the brightest probe texel known */
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, 8 * 80 + 3 * 16 + 5 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES * (176 + 32 * SDFGI_MAX_CHANGES) + 3 * 16 + 5 * 16);
 
 struct sdfgi_light_params {
     vec4 position;  /* xyz: metres relative to the host's origin, w: range in metres (0: unlimited) */

@@ -6,7 +6,8 @@
 
 #ifdef VULKAN
 #define SDFGI_STRUCT(type) type
-#define SDFGI_ASSERT_SIZE(type, bytes)
+/* A declaration without effect: before version 4.60, GLSL has no empty one for the semicolon that follows. */
+#define SDFGI_ASSERT_SIZE(type, bytes) precision highp int
 #else
 #include <assert.h>
 #include <stdint.h>

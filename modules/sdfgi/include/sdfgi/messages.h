@@ -15,7 +15,7 @@
     X(VULKAN_FAILURE, ERROR, "a Vulkan call failed in a way that is none of the above")                        \
     X(NO_GEOMETRY, WARNING, "no instance touches any cascade")                                                 \
     X(NO_LIGHTS, WARNING, "no light, no emission and no sky: everything is black")                             \
-    X(LIGHT_CELLS_OVERFLOW, WARNING, "more surface cells than the light list holds: larger cells, or fewer surfaces per cell")  \
+    X(LIGHT_CELLS_OVERFLOW, WARNING, "more surface cells than the light list may grow to: larger cells, or fewer surfaces")      \
     X(TRIANGLES_SKIPPED, WARNING, "triangles with non-finite or out-of-range vertices were skipped")           \
     X(VALUE_CLAMPED, WARNING, "radiance beyond the range of the stored format: give an exposure")              \
     X(BOUNCE_CLAMPED, WARNING, "albedo times feedback reached 0.95 and was clamped to stay contractive")       \

@@ -282,14 +282,16 @@ struct sdfgi_frame_desc {
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
  * Afterwards the descriptor set may be used by graphics and compute work later in the same queue: the
- * barriers are recorded. Records nothing at all while GI is disabled. */
+ * barriers are recorded. Records nothing at all while GI is disabled. Where surfaces outgrow the list of light cells,
+ * allocates a longer one. */
 SDFGI_API enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc);
 
 /* True when lookups give light: GI is enabled and at least one update has been recorded. */
 SDFGI_API bool sdfgi_is_active(const sdfgi *gi);
 
 /* Layout and set for shaders/include/sdfgi.glsl. The layout lives as long as the context. The set is
- * VK_NULL_HANDLE while GI is disabled, and may change whenever settings change: fetch it every frame. */
+ * VK_NULL_HANDLE while GI is disabled, and may change with settings and with sdfgi_update: fetch it every frame, after
+ * the update. The set before stays valid for the frames in flight. */
 SDFGI_API VkDescriptorSetLayout sdfgi_get_descriptor_set_layout(const sdfgi *gi);
 SDFGI_API VkDescriptorSet sdfgi_get_descriptor_set(const sdfgi *gi);
 
@@ -335,6 +337,17 @@ struct sdfgi_health {
     const char *hint;            /* static */
 };
 
+/* How cascades keep up with the camera and with geometry that changes. Cells count once when they are voxelised and
+ * once when they are given a distance. */
+struct sdfgi_scroll_report {
+    uint64_t steps_begun;      /* times that a cascade moved, since it was switched on */
+    uint64_t cells;            /* done in the last sdfgi_update */
+    uint64_t budget_cells;     /* sdfgi_max_scroll_cells_per_frame */
+    uint64_t pending_cells;    /* begun and not done yet */
+    uint32_t cascades_changing; /* of which the latter are */
+    uint32_t cascades_waiting; /* too slow for the camera within the budget: coarser ones answer */
+};
+
 struct sdfgi_report {
     uint64_t update_count;       /* frames recorded so far while enabled */
     bool active;
@@ -346,6 +359,7 @@ struct sdfgi_report {
     struct sdfgi_memory memory;  /* device bytes held now */
     uint32_t health_count;
     struct sdfgi_health health[SDFGI_MESSAGE_COUNT];
+    struct sdfgi_scroll_report scroll;
 };
 
 /* State after the last sdfgi_update. GPU figures are those of the newest frame known to be finished. */

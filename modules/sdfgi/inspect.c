@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+ * Copies of the volumes for those who want to look inside. */
+#include "internal.h"
+
+#include <math.h>
+#include <sdfgi/inspect.h>
+#include <string.h>
+
+static const enum resource volume_resources[SDFGI_VOLUME_COUNT] = {
+    [SDFGI_VOLUME_BITS] = RESOURCE_BITS,
+    [SDFGI_VOLUME_ALBEDO] = RESOURCE_ALBEDO,
+    [SDFGI_VOLUME_EMISSION] = RESOURCE_EMISSION,
+    [SDFGI_VOLUME_NORMALS] = RESOURCE_NORMALS,
+};
+
+static bool volume_is_known(enum sdfgi_volume volume)
+{
+    return (unsigned)volume < SDFGI_VOLUME_COUNT;
+}
+
+enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t cascade,
+                                            struct sdfgi_inspect_cascade *out)
+{
+    if (!gi->active)
+        return invalid(gi, "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
+    if (cascade >= gi->settings.cascades)
+        return invalid(gi, "sdfgi_inspect_get_cascade: cascade %u of %u", cascade, gi->settings.cascades);
+    const struct cascade *from = &gi->cascades[cascade];
+    for (int i = 0; i < 3; i++) {
+        out->origin_cells[i] = from->origin[i];
+        out->origin_m[i] = (double)from->origin[i] * from->cell_size[i];
+        out->cell_m[i] = from->cell_size[i];
+    }
+    out->resolution = gi->settings.resolution;
+    out->emission_unit = gi->emission_unit;
+    return SDFGI_OK;
+}
+
+uint64_t sdfgi_inspect_volume_size(const sdfgi *gi, enum sdfgi_volume volume)
+{
+    if (!gi->resources || !volume_is_known(volume))
+        return 0;
+    const struct extent *extent = &gi->resources->extent;
+    return resource_size(volume_resources[volume], extent) / extent->cascades;
+}
+
+static const char *copy_problem(const struct sdfgi *gi, uint32_t cascade, enum sdfgi_volume volume,
+                                VkBuffer buffer, VkDeviceSize offset)
+{
+    if (!gi->active || !gi->resources)
+        return "nothing has been voxelised yet";
+    if (cascade >= gi->settings.cascades)
+        return "there is no such cascade";
+    if (!volume_is_known(volume))
+        return "there is no such volume";
+    if (!buffer)
+        return "buffer is null";
+    return offset % 4 != 0 ? "offset is not a multiple of 4" : NULL;
+}
+
+enum sdfgi_result sdfgi_inspect_copy(sdfgi *gi, VkCommandBuffer cmd, uint32_t cascade,
+                                     enum sdfgi_volume volume, VkBuffer buffer, VkDeviceSize offset)
+{
+    const char *problem = copy_problem(gi, cascade, volume, buffer, offset);
+    if (problem)
+        return invalid(gi, "sdfgi_inspect_copy: %s", problem);
+    const enum resource resource = volume_resources[volume];
+    const struct gpu_buffer to = { .handle = buffer };
+    const uint64_t bytes = sdfgi_inspect_volume_size(gi, volume);
+    struct gpu_recorder rec;
+    gpu_recorder_begin(&rec, &gi->device, cmd);
+    gpu_use(&rec, GPU_USAGE_TRANSFER, UINT64_C(1) << resource, 0);
+    gpu_copy(&rec, &gi->resources->buffers[resource], cascade * bytes, &to, offset, bytes);
+    gpu_recorder_end(&rec);
+    return SDFGI_OK;
+}
+
+void sdfgi_inspect_decode_block(uint32_t albedo, const uint32_t *emission, uint32_t normals,
+                                float emission_unit, struct sdfgi_inspect_surface *out)
+{
+    enum { NO_NORMAL = 31, ZERO_SLOPE = 15 };
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 3; i++) {
+        const uint32_t slopes = normals >> (10 * i);
+        out->albedo[i] = (uint8_t)(albedo >> (8 * i) & 255);
+        /* RGB9E5 as in shaders/lib/rgbe.glsl. */
+        out->emission[i] =
+            ldexpf((float)(emission[0] >> (9 * i) & 511), (int)(emission[0] >> 27) - 24) * emission_unit;
+        out->has_normal[i] = (slopes & 31) != NO_NORMAL;
+        for (int k = 0; k < 2 && out->has_normal[i]; k++)
+            out->slopes[i][k] = (int8_t)((int)(slopes >> (5 * k) & 31) - ZERO_SLOPE);
+    }
+    for (int axis = 0; axis < 6; axis++)
+        out->emitting[axis] = (uint8_t)(emission[1] >> (5 * axis) & 31);
+}

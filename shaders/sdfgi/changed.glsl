@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ * What became new in this frame: boxes of cells per cascade, those that left included. */
+#ifndef SDFGI_CHANGED_GLSL
+#define SDFGI_CHANGED_GLSL
+
+#include "pass.glsl"
+
+int changed_count(uint cascade)
+{
+    return sdfgi_frame.cascades[cascade].window_low.w;
+}
+
+/* True if a box [low, high] comes within `margin` cells of anything new. */
+bool changed_near(uint cascade, ivec3 low, ivec3 high, int margin)
+{
+    for (int i = 0; i < changed_count(cascade); i++)
+        if (all(lessThanEqual(sdfgi_frame.cascades[cascade].changed[2 * i].xyz - margin, high)) &&
+            all(greaterThanEqual(sdfgi_frame.cascades[cascade].changed[2 * i + 1].xyz + margin, low)))
+            return true;
+    return false;
+}
+
+/* True if a ray from `pos` along `dir` (both in cell space) passes anything new, by less than `margin` cells, before
+ * parameter `end`. */
+bool changed_crosses(uint cascade, vec3 pos, vec3 dir, float end, float margin)
+{
+    const vec3 inv_dir = 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
+    for (int i = 0; i < changed_count(cascade); i++) {
+        const vec3 a = (vec3(sdfgi_frame.cascades[cascade].changed[2 * i].xyz) - margin - pos) * inv_dir;
+        const vec3 b = (vec3(sdfgi_frame.cascades[cascade].changed[2 * i + 1].xyz) + margin - pos) * inv_dir;
+        const vec3 first = min(a, b), last = max(a, b);
+        const float enters = max(max(first.x, first.y), max(first.z, 0.0));
+        if (enters <= min(min(last.x, last.y), min(last.z, end)))
+            return true;
+    }
+    return false;
+}
+
+#endif

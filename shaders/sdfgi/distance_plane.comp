@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT
+ * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along z by
+ * scanning the bits, then along x (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8, their sums as
+ * (d^2 + e^2 - 2) / 8, which fits above a place. Cells of the stale blocks, where their columns hold any, from args.step to
+ * before args.source along z.
+ * One workgroup per layer and run of eight cells along z: eight lines along x. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+const uint BATCH = 192u; /* as many as shared memory has room for: 16 KiB are all that every device has */
+
+#include "lines.glsl"
+
+layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+
+uvec4 line_values(ivec4 way, uint brought)
+{
+    return (uvec4(way * way) >> 3u) + brought;
+}
+
+uint layer()
+{
+    return gl_WorkGroupID.y;
+}
+
+uint first_z()
+{
+    return (args.step & ~7u) + LINES * gl_WorkGroupID.x;
+}
+
+/* Which of the four rows of a column lie in this layer and hold bits. */
+uint rows_of(uint x)
+{
+    return sdfgi_scratch[rows_slot(x, layer() >> 2u)] >> 4u * (layer() & 3u) & 15u;
+}
+
+bool column_is_stale(uint block_x, uint z)
+{
+    const uint slot = stale_slot(block_x, z >> 2u);
+    return z >= args.step && z < args.source && (sdfgi_scratch[slot] | sdfgi_scratch[slot + 1u]) != 0u;
+}
+
+void mark_rows()
+{
+    for (uint x = gl_LocalInvocationIndex; x < sdfgi_frame.size.x; x += SDFGI_GROUP_LINES)
+        line_mark(x, rows_of(x));
+}
+
+void mark_wanted()
+{
+    for (uint x = gl_LocalInvocationIndex; x < sdfgi_frame.size.x >> 2u; x += SDFGI_GROUP_LINES)
+        if (column_is_stale(x, first_z()) || column_is_stale(x, first_z() + 4u))
+            for (uint i = 0u; i < 4u; i++)
+                atomicOr(line_wanted, 1u << (4u * x + i) / line_cells_per_slot());
+}
+
+/* ---- Along z: rows are named by their place along x */
+
+/* Four bits: those of a row in one cell. */
+uint row_of_cell(uint place, uint z)
+{
+    const uvec2 bits = cell_bits(args.cascade, ivec3(place >> 2u, layer() >> 2u, z)) >> ((place & 3u) | 4u * (layer() & 3u));
+    return (bits.x & 1u) | (bits.x >> 15u & 2u) | (bits.y & 1u) << 2u | (bits.y >> 15u & 2u) << 2u;
+}
+
+uint row_of_four_cells(uint place, uint z)
+{
+    return row_of_cell(place, z) | row_of_cell(place, z + 1u) << 4u | row_of_cell(place, z + 2u) << 8u |
+           row_of_cell(place, z + 3u) << 12u;
+}
+
+/* A bit per run in which a row holds bits. All are read at once: one wait. */
+uint runs_of_row(uint place)
+{
+    const uint shift = (place & 3u) | 4u * (layer() & 3u);
+    uint runs = 0u;
+    for (uint run = 0u; run < sdfgi_frame.size.x >> 3u; run += 2u) {
+        const uint two = sdfgi_scratch[runs_slot(place >> 2u, layer() >> 2u, run)] >> shift;
+        runs |= ((two & 1u) | (two >> 15u & 2u)) << run;
+    }
+    return runs;
+}
+
+const int NOTHING = 1 << 16; /* sub-voxels: further than any */
+
+/* Way in sub-voxels from the low end of a run down to the nearest set one below it. */
+int way_below(uint place, uint runs, uint run)
+{
+    const int below = findMSB(runs & ((1u << run) - 1u));
+    if (below < 0)
+        return NOTHING;
+    const uint high = row_of_four_cells(place, 8u * uint(below) + 4u);
+    const int last = high != 0u ? 16 + findMSB(high) : findMSB(row_of_four_cells(place, 8u * uint(below)));
+    return 32 * (int(run) - below) - 1 - last;
+}
+
+/* From the high end of a run up to the nearest set one above it. */
+int way_above(uint place, uint runs, uint run)
+{
+    const int above = findLSB(runs & ~1u << run);
+    if (above < 0)
+        return NOTHING;
+    const uint low = row_of_four_cells(place, 8u * uint(above));
+    const int first = low != 0u ? findLSB(low) : 16 + findLSB(row_of_four_cells(place, 8u * uint(above) + 4u));
+    return 32 * (above - int(run) - 1) + first;
+}
+
+uint bits_of_run(uint place, uint runs, uint run)
+{
+    if ((runs >> run & 1u) == 0u)
+        return 0u;
+    return row_of_four_cells(place, 8u * run) | row_of_four_cells(place, 8u * run + 4u) << 16u;
+}
+
+/* Steps of a sub-voxel from the one next to a cell's centre to the nearest set one of a row, on either side. */
+uint steps_along_row(uint bits, uint cell, int below, int above)
+{
+    const uint centre = 4u * cell + 2u;
+    const uint low = bits & ((1u << centre) - 1u), high = bits >> centre;
+    const int down = int(centre) - 1 - (low != 0u ? findMSB(low) : -1 - below);
+    return uint(min(down, high != 0u ? findLSB(high) : 32 - int(centre) + above));
+}
+
+/* Puts the rows numbered from `first` into a batch. Threads start at different lines, which are in different banks. */
+void put_rows(uint first)
+{
+    for (uint place = gl_LocalInvocationIndex; place < 4u * sdfgi_frame.size.x; place += SDFGI_GROUP_LINES) {
+        const uint at = line_rank(place) - first, run = first_z() >> 3u;
+        if (!line_holds(place) || at >= BATCH)
+            continue;
+        const uint runs = runs_of_row(place), bits = bits_of_run(place, runs, run);
+        const int below = way_below(place, runs, run), above = way_above(place, runs, run);
+        for (uint i = 0u; i < LINES; i++) {
+            const uint own = i + (at >> 2u) & (LINES - 1u), steps = steps_along_row(bits, own, below, above);
+            line_entries[at * LINES + own] = (steps * (steps + 1u) / 2u) << PLACE_BITS | place;
+        }
+    }
+}
+
+void store_lines()
+{
+    const uint count = line_cells_per_slot(), z = first_z() + line_own();
+    if (!line_slots_wanted(line_slot(), 1u) || z < args.step || z >= args.source)
+        return;
+    for (uint x = line_slot() * count; x < (line_slot() + 1u) * count; x++)
+        sdfgi_scratch[plane_slot(layer(), x, z - args.step)] = line_least[x * LINES + line_own()];
+}
+
+void main()
+{
+    line_begin();
+    mark_rows();
+    mark_wanted();
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && gl_WorkGroupID.x == 0u)
+        sdfgi_scratch[layers_slot(layer())] = line_any;
+    if (line_any == 0u || line_wanted == 0u)
+        return;
+    line_count();
+    line_clear();
+    const uint count = line_candidates();
+    for (uint first = 0u; first < count; first += BATCH) {
+        put_rows(first);
+        barrier();
+        line_search(min(BATCH, count - first));
+        barrier();
+    }
+    store_lines();
+}

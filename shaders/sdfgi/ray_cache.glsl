@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ * The ray cache: per probe and sample of its ring where that ray ends. Cell texel, cascade and axis of the light it reads,
+ * plus 1; or a code. */
+#ifndef SDFGI_RAY_CACHE_GLSL
+#define SDFGI_RAY_CACHE_GLSL
+
+#include "pass.glsl"
+
+layout(std430, set = 0, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer { uint sdfgi_rays[]; };
+
+uint ray_pack(uint cascade, ivec3 cell, uint axis)
+{
+    return (cell_index(cascade, cell) | axis << (3u * sdfgi_frame.size.y + 3u)) + 1u;
+}
+
+/* Where the light of a hit is stored, and the axis it is read along. */
+uint ray_light_index(uint code, out uint axis)
+{
+    const uint bits = 3u * sdfgi_frame.size.y + 3u;
+    axis = (code - 1u) >> bits;
+    return (code - 1u) & ((1u << bits) - 1u);
+}
+
+ivec3 ray_cell(uint code, out uint cascade)
+{
+    uint axis;
+    const uint index = ray_light_index(code, axis);
+    cascade = index >> (3u * sdfgi_frame.size.y);
+    return cell_from_texel(cascade, texel_from_index(index));
+}
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT
+ * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks; or, with
+ * args.step = 1, its light alone, which held emissive bits until then. One thread per four cells along x, which share a word
+ * of masks; boxes begin and end at multiples of 8 cells. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_BITS
+#define SDFGI_WRITES_LIGHT
+#define SDFGI_WRITES_MASKS
+#include "pass.glsl"
+
+layout(local_size_x = SDFGI_GROUP_LINEAR) in;
+layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+
+void clear_accumulators(ivec3 cell)
+{
+    const uint block = block_index(args.cascade, cell);
+    for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
+        sdfgi_scratch[plane * block_count() + block] = 0u;
+}
+
+void main()
+{
+    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / uvec3(4u, 1u, 1u);
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= size.x * size.y * size.z)
+        return;
+    const ivec3 first =
+        args.low.xyz + ivec3(4u * (i % size.x), i / size.x % size.y, i / (size.x * size.y));
+    const uint index = cell_index(args.cascade, first);
+    for (uint k = 0u; k < 4u; k++)
+        sdfgi_light[index + k] = uvec2(0u);
+    if (args.step != 0u)
+        return;
+    for (uint k = 0u; k < 4u; k++)
+        sdfgi_bits[index + k] = uvec2(0u);
+    sdfgi_masks[index >> 2u] = 0u;
+    if (((first.y | first.z) & 1) == 0) {
+        clear_accumulators(first);
+        clear_accumulators(first + ivec3(2, 0, 0));
+    }
+}
