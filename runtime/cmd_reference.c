@@ -4,6 +4,8 @@
 #include "commands.h"
 #include "image.h"
 #include "output_file.h"
+#include "reference_voxels.h"
+#include "run_options.h"
 #include "view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
@@ -19,14 +21,16 @@ static const double state_interval_s = 30;
 static const double degrees_per_radian = 57.29577951308232;
 
 struct options {
-    const char *scene, *view, *out;
+    const char *scene, *view, *out, *geometry, *device;
     struct cli_size size;
-    struct cli_list aov;
+    struct cli_list aov, set;
     uint32_t spp, bounces, threads;
     uint64_t seed;
     double seconds, error;
     bool spp_given, resume, cull_back_faces;
     /* Derived. */
+    bool voxels;
+    struct sdfgi_settings settings;           /* that shape the voxels */
     const char *aov_paths[RAYCAST_AOV_COUNT]; /* NULL: not wanted */
     char *state_path;
 };
@@ -35,6 +39,7 @@ struct run {
     const struct options *options;
     struct gltf_scene *gltf;
     struct host_view view;
+    struct reference_voxels voxels;
     struct raycast *raycast;
     struct cli_progress bar;
     double saved_s; /* when the state was last written */
@@ -79,12 +84,28 @@ static bool parse_aov(struct options *options, const char *pair)
     return false;
 }
 
+static bool parse_geometry(struct options *options)
+{
+    options->voxels = strcmp(options->geometry, "voxels") == 0;
+    if (!options->voxels && strcmp(options->geometry, "triangles") != 0) {
+        cli_error("reference: --geometry is \"%s\", expected triangles or voxels", options->geometry);
+        return false;
+    }
+    if (!options->voxels && (options->set.count > 0 || options->device)) {
+        cli_error("reference: %s is of use with --geometry voxels alone",
+                  options->device ? "--device" : "--set");
+        return false;
+    }
+    sdfgi_settings_default(&options->settings);
+    return run_apply_settings("reference", &options->set, &options->settings);
+}
+
 /* What the parser cannot know. */
 static bool options_finish(struct options *options)
 {
     if (!options->spp_given && (options->seconds > 0 || options->error > 0))
         options->spp = 0;
-    if (!check_output(options->out))
+    if (!parse_geometry(options) || !check_output(options->out))
         return false;
     for (uint32_t i = 0; i < options->aov.count; i++)
         if (!parse_aov(options, options->aov.values[i]))
@@ -106,7 +127,13 @@ static const char notes[] =
     "this run; whichever limit comes first ends it. An interrupted run keeps its samples in OUT.state, and "
     "so\n"
     "does every run with --resume; the same command with --resume goes on from there, to the same bits as a\n"
-    "run that was never interrupted.\n";
+    "run that was never interrupted.\n"
+    "--geometry voxels traces what the renderer's rays see: the set sub-voxels of its cascades, placed as "
+    "for "
+    "this\nview, with the albedo, emission and normals found there. The camera, and sun, point and spot "
+    "lights on "
+    "what it\nsees, still meet triangles. Of the settings, those that shape voxels count: cascades, "
+    "min_cell_size, y_scale,\nresolution, voxelizer.\n";
 
 static enum cli_outcome parse(struct options *o, int argc, char **argv)
 {
@@ -128,6 +155,10 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "threads", CLI_UINT, &o->threads, "N", .help = "one per processor if not given", .minimum = 1,
           .maximum = 256 },
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "another picture, see below" },
+        { "geometry", CLI_TEXT, &o->geometry, "KIND", .help = "triangles, the default, or voxels" },
+        { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "with voxels: a setting, see sdfgi properties" },
+        { "device", CLI_TEXT, &o->device, "N",
+          .help = "with voxels: index or part of the name of the device" },
         { "cull-back-faces", CLI_FLAG, &o->cull_back_faces,
           .help = "the camera sees through the backs of single-sided faces, as a rasteriser does" },
         { "resume", CLI_FLAG, &o->resume, .help = "go on from OUT.state where there is one, and keep it" },
@@ -229,6 +260,7 @@ static bool create_tracer(struct run *run)
         .threads = o->threads,
         .aovs = aov_bits(o),
         .cull_back_faces = o->cull_back_faces,
+        .voxels = o->voxels ? &run->voxels.voxels : NULL,
     };
     struct raycast_light *lights = calloc((size_t)run->view.light_count + 1, sizeof *lights);
     if (!lights) {
@@ -242,6 +274,12 @@ static bool create_tracer(struct run *run)
     if (!run->raycast)
         cli_error("%s", error);
     return run->raycast != NULL;
+}
+
+static bool voxelize(struct run *run)
+{
+    const struct options *o = run->options;
+    return !o->voxels || reference_voxels_read(run->gltf, &run->view, &o->settings, o->device, &run->voxels);
 }
 
 /* ---- The run ---------------------------------------------------------------------------------------- */
@@ -352,7 +390,7 @@ static int trace(struct run *run)
 
 int cmd_reference(int argc, char **argv)
 {
-    struct options options = { .spp = DEFAULT_SPP, .size = { 320, 180 } };
+    struct options options = { .spp = DEFAULT_SPP, .size = { 320, 180 }, .geometry = "triangles" };
     const enum cli_outcome outcome = parse(&options, argc, argv);
     if (outcome != CLI_RUN)
         return cli_exit_code(outcome);
@@ -360,12 +398,13 @@ int cmd_reference(int argc, char **argv)
     int code = CLI_EXIT_FAILURE;
     if (!options_finish(&options))
         code = CLI_EXIT_USAGE;
-    else if (load_inputs(&run) && create_tracer(&run) && resume(&run)) {
+    else if (load_inputs(&run) && voxelize(&run) && create_tracer(&run) && resume(&run)) {
         signal(SIGINT, on_interrupt);
         signal(SIGTERM, on_interrupt);
         code = trace(&run);
     }
     raycast_destroy(run.raycast);
+    reference_voxels_finish(&run.voxels);
     view_file_finish(&run.view);
     gltf_scene_destroy(run.gltf);
     free(options.state_path);

@@ -24,6 +24,7 @@ struct ray {
 /* A point on a surface, as a ray meets it: both normals are turned to the side the ray came from. */
 struct surface {
     struct vec3 position;
+    struct vec3 start;                    /* of rays that leave it */
     struct vec3 geometric_normal, normal; /* unit; `normal` is for shading */
     struct vec3 diffuse;                  /* albedo of the Lambertian part */
     struct vec3 specular;                 /* reflectance at normal incidence; unused unless `glossy` */
@@ -31,7 +32,8 @@ struct surface {
     bool glossy;
     bool emits;
     struct vec3 emission; /* towards the ray, W/(m^2 sr) */
-    float emission_pdf;   /* density per area with which `emitter_sample` picks this point; 0: never */
+    float emission_pdf;   /* density with which `emitter_sample` picks this point, per area across the ray; 0:
+                             never */
 };
 
 /* A point on an emitter. */
@@ -54,6 +56,8 @@ struct geometry_methods {
     bool (*occluded)(const struct geometry *g, const struct ray *ray);
     /* Choose a point on an emitter, more often on brighter ones; only where there are emitters. */
     void (*emitter_sample)(const struct geometry *g, struct random *r, struct emitter_sample *out);
+    /* Turn a surface of another geometry in the same space into one that rays can leave through this one. */
+    void (*adopt)(const struct geometry *g, struct surface *s);
     void (*destroy)(struct geometry *g);
 };
 

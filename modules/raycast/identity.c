@@ -9,7 +9,7 @@
 #include "random.h"
 
 /* Changes when the same inputs begin to give other samples, so that old states are refused. */
-#define METHOD_VERSION 1
+#define METHOD_VERSION 2
 
 uint64_t raycast_hash_bytes(uint64_t h, const void *bytes, size_t size)
 {
@@ -140,11 +140,37 @@ static uint64_t hash_view(uint64_t h, const struct raycast_view *v)
     return HASH(h, v->default_albedo);
 }
 
+static uint64_t hash_cascade(uint64_t h, const struct raycast_cascade *c)
+{
+    const size_t cells = (size_t)c->resolution * c->resolution * c->resolution;
+    h = HASH(h, c->low_m);
+    h = HASH(h, c->cell_m);
+    h = raycast_hash_bytes(h, c->bits, cells * sizeof(*c->bits));
+    for (size_t i = 0; i < cells / 8; i++) {
+        const struct raycast_block *b = &c->blocks[i];
+        h = HASH(h, b->emission);
+        h = HASH(h, b->albedo);
+        h = HASH(h, b->emitting);
+        h = HASH(h, b->slopes);
+    }
+    return h;
+}
+
+static uint64_t hash_voxels(uint64_t h, const struct raycast_voxels *v)
+{
+    h = HASH(h, v->cascade_count);
+    for (uint32_t i = 0; i < v->cascade_count && i < RAYCAST_MAX_CASCADES; i++)
+        h = hash_cascade(h, &v->cascades[i]);
+    return h;
+}
+
 uint64_t raycast_hash_inputs(const struct gltf_scene *scene, const struct raycast_view *view,
                              const struct raycast_settings *s)
 {
     const uint32_t size[5] = { s->width, s->height, s->max_bounces, s->aovs, s->cull_back_faces };
     uint64_t h = hash_view(hash_scene(METHOD_VERSION, scene), view);
     h = HASH(h, size);
+    if (s->voxels != NULL)
+        h = hash_voxels(h, s->voxels);
     return HASH(h, s->seed);
 }

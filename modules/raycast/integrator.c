@@ -8,8 +8,7 @@
 
 /* The way from one vertex of a path to the next. */
 struct leg {
-    struct vec3 position, geometric_normal; /* where it starts */
-    struct vec3 direction;
+    struct vec3 start, direction;
     float pdf;         /* with which the direction was chosen, per solid angle */
     float lamps_total; /* of lights_sample at the start */
 };
@@ -38,11 +37,17 @@ void integrator_start(struct integrator *it)
     it->sky_share = sky_share(&it->lights, it->geometry);
 }
 
-static bool is_visible(const struct integrator *it, const struct surface *s, const struct light_sample *light,
-                       struct random *r, uint64_t *rays)
+/* What stands between a point and a light. */
+struct blockers {
+    const struct geometry *geometry;
+    struct vec3 start; /* of the rays that ask */
+};
+
+static bool is_visible(const struct blockers *between, const struct light_sample *light, struct random *r,
+                       uint64_t *rays)
 {
     struct ray ray = {
-        .origin = geometry_offset(s->position, s->geometric_normal),
+        .origin = between->start,
         .direction = light->direction,
         .length_m = INFINITY,
         .key = random_bits(r),
@@ -53,17 +58,17 @@ static bool is_visible(const struct integrator *it, const struct surface *s, con
         ray.direction = vec3_normalize(way);
     }
     ++*rays;
-    return !geometry_occluded(it->geometry, &ray);
+    return !geometry_occluded(between->geometry, &ray);
 }
 
 /* What a surface makes of a light sample, weighted against finding the light by sampling the surface. */
-static struct reflected reflect(const struct integrator *it, const struct bsdf *b,
+static struct reflected reflect(const struct blockers *between, const struct bsdf *b,
                                 const struct light_sample *light, struct random *r, uint64_t *rays)
 {
     struct reflected out = { 0 };
     struct bsdf_value v;
     if (!(vec3_max(light->radiance) > 0.0f) || !bsdf_evaluate(b, light->direction, &v) ||
-        !is_visible(it, b->surface, light, r, rays))
+        !is_visible(between, light, r, rays))
         return out;
     const float weight = light->pdf > 0.0f ? mis_weight(light->pdf, v.pdf) : 1.0f;
     const struct vec3 arriving = vec3_scale(light->radiance, weight);
@@ -73,13 +78,13 @@ static struct reflected reflect(const struct integrator *it, const struct bsdf *
     return out;
 }
 
-static struct reflected lamp_light(const struct integrator *it, const struct bsdf *b, struct random *r,
-                                   float *total, uint64_t *rays)
+static struct reflected lamp_light(const struct integrator *it, const struct blockers *between,
+                                   const struct bsdf *b, struct random *r, float *total, uint64_t *rays)
 {
     struct light_sample light;
     if (!lights_sample(&it->lights, b->surface->position, b->frame.n, r, total, &light))
         return (struct reflected){ 0 };
-    return reflect(it, b, &light, r, rays);
+    return reflect(between, b, &light, r, rays);
 }
 
 /* False: the point chosen cannot shine this way. */
@@ -114,10 +119,15 @@ static struct reflected area_light(const struct integrator *it, const struct bsd
         light.pdf *= share;
         light.radiance = vec3_scale(light.radiance, 1.0f / share);
     } else if (!(it->geometry->emitter_power > 0.0f) ||
-               !emitter_light(it, b->surface->position, 1.0f - share, r, &light)) {
+               !emitter_light(it, b->surface->start, 1.0f - share, r, &light)) {
         return (struct reflected){ 0 };
     }
-    return reflect(it, b, &light, r, rays);
+    return reflect(&(struct blockers){ it->geometry, b->surface->start }, b, &light, r, rays);
+}
+
+static struct vec3 found_discs(const struct integrator *it, const struct leg *leg)
+{
+    return lights_sun_radiance(&it->lights, leg->direction, leg->lamps_total, leg->pdf);
 }
 
 static struct vec3 found_sky(const struct integrator *it, const struct leg *leg)
@@ -133,16 +143,15 @@ static struct vec3 found_emission(const struct integrator *it, const struct leg 
 {
     if (!s->emits)
         return vec3_splat(0.0f);
-    const struct vec3 way = vec3_sub(s->position, leg->position);
-    const float facing = fabsf(vec3_dot(leg->direction, s->geometric_normal));
-    const float pdf = (1.0f - it->sky_share) * s->emission_pdf * vec3_dot(way, way) / fmaxf(facing, 1e-12f);
+    const struct vec3 way = vec3_sub(s->position, leg->start);
+    const float pdf = (1.0f - it->sky_share) * s->emission_pdf * vec3_dot(way, way);
     return vec3_scale(s->emission, mis_weight(leg->pdf, pdf));
 }
 
 static struct ray leg_ray(const struct leg *leg, struct random *r)
 {
     return (struct ray){
-        .origin = geometry_offset(leg->position, leg->geometric_normal),
+        .origin = leg->start,
         .direction = leg->direction,
         .length_m = INFINITY,
         .key = random_bits(r),
@@ -155,14 +164,14 @@ static bool scatter(const struct integrator *it, const struct surface *s, struct
 {
     const struct bsdf b = bsdf_make(s, vec3_negate(leg->direction), 0.0f);
     float total = 0.0f;
-    const struct reflected lamps = lamp_light(it, &b, r, &total, rays), areas = area_light(it, &b, r, rays);
+    const struct blockers between = { it->geometry, s->start };
+    const struct reflected lamps = lamp_light(it, &between, &b, r, &total, rays),
+                           areas = area_light(it, &b, r, rays);
     const struct vec3 sampled =
         vec3_add(vec3_add(lamps.diffuse, lamps.specular), vec3_add(areas.diffuse, areas.specular));
     *light = vec3_add(*light, vec3_mul(*throughput, sampled));
     struct bsdf_value v;
-    *leg = (struct leg){ .position = s->position,
-                         .geometric_normal = s->geometric_normal,
-                         .lamps_total = total };
+    *leg = (struct leg){ .start = s->start, .lamps_total = total };
     if (!bsdf_sample(&b, r, &leg->direction, &v))
         return false;
     leg->pdf = v.pdf;
@@ -180,10 +189,10 @@ static bool survives(struct vec3 *throughput, struct random *r)
     return true;
 }
 
-/* Light along a leg that leaves the first surface. The discs of suns that this leg itself meets are direct
- * light and kept apart. */
+/* Light along a leg that leaves the first surface, without the discs of suns that this leg itself meets:
+ * those are direct light. */
 static struct vec3 arriving_light(const struct integrator *it, struct leg leg, struct random *r,
-                                  struct vec3 *discs, uint64_t *rays)
+                                  uint64_t *rays)
 {
     struct vec3 light = vec3_splat(0.0f), throughput = vec3_splat(1.0f);
     for (uint32_t bounce = 1;; bounce++) {
@@ -191,9 +200,8 @@ static struct vec3 arriving_light(const struct integrator *it, struct leg leg, s
         struct surface s;
         ++*rays;
         if (!geometry_intersect(it->geometry, &ray, &s)) {
-            const struct vec3 sun = lights_sun_radiance(&it->lights, leg.direction, leg.lamps_total, leg.pdf);
-            struct vec3 *sum = bounce == 1 ? discs : &light;
-            *sum = vec3_add(*sum, vec3_mul(throughput, sun));
+            if (bounce > 1)
+                light = vec3_add(light, vec3_mul(throughput, found_discs(it, &leg)));
             return vec3_add(light, vec3_mul(throughput, found_sky(it, &leg)));
         }
         light = vec3_add(light, vec3_mul(throughput, found_emission(it, &leg, &s)));
@@ -204,12 +212,24 @@ static struct vec3 arriving_light(const struct integrator *it, struct leg leg, s
     }
 }
 
+/* The discs of suns that the first leg meets. */
+static struct vec3 direct_discs(const struct integrator *it, const struct blockers *between,
+                                const struct leg *leg, struct random *r, uint64_t *rays)
+{
+    const struct vec3 radiance = found_discs(it, leg);
+    const struct light_sample light = { .direction = leg->direction, .at_infinity = true };
+    if (!(vec3_max(radiance) > 0.0f) || !is_visible(between, &light, r, rays))
+        return vec3_splat(0.0f);
+    return radiance;
+}
+
 void integrator_first_light(const struct integrator *it, const struct surface *s, struct vec3 towards_viewer,
                             struct random *r, uint64_t *rays, struct first_light *out)
 {
     const struct bsdf b = bsdf_make(s, towards_viewer, it->min_diffuse_share);
-    struct leg leg = { .position = s->position, .geometric_normal = s->geometric_normal };
-    const struct reflected lamps = lamp_light(it, &b, r, &leg.lamps_total, rays);
+    struct leg leg = { .start = s->start };
+    const struct blockers between = { it->seen, geometry_offset(s->position, s->geometric_normal) };
+    const struct reflected lamps = lamp_light(it, &between, &b, r, &leg.lamps_total, rays);
     const struct reflected areas = area_light(it, &b, r, rays);
     *out = (struct first_light){
         .direct = vec3_add(lamps.diffuse, lamps.specular),
@@ -221,8 +241,8 @@ void integrator_first_light(const struct integrator *it, const struct surface *s
     if (!bsdf_sample(&b, r, &leg.direction, &v))
         return;
     leg.pdf = v.pdf;
-    struct vec3 discs = vec3_splat(0.0f);
-    const struct vec3 light = vec3_scale(arriving_light(it, leg, r, &discs, rays), 1.0f / v.pdf);
+    const struct vec3 discs = direct_discs(it, &between, &leg, r, rays);
+    const struct vec3 light = vec3_scale(arriving_light(it, leg, r, rays), 1.0f / v.pdf);
     out->diffuse = vec3_add(out->diffuse, vec3_mul(v.diffuse, light));
     out->reflection = vec3_add(out->reflection, vec3_mul(v.specular, light));
     out->irradiance = vec3_add(out->irradiance, vec3_scale(light, v.cosine));
@@ -243,7 +263,7 @@ void integrator_path(const struct integrator *it, struct vec3 origin, struct vec
     struct surface s;
     *out = (struct path_sample){ 0 };
     ++*rays;
-    out->hit = geometry_intersect(it->geometry, &ray, &s);
+    out->hit = geometry_intersect(it->seen, &ray, &s);
     if (!out->hit) {
         out->emission = sky_radiance(&it->lights.sky, direction);
         return;
@@ -253,5 +273,6 @@ void integrator_path(const struct integrator *it, struct vec3 origin, struct vec
     out->position = s.position;
     out->normal = s.normal;
     out->albedo = s.diffuse;
+    it->geometry->methods->adopt(it->geometry, &s);
     integrator_first_light(it, &s, vec3_negate(direction), r, rays, &out->light);
 }

@@ -9,7 +9,9 @@
 #include "lights.h"
 
 struct integrator {
-    struct geometry *geometry;
+    struct geometry *seen; /* by the camera, and by the sun, point and spot lights of what the camera sees */
+    struct geometry
+        *geometry; /* what all other rays meet: `seen` itself, or what it looks like to a renderer */
     struct lights lights;
     uint32_t max_bounces;
     float sky_share;         /* of the samples for sky and emitters; set by integrator_start */

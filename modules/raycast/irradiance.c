@@ -47,6 +47,7 @@ static void gather(void *context, uint32_t index)
     struct surface s = { .diffuse = vec3_splat(1.0f) };
     s.position = vec3_make((float)(p[0] - origin[0]), (float)(p[1] - origin[1]), (float)(p[2] - origin[2]));
     s.normal = s.geometric_normal = vec3_normalize(vec3_load(q->normals + 3 * (size_t)index));
+    s.start = geometry_offset(s.position, s.geometric_normal);
     struct sums sums = { 0 };
     uint64_t rays = 0;
     for (uint32_t i = 0; i < q->samples; i++) {

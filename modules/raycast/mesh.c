@@ -140,8 +140,10 @@ static void emission(const struct triangles *t, const struct mesh *m, const stru
     out->emits = material_emits(m->material) && (front || m->material->double_sided);
     if (out->emits)
         out->emission = material_emission(&t->materials, m->material, p);
-    if (out->emits && m->emitter_density != NULL)
-        out->emission_pdf = m->emitter_density[hit->triangle];
+    if (!out->emits || m->emitter_density == NULL)
+        return;
+    const float facing = fabsf(vec3_dot(ray->direction, out->geometric_normal));
+    out->emission_pdf = m->emitter_density[hit->triangle] / fmaxf(facing, 1e-12f);
 }
 
 void triangle_surface(const struct triangles *t, const struct ray *ray, const struct triangle_hit *hit,
@@ -160,6 +162,7 @@ void triangle_surface(const struct triangles *t, const struct ray *ray, const st
         out->geometric_normal = vec3_negate(out->geometric_normal);
         out->normal = vec3_negate(out->normal);
     }
+    out->start = geometry_offset(out->position, out->geometric_normal);
     reflectance(t, m, &p, out);
     emission(t, m, ray, front, hit, &p, out);
 }

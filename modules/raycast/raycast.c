@@ -6,6 +6,7 @@
 
 #include "parallel.h"
 #include "triangles.h"
+#include "voxels.h"
 
 static struct raycast_settings settings_resolve(const struct raycast_settings *in)
 {
@@ -16,6 +17,22 @@ static struct raycast_settings settings_resolve(const struct raycast_settings *i
     s.threads = s.threads != 0 ? s.threads : raycast_parallel_processor_count();
     s.aovs |= 1u << RAYCAST_AOV_RADIANCE | 1u << RAYCAST_AOV_VARIANCE;
     return s;
+}
+
+static bool build_geometry(struct raycast *rc, const struct gltf_scene *scene,
+                           const struct raycast_view *view, char *error, size_t error_size)
+{
+    struct integrator *it = &rc->integrator;
+    struct triangles_desc desc = { .scene = scene,
+                                   .view = view,
+                                   .cull_back_faces = rc->settings.cull_back_faces };
+    for (int k = 0; k < 3; k++)
+        desc.origin[k] = rc->camera.origin[k];
+    it->seen = triangles_create(&desc, error, error_size);
+    it->geometry = it->seen;
+    if (it->seen != NULL && rc->settings.voxels != NULL)
+        it->geometry = voxels_create(rc->settings.voxels, rc->camera.origin, it->seen, error, error_size);
+    return it->geometry != NULL;
 }
 
 static bool build(struct raycast *rc, const struct gltf_scene *scene, const struct raycast_view *view,
@@ -34,11 +51,7 @@ static bool build(struct raycast *rc, const struct gltf_scene *scene, const stru
         snprintf(error, error_size, "reference: out of memory for the lights");
         return false;
     }
-    struct triangles_desc desc = { .scene = scene, .view = view, .cull_back_faces = s->cull_back_faces };
-    for (int k = 0; k < 3; k++)
-        desc.origin[k] = rc->camera.origin[k];
-    rc->integrator.geometry = triangles_create(&desc, error, error_size);
-    if (rc->integrator.geometry == NULL)
+    if (!build_geometry(rc, scene, view, error, error_size))
         return false;
     integrator_start(&rc->integrator);
     return true;
@@ -55,11 +68,11 @@ struct raycast *raycast_create(const struct gltf_scene *scene, const struct rayc
         return NULL;
     }
     rc->settings = settings_resolve(settings);
-    rc->identity = raycast_hash_inputs(scene, view, &rc->settings);
     if (!build(rc, scene, view, error, error_size)) {
         raycast_destroy(rc);
         return NULL;
     }
+    rc->identity = raycast_hash_inputs(scene, view, &rc->settings);
     return rc;
 }
 
@@ -67,8 +80,11 @@ void raycast_destroy(struct raycast *rc)
 {
     if (rc == NULL)
         return;
-    if (rc->integrator.geometry != NULL)
-        rc->integrator.geometry->methods->destroy(rc->integrator.geometry);
+    struct geometry *seen = rc->integrator.seen, *geometry = rc->integrator.geometry;
+    if (geometry != NULL && geometry != seen)
+        geometry->methods->destroy(geometry);
+    if (seen != NULL)
+        seen->methods->destroy(seen);
     raycast_lights_finish(&rc->integrator.lights);
     raycast_film_finish(&rc->film);
     free(rc);

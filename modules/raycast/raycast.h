@@ -100,6 +100,33 @@ uint32_t raycast_aov_channels(enum raycast_aov aov);
 /* As on the command line: "direct", "diffuse_indirect", ... */
 const char *raycast_aov_name(enum raycast_aov aov);
 
+enum { RAYCAST_MAX_CASCADES = 8, RAYCAST_NO_SLOPE = 127 };
+
+/* What a voxel renderer knows of the surfaces in 2x2x2 cells. Axes: +x -x +y -y +z -z. */
+struct raycast_block {
+    float emission[3];   /* mean radiance of what emits, W/(m^2 sr) */
+    uint8_t albedo[3];   /* in 1/255 */
+    uint8_t emitting[6]; /* per axis, in 1/31: the share of what is seen from there that emits */
+    /* Per largest component k, x to z: mean normal of such triangles, up to its sign: 1 along k, then in 1/15
+     * along the next axis and the one after that, in cyclic order. RAYCAST_NO_SLOPE in the first: there are
+     * none. */
+    int8_t slopes[3][2];
+};
+
+struct raycast_cascade {
+    double low_m[3];      /* world position of the low corner */
+    double cell_m[3];     /* twice those of the cascade before */
+    uint32_t resolution;  /* cells along a side, even */
+    const uint64_t *bits; /* per cell, x fastest, then y: bit x + 4 y + 16 z of its 4^3 sub-voxels */
+    const struct raycast_block *blocks; /* resolution / 2 along a side, in the same order */
+};
+
+/* The volumes of a voxel renderer, finest first, all on the cells of the finest. */
+struct raycast_voxels {
+    uint32_t cascade_count;
+    struct raycast_cascade cascades[RAYCAST_MAX_CASCADES];
+};
+
 /* Zero means the default. */
 struct raycast_settings {
     uint32_t width, height; /* pixels; default 320x180, at most 16384 each */
@@ -108,6 +135,10 @@ struct raycast_settings {
     uint32_t threads;       /* default: one per processor */
     uint32_t aovs;          /* bits 1 << RAYCAST_AOV_*; radiance and variance are always kept */
     bool cull_back_faces;   /* camera rays pass the backs of single-sided faces, as a rasteriser's do */
+    /* NULL: all rays meet triangles. Else the camera, and the sun, point and spot lights of what it sees,
+     * meet triangles, and every other ray meets these, which must outlive the tracer;
+     * modules/raycast/voxels.h says how. */
+    const struct raycast_voxels *voxels;
 };
 
 /* When to stop: whichever comes first; zero: no such limit (but one is needed). */

@@ -85,6 +85,13 @@ static bool triangles_occluded(const struct geometry *g, const struct ray *ray)
     return r.tfar < 0.0f;
 }
 
+/* Rays leave triangles of every kind alike. */
+static void triangles_adopt(const struct geometry *g, struct surface *s)
+{
+    (void)g;
+    s->start = geometry_offset(s->position, s->geometric_normal);
+}
+
 static void triangles_destroy(struct geometry *g)
 {
     struct triangles *t = (struct triangles *)g;
@@ -102,6 +109,7 @@ static const struct geometry_methods triangles_methods = {
     .intersect = triangles_intersect,
     .occluded = triangles_occluded,
     .emitter_sample = emitters_sample,
+    .adopt = triangles_adopt,
     .destroy = triangles_destroy,
 };
 
