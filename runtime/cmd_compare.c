@@ -7,13 +7,14 @@
 #include "output_file.h"
 #include "tone.h"
 
+#include <base/text.h>
 #include <cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 struct options {
-    const char *picture, *reference, *mask, *error_map;
+    const char *picture, *reference, *mask, *error_map, *strip;
     bool json;
 };
 
@@ -42,20 +43,34 @@ static void release(struct images *images)
     free(images->flip_map);
 }
 
-static bool write_error_map(const struct options *options, const struct images *images, char *error,
-                            size_t error_size)
+/* One panel is the map of errors alone. */
+static bool write_map(const char *path, const struct images *images, double exposure, uint32_t panels,
+                      char *error, size_t error_size)
 {
-    const size_t count = (size_t)images->reference.width * images->reference.height;
-    uint8_t *rgba = malloc(4 * count);
-    if (!rgba) {
-        snprintf(error, error_size, "compare: out of memory");
-        return false;
-    }
-    compare_paint_map(images->flip_map, count, rgba);
-    const bool written = image_write_png(options->error_map, rgba, images->reference.width,
-                                         images->reference.height, 3, error, error_size);
+    const struct image *const reference = &images->reference;
+    const size_t count = (size_t)reference->width * reference->height;
+    if (reference->width > IMAGE_SIDE_MAX / panels)
+        return base_text_error(error, error_size, "%s: the pictures are wider than %u pixels", path,
+                               IMAGE_SIDE_MAX / panels);
+    uint8_t *const rgba = malloc(4 * count * panels);
+    if (!rgba)
+        return base_text_error(error, error_size, "compare: out of memory");
+    if (panels == 1)
+        compare_paint_map(images->flip_map, count, rgba);
+    else
+        compare_paint_strip(&images->picture, reference, images->flip_map, exposure, rgba);
+    const bool written =
+        image_write_png(path, rgba, panels * reference->width, reference->height, 3, error, error_size);
     free(rgba);
     return written;
+}
+
+static bool write_maps(const struct options *options, const struct images *images, double exposure,
+                       char *error, size_t error_size)
+{
+    return (!options->error_map || write_map(options->error_map, images, exposure, 1, error, error_size)) &&
+           (!options->strip ||
+            write_map(options->strip, images, exposure, COMPARE_STRIP_PANELS, error, error_size));
 }
 
 static void print_text(const struct compare_result *r)
@@ -113,7 +128,7 @@ static int compare(const struct options *options, struct images *images)
     struct compare_result result;
     if (!compare_images(&picture, &reference, options->mask ? &mask : NULL, &result, images->flip_map, error,
                         sizeof error) ||
-        (options->error_map && !write_error_map(options, images, error, sizeof error)))
+        !write_maps(options, images, result.exposure, error, sizeof error))
         return cli_error("%s", error);
     if (!options->json)
         print_text(&result);
@@ -129,6 +144,8 @@ int cmd_compare(int argc, char **argv)
         { "json", CLI_FLAG, &o.json, .help = "print JSON" },
         { "mask", CLI_TEXT, &o.mask, "FILE", .help = "compare where this picture's red is above 0.5" },
         { "error-map", CLI_TEXT, &o.error_map, "FILE.png", .help = "write FLIP's error of each pixel" },
+        { "strip", CLI_TEXT, &o.strip, "FILE.png",
+          .help = "write PICTURE, REFERENCE and the error map side by side" },
     };
     const struct cli_positional positionals[] = { { "PICTURE", &o.picture, true },
                                                   { "REFERENCE", &o.reference, true } };
@@ -143,7 +160,8 @@ int cmd_compare(int argc, char **argv)
     if (outcome != CLI_RUN)
         return cli_exit_code(outcome);
     char error[CLI_ERROR_BYTES];
-    if (o.error_map && !output_file_check(o.error_map, error, sizeof error))
+    if ((o.error_map && !output_file_check(o.error_map, error, sizeof error)) ||
+        (o.strip && !output_file_check(o.strip, error, sizeof error)))
         return cli_error("%s", error);
     struct images images = { 0 };
     const int code = compare(&o, &images);

@@ -37,6 +37,13 @@ bool compare_images(const struct compare_input *picture, const struct compare_in
                     const struct compare_input *mask, struct compare_result *result, float *flip_map,
                     char *error, size_t error_size);
 
+enum { COMPARE_STRIP_PANELS = 3 };
+
+/* Paints the picture, the reference and the map of errors side by side, as RGBA bytes, three times as wide as
+ * each of them. Radiance goes through the tone curve with `exposure`, that of the comparison's result. */
+void compare_paint_strip(const struct image *picture, const struct image *reference, const float *flip_map,
+                         double exposure, uint8_t *rgba);
+
 /* Colours errors from black (0) over violet and orange to pale yellow (1), RGBA bytes. */
 void compare_paint_map(const float *errors, size_t count, uint8_t *rgba);
 

@@ -14,6 +14,7 @@ struct command {
 
 static const struct command commands[] = {
     { "render", cmd_render, "a picture of a glTF scene, offscreen" },
+    { "walk", cmd_walk, "a camera along a path, GI off and on, and what each frame cost" },
 #ifdef SDFGI_WITH_WINDOW
     { "view", cmd_view, "a window; G toggles global illumination" },
 #endif

@@ -59,6 +59,9 @@ bool report_write(struct report *report, const struct report_summary *summary, c
 /* Every property in force, by name. NULL when memory runs out. */
 cJSON *report_settings_to_json(const struct sdfgi_settings *settings);
 
+/* A code of the library's as its name, without prefix. */
+const char *report_message_name(enum sdfgi_message message);
+
 /* The value at the share `quantile` of the sorted samples (nearest rank); 0 if there are none. Sorts them. */
 uint64_t report_quantile(struct report_samples *samples, double quantile);
 

@@ -114,7 +114,7 @@ static bool add_memory(cJSON *json, const struct sdfgi_memory *memory, uint64_t 
     return complete;
 }
 
-static const char *message_name(enum sdfgi_message message)
+const char *report_message_name(enum sdfgi_message message)
 {
     static const char *const names[] = {
 #define MESSAGE_NAME(id, level, hint) #id,
@@ -130,7 +130,7 @@ static bool add_health(cJSON *json, const struct sdfgi_report *last)
     bool complete = list != NULL;
     for (uint32_t i = 0; complete && i < last->health_count; i++) {
         cJSON *item = add_element(list);
-        complete = add_text(item, "code", message_name(last->health[i].code)) &&
+        complete = add_text(item, "code", report_message_name(last->health[i].code)) &&
                    add_number(item, "count", (double)last->health[i].count) &&
                    add_text(item, "hint", last->health[i].hint);
     }
@@ -150,8 +150,7 @@ static bool add_run(cJSON *json, const struct report *report, const struct repor
            add_text(device, "driver", summary->device_driver) &&
            add_text(device, "type", summary->device_type) &&
            add_number(json, "frames", (double)report->frames) &&
-           add_number(json, "seconds", summary->seconds) &&
-           add_number(json, "exposure", summary->exposure) &&
+           add_number(json, "seconds", summary->seconds) && add_number(json, "exposure", summary->exposure) &&
            add_number(json, "validation_messages", summary->validation_messages);
 }
 

@@ -20,6 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <sdfgi/inspect.h>
 #include <sdfgi/sdfgi.h>
 
 #include "host_view.h"
@@ -156,7 +157,39 @@ struct host_picture_desc {
 bool host_renderer_read_picture(struct host_renderer *renderer, const struct host_picture_desc *desc,
                                 uint8_t *rgba);
 
+struct host_sample {
+    double position[3];
+    float normal[3]; /* need not be unit length */
+};
+
+/* Indirect irradiance (W/m^2, linear RGB) after the last frame at up to 16 points of the world, wherever the
+ * camera looks. Fails while GI is off. Waits for the GPU. */
+bool host_renderer_sample(struct host_renderer *renderer, const struct host_sample *samples, uint32_t count,
+                          float (*irradiance)[3]);
+
+/* ---- Volumes ---------------------------------------------------------------------------------------- */
+
+/* What the library holds of a cascade, cells and blocks in plain order: x fastest, then y. */
+struct host_volume {
+    struct sdfgi_inspect_cascade where;
+    uint64_t *bits;                       /* per cell */
+    struct sdfgi_inspect_surface *blocks; /* per 2x2x2 cells */
+};
+
+struct host_volumes {
+    uint32_t count;
+    struct host_volume cascades[8];
+};
+
+/* Has the library voxelise the scene around a camera, draws nothing, and reads what it made of it. */
+bool host_renderer_read_volumes(struct host_renderer *renderer, const struct host_camera *camera,
+                                struct host_volumes *out);
+void host_volumes_finish(struct host_volumes *volumes);
+
 /* ---- Window ----------------------------------------------------------------------------------------- */
+
+/* Where the camera of frame `frame` is; false closes the window. */
+typedef bool (*host_camera_fn)(void *user, uint32_t frame, struct host_camera *camera);
 
 struct host_window_desc {
     const char *device_select; /* as host_device_desc::select */
@@ -167,6 +200,10 @@ struct host_window_desc {
     uint32_t width, height;                /* 0: 1280 x 720 */
     uint32_t frames;                       /* closes after that many; 0: when the user does */
     struct sdfgi_log log;
+    host_camera_fn camera;     /* NULL: the user flies */
+    host_progress_fn progress; /* after each frame; may be NULL. Its GPU time is that of two frames before */
+    void *user;                /* of both */
+    struct host_device_info *device_info; /* filled once there is a device; may be NULL */
 };
 
 /* Opens a window and runs until it is closed. On failure returns false and writes one line to `error`.

@@ -190,6 +190,11 @@ void host_gi_destroy(struct host_gi *gi)
     free(gi);
 }
 
+sdfgi *host_gi_context(const struct host_gi *gi)
+{
+    return gi->context;
+}
+
 VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi)
 {
     return sdfgi_get_descriptor_set_layout(gi->context);

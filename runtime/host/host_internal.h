@@ -144,7 +144,7 @@ struct host_scene {
     struct host_scene_light *suns, *lights;
     struct host_sky sky;
     uint32_t primitive_count, instance_count, material_count, sun_count, light_count;
-    double center[3], radius; /* of everything drawn */
+    double center[3], radius; /* of everything drawn; the centre in whole 1/64 m */
 };
 
 /* Makes image and sampler of a texture reference; `view` gets a white texel where there is none. */
@@ -160,13 +160,14 @@ bool host_materials_init(struct host_scene *scene, const struct gltf_scene *gltf
 void host_materials_finish(struct host_scene *scene);
 bool host_lights_init(struct host_scene *scene, const struct gltf_scene *gltf, const struct host_view *view);
 
-/* ---- GI (host_gi.c): the only file that calls the library ------------------------------------------- */
+/* ---- GI (host_gi.c, and host_volumes.c for what only tools ask): all that calls the library --------- */
 
 struct host_gi;
 
 struct host_gi *host_gi_create(struct host_device *device, const struct host_scene *scene,
                                const struct host_renderer_desc *desc, uint32_t frames_in_flight);
 void host_gi_destroy(struct host_gi *gi);
+sdfgi *host_gi_context(const struct host_gi *gi);
 VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
 /* VK_NULL_HANDLE while lookups give nothing. */
 VkDescriptorSet host_gi_set(const struct host_gi *gi);
@@ -209,6 +210,8 @@ bool host_pipelines_init(struct host_device *device, const struct host_passes *p
                          VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout,
                          struct host_pipelines *pipelines);
 void host_pipelines_finish(struct host_device *device, struct host_pipelines *pipelines);
+bool host_pipeline_compute_create(struct host_device *device, const uint32_t *words, size_t bytes,
+                                  VkPipelineLayout layout, VkPipeline *out);
 bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
                                   VkRenderPass pass, VkPipeline *out);
 
@@ -216,11 +219,12 @@ bool host_pipeline_tonemap_create(struct host_device *device, const struct host_
 
 enum { HOST_MAX_LAYERS = 192 }; /* 32 point lights */
 
+/* Relative to the scene's centre. */
 struct host_sun_cascade {
     bool rendered;
     double center[2];     /* along right and up of the light's space; whole texels */
     double half_m;        /* half the side of the map */
-    double near_m, far_m; /* along forward, absolute */
+    double near_m, far_m; /* along forward */
 };
 
 struct host_shadows {
@@ -273,6 +277,17 @@ struct host_targets {
     VkFramebuffer prepass, forward, picture_framebuffer;
 };
 
+/* Light at single points (host_sample.c). */
+struct host_sampler {
+    bool ready;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkPipeline pipeline;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    struct host_buffer results;
+};
+
 struct host_renderer {
     struct host_device *device;
     struct host_scene *scene;
@@ -289,6 +304,7 @@ struct host_renderer {
     VkDescriptorSet post_set;
     VkSampler nearest;
     struct host_buffer exposure;
+    struct host_sampler sampler;
     VkQueryPool queries; /* two per slot */
     uint64_t frame_index, submit_count, gpu_ns;
     bool has_frame;
@@ -299,7 +315,7 @@ struct host_renderer {
 };
 
 struct host_frustum {
-    double planes[5][4]; /* inside: dot(n, p) + d >= 0, absolute world positions relative to origin */
+    double planes[5][4]; /* inside: dot(n, p) + d >= 0 for positions relative to `origin` */
     uint32_t count;
     double origin[3];
 };
@@ -323,6 +339,8 @@ void host_draw_shadow(struct host_renderer *renderer, VkCommandBuffer cmd, const
 void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set);
 void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height);
+
+void host_sampler_finish(struct host_renderer *renderer);
 
 bool host_targets_init(struct host_renderer *renderer);
 void host_targets_finish(struct host_renderer *renderer);

@@ -299,10 +299,11 @@ bool host_pipeline_tonemap_create(struct host_device *device, const struct host_
     return pipeline_create(device, &desc, out);
 }
 
-static bool exposure_create(struct host_device *device, struct host_pipelines *p)
+bool host_pipeline_compute_create(struct host_device *device, const uint32_t *words, size_t bytes,
+                                  VkPipelineLayout layout, VkPipeline *out)
 {
     VkShaderModule module = VK_NULL_HANDLE;
-    if (!module_create(device, SHADER(host_exposure_comp), &module))
+    if (!module_create(device, (struct shader_code){ words, bytes }, &module))
         return false;
     const VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -310,11 +311,11 @@ static bool exposure_create(struct host_device *device, struct host_pipelines *p
                    .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                    .module = module,
                    .pName = "main" },
-        .layout = p->post_pipeline_layout,
+        .layout = layout,
     };
-    const bool ok = host_check(
-        device, vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &p->exposure),
-        "creating a compute pipeline");
+    const bool ok =
+        host_check(device, vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, out),
+                   "creating a compute pipeline");
     vkDestroyShaderModule(device->device, module, NULL);
     return ok;
 }
@@ -328,7 +329,8 @@ bool host_pipelines_init(struct host_device *device, const struct host_passes *p
            forward_create(device, passes, HOST_FORWARD_PLAIN, pipelines) &&
            forward_create(device, passes, HOST_FORWARD_GI, pipelines) &&
            shadow_create(device, passes, pipelines) && sky_create(device, passes, pipelines) &&
-           exposure_create(device, pipelines) &&
+           host_pipeline_compute_create(device, host_exposure_comp, sizeof(host_exposure_comp),
+                                        pipelines->post_pipeline_layout, &pipelines->exposure) &&
            host_pipeline_tonemap_create(device, pipelines, passes->picture, &pipelines->tonemap);
 }
 

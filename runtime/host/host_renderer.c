@@ -315,6 +315,7 @@ void host_renderer_destroy(struct host_renderer *renderer)
     vkDestroySampler(device, renderer->nearest, NULL);
     vkDestroyDescriptorPool(device, renderer->pool, NULL);
     host_buffer_destroy(renderer->device, &renderer->exposure);
+    host_sampler_finish(renderer);
     host_shadows_finish(renderer);
     host_pipelines_finish(renderer->device, &renderer->pipelines);
     host_passes_finish(renderer->device, &renderer->passes);

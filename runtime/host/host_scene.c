@@ -127,8 +127,9 @@ static void scene_bound(struct host_scene *scene)
             hi[k] = fmax(hi[k], instance->center[k] + instance->radius);
         }
     }
+    /* Exact in doubles wherever the scene is: what is measured from it does not change as the scene moves. */
     for (int k = 0; k < 3 && scene->instance_count > 0; k++)
-        scene->center[k] = 0.5 * (lo[k] + hi[k]);
+        scene->center[k] = floor(32.0 * (lo[k] + hi[k])) / 64.0;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const struct host_instance *instance = &scene->instances[i];
         double d[3];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Cascaded shadow maps of directional lights. A cascade is a square around the sphere that holds its slice of
  * the view, moved in whole texels, so that shadows stand still under a moving camera; one that has not moved
- * is kept. */
+ * is kept. Texels are counted from the scene's centre, not the world's: a scene far out has the same shadows.
+ */
 #include "host_internal.h"
 #include "host_math.h"
 
@@ -33,14 +34,14 @@ static double split_m(int cascade, double range_m)
     return split_blend * split_near_m * pow(range_m / split_near_m, share) + (1.0 - split_blend) * even;
 }
 
-/* Smallest sphere around the part of the view between two distances. */
+/* Smallest sphere around the part of the view between two distances; its centre relative to `origin`. */
 static double slice_sphere(const struct host_camera_frame *camera, double from_m, double to_m,
-                           double center[3])
+                           const double origin[3], double center[3])
 {
     const double k = camera->tan_x * camera->tan_x + camera->tan_y * camera->tan_y;
     const double along = fmin(to_m, 0.5 * (from_m + to_m) * (1.0 + k));
     for (int i = 0; i < 3; i++)
-        center[i] = camera->position[i] + along * camera->forward[i];
+        center[i] = (camera->position[i] - origin[i]) + along * camera->forward[i];
     return sqrt((to_m - along) * (to_m - along) + to_m * to_m * k);
 }
 
@@ -50,11 +51,11 @@ static void cascade_place(const struct host_renderer *renderer, const struct hos
     const struct host_scene *scene = renderer->scene;
     const double range_m = view_range_m(scene, &renderer->camera);
     double center[3], right[3], up[3];
-    double radius =
-        slice_sphere(&renderer->camera, split_m(cascade, range_m), split_m(cascade + 1, range_m), center);
+    double radius = slice_sphere(&renderer->camera, split_m(cascade, range_m), split_m(cascade + 1, range_m),
+                                 scene->center, center);
     if (radius >= scene->radius) {
         radius = scene->radius;
-        memcpy(center, scene->center, sizeof(center));
+        memset(center, 0, sizeof(center));
     }
     host_frame3(sun->direction, right, up);
     *out = (struct host_sun_cascade){ 0 };
@@ -62,12 +63,12 @@ static void cascade_place(const struct host_renderer *renderer, const struct hos
     const double texel_m = 2.0 * out->half_m / HOST_SUN_MAP_SIZE;
     out->center[0] = floor(host_dot3(center, right) / texel_m + 0.5) * texel_m;
     out->center[1] = floor(host_dot3(center, up) / texel_m + 0.5) * texel_m;
-    const double middle = host_dot3(scene->center, sun->direction);
-    out->near_m = middle - scene->radius - 0.01;
-    out->far_m = middle + scene->radius + 0.01;
+    out->near_m = -scene->radius - 0.01;
+    out->far_m = scene->radius + 0.01;
 }
 
-/* Rows that take a position relative to `origin` to the map: see struct host_sun_data. */
+/* Rows that take a position relative to `origin`, itself relative to the scene's centre, to the map: see
+ * struct host_sun_data. */
 static void cascade_rows(const struct host_sun_cascade *cascade, const struct host_scene_light *sun,
                          const double origin[3], float (*rows)[4])
 {
@@ -85,11 +86,11 @@ static void cascade_rows(const struct host_sun_cascade *cascade, const struct ho
 }
 
 static void cascade_frustum(const struct host_sun_cascade *cascade, const struct host_scene_light *sun,
-                            struct host_frustum *out)
+                            const double origin[3], struct host_frustum *out)
 {
     double axes[2][3];
     host_frame3(sun->direction, axes[0], axes[1]);
-    *out = (struct host_frustum){ .count = 4 };
+    *out = (struct host_frustum){ .count = 4, .origin = { origin[0], origin[1], origin[2] } };
     for (int side = 0; side < 4; side++) {
         const double sign = side % 2 == 0 ? 1.0 : -1.0;
         for (int i = 0; i < 3; i++)
@@ -112,11 +113,11 @@ static void cascade_draw(struct host_renderer *renderer, VkCommandBuffer cmd, ui
         .pClearValues = &clear,
     };
     struct host_frustum frustum;
-    /* The map's own middle as origin: far from the world's, floats relative to it stay small. */
+    static const double scene_center[3];
     float rows[4][4] = { { 0 } };
-    cascade_rows(cascade, sun, renderer->scene->center, rows);
+    cascade_rows(cascade, sun, scene_center, rows);
     rows[3][3] = 1.0f;
-    cascade_frustum(cascade, sun, &frustum);
+    cascade_frustum(cascade, sun, renderer->scene->center, &frustum);
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
     host_viewport_set(cmd, HOST_SUN_MAP_SIZE, HOST_SUN_MAP_SIZE);
     host_draw_shadow(renderer, cmd, &frustum, renderer->scene->center, &rows[0][0]);
@@ -149,6 +150,9 @@ void host_sun_record(struct host_renderer *renderer, VkCommandBuffer cmd)
 void host_sun_fill(const struct host_renderer *renderer, uint32_t index, struct host_sun_data *out)
 {
     const struct host_scene_light *sun = &renderer->scene->suns[index];
+    double origin[3];
+    for (int i = 0; i < 3; i++)
+        origin[i] = renderer->camera.origin[i] - renderer->scene->center[i];
     *out = (struct host_sun_data){ .direction = { 0, 0, 0, tanf(0.5f * sun->angle_rad) } };
     for (int i = 0; i < 3; i++) {
         out->direction[i] = (float)-sun->direction[i];
@@ -157,7 +161,7 @@ void host_sun_fill(const struct host_renderer *renderer, uint32_t index, struct 
     for (int c = 0; c < HOST_CASCADES; c++) {
         const struct host_sun_cascade *cascade =
             &renderer->shadows.cascades[index * HOST_CASCADES + (uint32_t)c];
-        cascade_rows(cascade, sun, renderer->camera.origin, out->rows + 3 * c);
+        cascade_rows(cascade, sun, origin, out->rows + 3 * c);
         out->scale[c][0] = (float)(2.0 * cascade->half_m / HOST_SUN_MAP_SIZE);
         out->scale[c][1] = (float)(cascade->far_m - cascade->near_m);
     }

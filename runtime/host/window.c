@@ -21,6 +21,7 @@ struct fly_camera {
 };
 
 struct window {
+    const struct host_window_desc *desc;
     GLFWwindow *glfw;
     struct host_device *device;
     struct host_scene *scene;
@@ -29,7 +30,9 @@ struct window {
     VkPipeline tonemap;
     struct sdfgi_settings settings;
     struct fly_camera camera;
-    uint32_t shown; /* index into views */
+    struct host_camera led; /* where desc->camera leads */
+    uint32_t frame;         /* how many have been drawn */
+    uint32_t shown;         /* index into views */
     bool toggle_gi, swapchain_stale;
     double cursor[2], time_s, title_time_s;
     uint32_t title_frames;
@@ -188,10 +191,21 @@ static bool present(struct window *window, uint32_t image)
     return result == VK_ERROR_OUT_OF_DATE_KHR || host_check(window->device, result, "presenting");
 }
 
+static void tell_progress(struct window *window)
+{
+    struct sdfgi_report report;
+    const struct host_frame frame = { window->frame++, window->renderer->gpu_ns, &report };
+    if (!window->desc->progress)
+        return;
+    host_gi_get_report(window->renderer->gi, &report);
+    if (!window->desc->progress(window->desc->user, &frame))
+        glfwSetWindowShouldClose(window->glfw, GLFW_TRUE);
+}
+
 static bool draw(struct window *window)
 {
     struct host_renderer *renderer = window->renderer;
-    const struct host_camera camera = fly_resolve(&window->camera);
+    const struct host_camera camera = window->desc->camera ? window->led : fly_resolve(&window->camera);
     const uint64_t slot_number = renderer->submit_count % HOST_SLOTS;
     uint32_t image = 0;
     bool ready = false;
@@ -207,7 +221,10 @@ static bool draw(struct window *window)
     if (!slot)
         return false;
     record_picture(window, slot->cmd, image);
-    return host_slot_submit(renderer, slot, semaphores) && present(window, image);
+    if (!host_slot_submit(renderer, slot, semaphores) || !present(window, image))
+        return false;
+    tell_progress(window);
+    return true;
 }
 
 static void show_title(struct window *window)
@@ -246,6 +263,10 @@ static bool step(struct window *window)
     if (window->swapchain.image_count == 0) {
         window->swapchain_stale = true;
         glfwWaitEventsTimeout(0.1);
+        return true;
+    }
+    if (window->desc->camera && !window->desc->camera(window->desc->user, window->frame, &window->led)) {
+        glfwSetWindowShouldClose(window->glfw, GLFW_TRUE);
         return true;
     }
     if (!draw(window))
@@ -294,6 +315,8 @@ static void renderer_close(struct window *window)
 static bool device_run(struct window *window, const struct host_window_desc *desc, char *error,
                        size_t error_size)
 {
+    if (desc->device_info)
+        host_device_get_info(window->device, desc->device_info);
     bool ok = renderer_open(window, desc);
     window->time_s = window->title_time_s = glfwGetTime();
     for (uint32_t frame = 0; ok && !glfwWindowShouldClose(window->glfw); frame++) {
@@ -344,6 +367,8 @@ static bool window_run(struct window *window, const struct host_window_desc *des
 bool host_window_run(const struct host_window_desc *desc, char *error, size_t error_size)
 {
     struct window *window = calloc(1, sizeof(*window));
+    if (window)
+        window->desc = desc;
     if (!window || !glfwInit()) {
         snprintf(error, error_size,
                  window ? "no window system: is DISPLAY or WAYLAND_DISPLAY set?" : "out of host memory");

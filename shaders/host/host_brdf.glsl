@@ -3,6 +3,8 @@
  */
 
 const float BRDF_PI = 3.14159265359;
+/* Of an interface of refractive index 1.5, as glTF has it. */
+const float BRDF_DIELECTRIC_F0 = 0.04;
 
 struct brdf_surface {
     vec3 normal;
@@ -17,6 +19,17 @@ float brdf_fresnel_weight(float cosine)
 {
     const float x = clamp(1.0 - cosine, 0.0, 1.0);
     return x * x * x * x * x;
+}
+
+/* Share of light that the interface above the Lambertian part lets through. That part is dielectric whatever the
+ * material's metalness, which only takes area from it; and the share depends on the view alone, so that light from lamps
+ * and from everywhere is treated alike, here as in the references (Lambert times 1 - F). */
+float brdf_diffuse_transmission(brdf_surface s)
+{
+    if (s.specular == 0.0)
+        return 1.0;
+    const float weight = brdf_fresnel_weight(dot(s.normal, s.view));
+    return 1.0 - mix(BRDF_DIELECTRIC_F0, 1.0, weight);
 }
 
 /* BRDF times the cosine, for unit directions with the light above the surface. */
@@ -35,16 +48,6 @@ vec3 brdf_evaluate(brdf_surface s, vec3 light)
     const float distribution = a2 / (BRDF_PI * d * d);
     const float smith = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
     const vec3 fresnel = mix(s.f0, vec3(1.0), brdf_fresnel_weight(dot(s.view, h)));
-    return (s.diffuse * (1.0 - fresnel) / BRDF_PI + fresnel * (distribution * 0.5 / max(smith, 1e-9))) * n_l;
-}
-
-/* Share of diffusely arriving light that passes the interface: 1 - F averaged over a cosine-weighted
- * hemisphere of light directions. The power is fitted to the integral of (1 - v.h)^5, evaluated numerically:
- * within 0.0006. */
-vec3 brdf_diffuse_transmission(brdf_surface s)
-{
-    if (s.specular == 0.0)
-        return vec3(1.0);
-    const float x = 1.0 - clamp(dot(s.normal, s.view), 0.0, 1.0);
-    return 1.0 - mix(s.f0, vec3(1.0), 0.028 * x * x * sqrt(x));
+    const vec3 diffuse = s.diffuse * (brdf_diffuse_transmission(s) / BRDF_PI);
+    return (diffuse + fresnel * (distribution * 0.5 / max(smith, 1e-9))) * n_l;
 }

@@ -20,6 +20,7 @@
 #define HOST_SUN_LAYERS       16
 #define HOST_SUN_MAP_SIZE     2048
 #define HOST_TEXTURE_COUNT    4
+#define HOST_MAX_SAMPLES      16 /* points of the world whose light is read at a time */
 #define HOST_EXPOSURE_THREADS 64
 #define HOST_EXPOSURE_SAMPLES 64 /* along each side of the picture */
 
@@ -51,6 +52,11 @@ struct host_push {
     HOST_VEC4S(model, 3);
     HOST_VEC4S(clip, 4);
     HOST_VEC4(params); /* x: -1 for mirrored transforms, else 1 */
+};
+
+struct host_sample_push {
+    HOST_VEC4(position); /* w: which result it is */
+    HOST_VEC4(normal);   /* unit; w: metres along it to the viewer */
 };
 
 struct host_sun_data {
