@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds everything, makes the sample world, and renders every view of it with global illumination off and on.
-# Pictures, reports and one contact sheet end up under out/. Takes no arguments; see RUN_* below.
+# Builds everything, makes the sample world, renders every view of it with global illumination off and on, and walks
+# through it. Pictures, reports, contact sheets and a plot end up under out/. Takes no arguments; see RUN_* below.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")"
 # shellcheck source=scripts/packages.sh
@@ -13,6 +13,8 @@ frames=${RUN_FRAMES:-12}
 # All cascades and cells as by default; the rays of twenty frames in four.
 settings=${RUN_SET-sdfgi_ray_count=125 sdfgi_frames_to_converge=4}
 seed=${RUN_SEED:-1}               # of the world
+# The walk: all the way in 45 frames, 5 m from one to the next. Coarse, for a software driver.
+walk=${RUN_WALK-$settings sdfgi_resolution=32}
 out=out
 
 render() { # render VIEW off|on [OPTION...]
@@ -49,7 +51,17 @@ render_all() {
     build/samples/contact_sheet "$out/contact_sheet.png" 4 1 "${pictures[@]}"
 }
 
-[ $# -eq 0 ] || die "takes no arguments; RUN_SIZE=WxH, RUN_FRAMES=N, RUN_SEED=N and RUN_SET=\"key=value ...\" change what it does"
+take_walk() {
+    local options=() setting
+    for setting in $walk; do
+        options+=(--set "$setting")
+    done
+    say "walking"
+    build/sdfgi walk "$out/world.glb" --path "$out/views/walk.json" --fps 1 --hold 8 \
+        --size 320x180 "${options[@]}" --out "$out/walk" || die "the walk failed"
+}
+
+[ $# -eq 0 ] || die "takes no arguments; RUN_SIZE=WxH, RUN_FRAMES=N, RUN_SEED=N, RUN_SET=\"key=value ...\" and RUN_WALK=\"key=value ...\" change what it does"
 install_packages
 configure_and_build build
 choose_driver
@@ -58,7 +70,9 @@ mkdir -p "$out/pictures" "$out/reports" || die "cannot make $out/"
 build/samples/open_world --seed "$seed" --out "$out/world.glb" --views "$out/views"
 mapfile -t views < <(cd "$out/views" && printf '%s\n' *.view.json | sed 's/\.view\.json$//')
 render_all
+take_walk
 
 reports=("${views[@]/#/$out/reports/}")
 build/samples/pass_table "${reports[@]/%/.on.json}"
-say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s: GI off on the left, on on the right, in $out/contact_sheet.png"
+say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s: GI off on the left, on on the right, in $out/contact_sheet.png;
+   the walk, off above on, in $out/walk/contact_sheet.png, with times and work in walk.svg and report.json there"

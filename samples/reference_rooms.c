@@ -14,35 +14,59 @@ static vec3s rotated(vec3s v, float angle_rad)
     return glms_mat4_mulv3(glms_rotate(glms_mat4_identity(), angle_rad, v3(0, 1, 0)), v, 1);
 }
 
-/* Two rooms of 4 x 3 x 4 m side by side: the one at +x is open to sun and sky, the other is closed. The house
- * is turned by the angle, so that its walls cross the voxel grid at a slant. */
-static void two_rooms_make(struct scene *scene, float wall_m, float angle_rad)
+/* Two rooms of 4 x 3 x 4 m side by side: the one at +x is open to sun and sky, the other is closed by the
+ * wall that the caller puts between them. */
+static void two_rooms_begin(struct scene *scene, float angle_rad)
 {
-    const float t = 0.6f, h = wall_m / 2;
+    const float t = 0.6f;
     scene->mesh.transform = glms_rotate(glms_mat4_identity(), angle_rad, v3(0, 1, 0));
     mesh_box(&scene->mesh, v3(-4 - t, -t, -2 - t), v3(4, 0, 2 + t));
     mesh_box(&scene->mesh, v3(-4 - t, 3, -2 - t), v3(4, 3 + t, 2 + t));
     mesh_box(&scene->mesh, v3(-4 - t, 0, -2 - t), v3(4, 3, -2));
     mesh_box(&scene->mesh, v3(-4 - t, 0, 2), v3(4, 3, 2 + t));
     mesh_box(&scene->mesh, v3(-4 - t, 0, -2), v3(-4, 3, 2));
-    mesh_box(&scene->mesh, v3(-h, 0, -2), v3(h, 3, 2));
+}
+
+/* The house is turned by the angle, so that its walls cross the voxel grid at a slant; sun and camera with
+ * it. */
+static void two_rooms_end(struct scene *scene, float angle_rad, float eye_x)
+{
     scene_flush(scene, "house", &plaster);
     scene_sun(scene, rotated(v3(-0.8f, -0.5f, -0.33f), angle_rad), 10);
     scene_sky(scene, 1);
+    scene_look(scene, rotated(v3(eye_x, 1.6f, 1.5f), angle_rad), rotated(v3(0, 1.2f, -0.5f), angle_rad), 65);
 }
 
 void two_rooms_build(struct scene *scene, float wall_m, float angle_deg)
 {
-    const float angle = glm_rad(angle_deg);
-    two_rooms_make(scene, wall_m, angle);
-    scene_look(scene, rotated(v3(-3.6f, 1.6f, 1.5f), angle), rotated(v3(0, 1.2f, -0.5f), angle), 65);
+    const float h = wall_m / 2;
+    two_rooms_begin(scene, glm_rad(angle_deg));
+    mesh_box(&scene->mesh, v3(-h, 0, -2), v3(h, 3, 2));
+    two_rooms_end(scene, glm_rad(angle_deg), -3.6f);
 }
 
 void two_rooms_lit_build(struct scene *scene, float wall_m, float angle_deg)
 {
-    const float angle = glm_rad(angle_deg);
-    two_rooms_make(scene, wall_m, angle);
-    scene_look(scene, rotated(v3(3.6f, 1.6f, 1.5f), angle), rotated(v3(0, 1.2f, -0.5f), angle), 65);
+    two_rooms_build(scene, wall_m, angle_deg);
+    scene_look(scene, rotated(v3(3.6f, 1.6f, 1.5f), glm_rad(angle_deg)),
+               rotated(v3(0, 1.2f, -0.5f), glm_rad(angle_deg)), 65);
+}
+
+/* A doorway of 1 x 2.1 m from the lit room leads into a closet that juts out into the dark one: light stands
+ * behind its corners and edges. */
+void two_rooms_door_build(struct scene *scene, float wall_m, float angle_deg)
+{
+    const float h = wall_m / 2, t = wall_m, depth = 1, top = 2.1f, near = -1, far = 0;
+    struct mesh *mesh = &scene->mesh;
+    two_rooms_begin(scene, glm_rad(angle_deg));
+    mesh_box(mesh, v3(-h, 0, -2), v3(h, 3, near));
+    mesh_box(mesh, v3(-h, 0, far), v3(h, 3, 2));
+    mesh_box(mesh, v3(-h, top, -2), v3(h, 3, 2)); /* over the doorway */
+    mesh_box(mesh, v3(-h - depth - t, 0, near - t), v3(h, top + t, near));
+    mesh_box(mesh, v3(-h - depth - t, 0, far), v3(h, top + t, far + t));
+    mesh_box(mesh, v3(-h - depth - t, 0, near - t), v3(-h - depth, top + t, far + t));
+    mesh_box(mesh, v3(-h - depth - t, top, near - t), v3(h, top + t, far + t));
+    two_rooms_end(scene, glm_rad(angle_deg), -3.6f);
 }
 
 void sealed_room_build(struct scene *scene, float wall_m, float unused)
@@ -79,6 +103,12 @@ void corridor_build(struct scene *scene, float unused_a, float unused_b)
               v3(-2.5f, 2.98f, 0.5f));
     scene_flush(scene, "lamp", &lamp);
     scene_look(scene, v3(9.2f, 1.6f, -1.1f), v3(0, 1.2f, -1.1f), 60);
+}
+
+void corridor_turn_build(struct scene *scene, float unused_a, float unused_b)
+{
+    corridor_build(scene, unused_a, unused_b);
+    scene_look(scene, v3(10.9f, 1.6f, 5.5f), v3(10.7f, 1.2f, -2), 60);
 }
 
 /* Six by six cells of 2 m between thin walls, roofed but for the middle: light must follow the ways. */

@@ -46,8 +46,10 @@ void glossy_spheres_build(struct scene *scene, float unused_a, float unused_b);
 
 void two_rooms_build(struct scene *scene, float wall_m, float angle_deg);
 void two_rooms_lit_build(struct scene *scene, float wall_m, float angle_deg);
+void two_rooms_door_build(struct scene *scene, float wall_m, float angle_deg);
 void sealed_room_build(struct scene *scene, float wall_m, float unused);
 void corridor_build(struct scene *scene, float unused_a, float unused_b);
+void corridor_turn_build(struct scene *scene, float unused_a, float unused_b);
 void maze_build(struct scene *scene, float wall_m, float unused);
 void courtyard_build(struct scene *scene, float unused_a, float unused_b);
 void pillars_build(struct scene *scene, float unused_a, float unused_b);

@@ -29,7 +29,7 @@ void sun_plane_build(struct scene *scene, float albedo, float unused)
     const struct surface white = matt(albedo, albedo, albedo);
     scene_box(scene, "plane", v3(-20, -1, -20), v3(20, 0, 20), &white);
     scene_sun(scene, v3(0.6f, -0.8f, 0), 12.5f);
-    scene_look(scene, v3(0, 3, 6), v3(0, 0, 0), 50);
+    scene_look(scene, v3(0, 4, 5), v3(0, 0, 0), 50);
 }
 
 /* Radiance equals the albedo everywhere. */
@@ -39,7 +39,7 @@ void sky_plane_build(struct scene *scene, float albedo, float unused)
     const struct surface white = matt(albedo, albedo, albedo);
     scene_box(scene, "plane", v3(-20, -1, -20), v3(20, 0, 20), &white);
     scene_sky(scene, 1);
-    scene_look(scene, v3(0, 3, 6), v3(0, 0, 0), 50);
+    scene_look(scene, v3(0, 4, 5), v3(0, 0, 0), 50);
 }
 
 /* A floor at the foot of a black wall sees the share (1 + d / sqrt(d^2 + h^2)) / 2 of the sky at distance d:
@@ -61,13 +61,14 @@ void point_light_build(struct scene *scene, float albedo, float unused)
     const struct surface white = matt(albedo, albedo, albedo);
     scene_box(scene, "plane", v3(-20, -1, -20), v3(20, 0, 20), &white);
     scene_point_light(scene, v3(0, 2, 0), v3(1, 1, 1), 10);
-    scene_look(scene, v3(0, 3, 5), v3(0, 0, 0), 50);
+    scene_look(scene, v3(0, 4, 5), v3(0, 0, 0), 50);
 }
 
 /* ---- Cornell box ------------------------------------------------------------------------------------- */
 
-/* The measured room of Cornell University's Program of Computer Graphics, in millimetres, x to the left.
- * Colours are its measured spectra brought to linear sRGB. */
+/* The room of Cornell University's Program of Computer Graphics, with the dimensions published for it, in
+ * millimetres, x to the left. Its paints and its lamp were published as spectra; the colours here are plain linear
+ * RGB values that look like them, not computed from those spectra. */
 static vec3s cornell_point(float x, float y, float z)
 {
     return v3(0.001f * x, 0.001f * y, 0.001f * z);

@@ -91,8 +91,8 @@ bool view_save(const struct view *view, const char *path, char *error, size_t er
     return json_save(root, path, error, error_size);
 }
 
-bool walk_save(const struct walk_point *points, uint32_t count, float speed_mps, const char *path,
-               char *error, size_t error_size)
+bool walk_save(const struct walk_point *points, uint32_t count, float speed_m_s, const char *view,
+               const char *path, char *error, size_t error_size)
 {
     cJSON *root = cJSON_CreateObject();
     cJSON *list = cJSON_AddArrayToObject(root, "points");
@@ -102,6 +102,7 @@ bool walk_save(const struct walk_point *points, uint32_t count, float speed_mps,
         vector_add(point, "look_at", points[i].look_at);
         cJSON_AddItemToArray(list, point);
     }
-    cJSON_AddNumberToObject(root, "speed_mps", (double)speed_mps);
+    cJSON_AddNumberToObject(root, "speed_m_s", (double)speed_m_s);
+    cJSON_AddStringToObject(root, "view", view);
     return json_save(root, path, error, error_size);
 }

@@ -32,8 +32,9 @@ struct walk_point {
     vec3s position, look_at;
 };
 
-/* Writes a camera path: {"points": [{"position", "look_at"}, ...], "speed_mps"}. */
-bool walk_save(const struct walk_point *points, uint32_t count, float speed_mps, const char *path,
-               char *error, size_t error_size);
+/* Writes a camera path as `sdfgi walk --path` reads it. `view` names the VIEW.json in the same folder that
+ * holds sky and sun. */
+bool walk_save(const struct walk_point *points, uint32_t count, float speed_m_s, const char *view,
+               const char *path, char *error, size_t error_size);
 
 #endif

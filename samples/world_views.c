@@ -127,5 +127,5 @@ bool world_views_save(const struct world *world, const struct house houses[HOUSE
     struct walk_point points[32];
     const uint32_t count = walk_make(world, houses, points);
     snprintf(path, sizeof(path), "%s/walk.json", folder);
-    return walk_save(points, count, 5, path, error, error_size);
+    return walk_save(points, count, 5, "village_street.view.json", path, error, error_size);
 }

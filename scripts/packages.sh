@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # Shared by run.sh and test.sh: the Debian packages, the build, and messages that say what went wrong.
 
-packages=(meson ninja-build pkg-config gcc g++ libvulkan-dev glslang-tools spirv-tools mesa-vulkan-drivers
+packages=(meson ninja-build python3 pkg-config gcc g++ libvulkan-dev glslang-tools spirv-tools mesa-vulkan-drivers
     vulkan-validationlayers libglfw3-dev libtinygltf-dev libstb-dev libcglm-dev libopenexr-dev libembree-dev
     libcmocka-dev libcjson-dev libimgui-dev gnuplot-nox xvfb xauth)
 
