@@ -279,6 +279,69 @@ static void no_vulkan_failure_while_adding_a_mesh_is_fatal(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
+static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    REQUIRE_CMP((int)sdfgi_update(user, cmd, &(struct sdfgi_frame_desc){ 0 }), ==, (int)SDFGI_OK);
+}
+
+/* Two frames, so that what the first counted has come back. */
+static void update_twice(sdfgi *gi)
+{
+    gpu_test_submit_many(&gpu, 2, record_update, gi);
+}
+
+static void add_a_triangle(sdfgi *gi)
+{
+    const struct sdfgi_mesh_desc mesh = {
+        .position_buffer = triangle.buffer, .vertex_count = 3, .triangle_count = 1, .bounds_max = { 1, 1, 0 }
+    };
+    const struct sdfgi_material_desc material = { .albedo = { 1, 1, 1 } };
+    struct sdfgi_instance_desc desc = { .transform = { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 0, 0 } } };
+    sdfgi_instance instance;
+    REQUIRE_CMP((int)sdfgi_mesh_create(gi, &mesh, &desc.mesh), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_material_create(gi, &material, &desc.material), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_instance_create(gi, &desc, &instance), ==, (int)SDFGI_OK);
+}
+
+/* Without memory for a longer list the short one stays, is reported, and frames go on. */
+static void no_failure_while_the_light_list_grows_is_fatal(void **state)
+{
+    (void)state;
+    struct counting counting = { 0 };
+    struct sdfgi_desc desc = desc_on(&gpu, &counting);
+    const struct sdfgi_settings on = small_settings(true);
+    desc.settings = &on;
+    sdfgi *gi;
+    failing_vulkan_reset(0, VK_SUCCESS);
+    REQUIRE_CMP((int)sdfgi_create(&desc, &gi), ==, (int)SDFGI_OK);
+    add_a_triangle(gi);
+    gi->resources->extent.light_cells = 5;
+    update_twice(gi);
+    const VkDescriptorSet set = sdfgi_get_descriptor_set(gi);
+    uint32_t k = 0;
+    do {
+        const int64_t live = counting.live;
+        memset(messages, 0, sizeof messages);
+        gi->resources->light_cells_refused = 0;
+        failing_vulkan_reset(++k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        update_twice(gi);
+        if (failing_vulkan_calls() < k)
+            break;
+        REQUIRE_CMP(messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
+        REQUIRE_CMP(gi->resources->extent.light_cells, ==, 5u);
+        REQUIRE_TRUE(sdfgi_get_descriptor_set(gi) == set);
+        REQUIRE_CMP(counting.live, ==, live);
+    } while (k < 100);
+    printf("%u Vulkan calls of growing the list can fail\n", k - 1);
+    REQUIRE_CMP(k, >, 4u);
+    REQUIRE_CMP(gi->resources->extent.light_cells, >, 5u);
+    REQUIRE_TRUE(sdfgi_get_descriptor_set(gi) != set);
+    update_twice(gi);
+    sdfgi_destroy(gi);
+    REQUIRE_CMP(counting.live, ==, 0);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -289,6 +352,7 @@ int main(void)
         cmocka_unit_test(a_failed_change_leaves_the_old_settings_in_force),
         cmocka_unit_test(no_vulkan_failure_while_creating_is_fatal),
         cmocka_unit_test(no_vulkan_failure_while_adding_a_mesh_is_fatal),
+        cmocka_unit_test(no_failure_while_the_light_list_grows_is_fatal),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

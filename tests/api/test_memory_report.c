@@ -66,6 +66,24 @@ static void defaults_need_at_most_64_mib_a_cascade(void **state)
     REQUIRE_CMP(memory.total_bytes, <=, settings.cascades * (UINT64_C(64) << 20));
 }
 
+/* A scene that fills its lists to the most they may become is within the target too. */
+static void longest_lists_need_at_most_64_mib_a_cascade(void **state)
+{
+    (void)state;
+    struct sdfgi_memory memory;
+    struct sdfgi_settings settings;
+    sdfgi_settings_default(&settings);
+    REQUIRE_CMP((int)sdfgi_estimate_memory(NULL, 0, &memory), ==, (int)SDFGI_OK);
+    const struct extent extent = extent_from_settings(&settings);
+    struct extent grown = extent;
+    grown.light_cells = extent.light_cells_max;
+    REQUIRE_CMP(grown.light_cells, >, extent.light_cells);
+    const uint64_t total = memory.total_bytes + resource_size(RESOURCE_LIGHT_CELLS, &grown) -
+                           resource_size(RESOURCE_LIGHT_CELLS, &extent);
+    printf("with the longest lists: %.3f MiB\n", (double)total / (1 << 20));
+    REQUIRE_CMP(total, <=, settings.cascades * (UINT64_C(64) << 20));
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -74,6 +92,7 @@ int main(void)
         cmocka_unit_test(the_estimate_is_what_is_allocated),
         cmocka_unit_test(the_estimate_holds_for_every_choice),
         cmocka_unit_test(defaults_need_at_most_64_mib_a_cascade),
+        cmocka_unit_test(longest_lists_need_at_most_64_mib_a_cascade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

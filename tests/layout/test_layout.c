@@ -6,6 +6,8 @@
 
 #include "cell_mask.comp.h"
 #include "distance_exact.comp.h"
+#include "distance_plane.comp.h"
+#include "distance_stale.comp.h"
 #include "flood_distance.comp.h"
 #include "flood_seed.comp.h"
 #include "flood_step.comp.h"
@@ -14,11 +16,16 @@
 #include "light_bounce.comp.h"
 #include "light_direct.comp.h"
 #include "light_list.comp.h"
+#include "light_mark.comp.h"
 #include "occlusion_trace.comp.h"
 #include "occupancy.comp.h"
 #include "probe_blend.comp.h"
+#include "probe_link.comp.h"
 #include "probe_place.comp.h"
+#include "probe_seed.comp.h"
 #include "probe_trace.comp.h"
+#include "ray_forget.comp.h"
+#include "region_clear.comp.h"
 #include "voxel_resolve.comp.h"
 #include "voxelize.comp.h"
 #include "voxelize_raster.frag.h"
@@ -37,13 +44,34 @@ static const struct {
     const uint32_t *code;
     size_t size;
 } modules[] = {
-    MODULE(cell_mask_comp),       MODULE(distance_exact_comp),    MODULE(flood_distance_comp),
-    MODULE(flood_seed_comp),      MODULE(flood_step_comp),        MODULE(gather_comp),
-    MODULE(light_args_comp),      MODULE(light_bounce_comp),      MODULE(light_direct_comp),
-    MODULE(light_list_comp),      MODULE(occlusion_trace_comp),   MODULE(occupancy_comp),
-    MODULE(probe_blend_comp),     MODULE(probe_place_comp),       MODULE(probe_trace_comp),
-    MODULE(voxel_resolve_comp),   MODULE(voxelize_comp),          MODULE(voxelize_raster_frag),
-    MODULE(voxelize_raster_vert), MODULE(voxelize_textured_comp), MODULE(voxelize_raster_textured_frag),
+    MODULE(cell_mask_comp),
+    MODULE(distance_exact_comp),
+    MODULE(distance_plane_comp),
+    MODULE(distance_stale_comp),
+    MODULE(flood_distance_comp),
+    MODULE(flood_seed_comp),
+    MODULE(flood_step_comp),
+    MODULE(gather_comp),
+    MODULE(light_args_comp),
+    MODULE(light_bounce_comp),
+    MODULE(light_direct_comp),
+    MODULE(light_list_comp),
+    MODULE(light_mark_comp),
+    MODULE(occlusion_trace_comp),
+    MODULE(occupancy_comp),
+    MODULE(probe_blend_comp),
+    MODULE(probe_link_comp),
+    MODULE(probe_place_comp),
+    MODULE(probe_seed_comp),
+    MODULE(probe_trace_comp),
+    MODULE(ray_forget_comp),
+    MODULE(region_clear_comp),
+    MODULE(voxel_resolve_comp),
+    MODULE(voxelize_comp),
+    MODULE(voxelize_raster_frag),
+    MODULE(voxelize_raster_vert),
+    MODULE(voxelize_textured_comp),
+    MODULE(voxelize_raster_textured_frag),
 };
 
 static void visit_all(const struct spirv_visitor *visitor)
@@ -60,6 +88,13 @@ static void visit_all(const struct spirv_visitor *visitor)
     X(sdfgi_cascade_params, probe_wrap)                                                                      \
     X(sdfgi_cascade_params, from_first)                                                                      \
     X(sdfgi_cascade_params, probe_base)                                                                      \
+    X(sdfgi_cascade_params, window_low)                                                                      \
+    X(sdfgi_cascade_params, window_high)                                                                     \
+    X(sdfgi_cascade_params, share_low)                                                                       \
+    X(sdfgi_cascade_params, share_high)                                                                      \
+    X(sdfgi_cascade_params, kept_low)                                                                        \
+    X(sdfgi_cascade_params, kept_high)                                                                       \
+    X(sdfgi_cascade_params, changed)                                                                         \
     X(sdfgi_frame_params, cascades)                                                                          \
     X(sdfgi_frame_params, sky_zenith)                                                                        \
     X(sdfgi_frame_params, sky_horizon)                                                                       \
@@ -89,16 +124,23 @@ static void visit_all(const struct spirv_visitor *visitor)
     X(sdfgi_voxelize_args, index_offset)                                                                     \
     X(sdfgi_voxelize_args, vertex_count)                                                                     \
     X(sdfgi_voxelize_args, group_width)                                                                      \
-    X(sdfgi_voxelize_args, reserved)                                                                         \
+    X(sdfgi_voxelize_args, anchor)                                                                           \
+    X(sdfgi_voxelize_args, box_high)                                                                         \
     X(sdfgi_material_params, albedo)                                                                         \
     X(sdfgi_material_params, emission)                                                                       \
     X(sdfgi_material_params, albedo_uv)                                                                      \
     X(sdfgi_material_params, emission_uv)                                                                    \
     X(sdfgi_material_params, flags)                                                                          \
+    X(sdfgi_pass_args, low)                                                                                  \
+    X(sdfgi_pass_args, high)                                                                                 \
     X(sdfgi_pass_args, cascade)                                                                              \
     X(sdfgi_pass_args, step)                                                                                 \
     X(sdfgi_pass_args, source)                                                                               \
     X(sdfgi_pass_args, fresh)                                                                                \
+    X(sdfgi_stale_args, cascade)                                                                             \
+    X(sdfgi_stale_args, first)                                                                               \
+    X(sdfgi_stale_args, box_count)                                                                           \
+    X(sdfgi_stale_args, corners)                                                                             \
     X(sdfgi_gather_args, inverse_view_projection)                                                            \
     X(sdfgi_gather_args, width)                                                                              \
     X(sdfgi_gather_args, height)                                                                             \
@@ -243,7 +285,9 @@ static void push_constants_fit_everywhere(void **state)
     /* Vulkan promises 128 bytes. */
     REQUIRE_CMP(sizeof(struct sdfgi_voxelize_args), <=, 128u);
     REQUIRE_CMP(sizeof(struct sdfgi_gather_args), <=, 128u);
-    REQUIRE_CMP(sizeof(struct sdfgi_pass_args), <=, 128u);
+    REQUIRE_CMP(sizeof(struct sdfgi_stale_args), <=, 128u);
+    REQUIRE_CMP(sizeof(struct sdfgi_pass_args), <=,
+                sizeof(struct sdfgi_stale_args)); /* they share a layout */
 }
 
 int main(void)

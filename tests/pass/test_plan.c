@@ -5,8 +5,10 @@
 
 #define P(id) (UINT64_C(1) << PASS_##id)
 
-static const uint64_t generation = P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(LIGHT_LIST) | P(LIGHT_ARGS),
-                      exact = P(OCCUPANCY) | P(DISTANCE_EXACT),
+static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_ARGS) | P(LIGHT_LIST),
+                      generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
+                      seeding = P(PROBE_SEED) | P(RAY_FORGET),
+                      exact = P(OCCUPANCY) | P(DISTANCE_STALE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
                       flood = P(FLOOD_SEED) | P(FLOOD_STEP) | P(FLOOD_DISTANCE),
                       light = P(LIGHT_BOUNCE) | P(PROBE_TRACE),
                       publishing = P(LIGHT_BOUNCE) | P(PROBE_TRACE) | P(PROBE_BLEND);
@@ -48,7 +50,10 @@ static void nothing_runs_that_is_not_called_for(void **state)
     static const struct row rows[] = {
         { "switched off", { .enabled = false }, 0 },
         { "switched off in a changed scene",
-          { .any_dirty = true,
+          { .generates = true,
+            .measures = true,
+            .completes = true,
+            .relights = true,
             .has_geometry = true,
             .has_lights = true,
             .lights_changed = true,
@@ -83,7 +88,8 @@ static void unsettled_light_is_traced(void **state)
 static void a_changed_cascade_is_generated(void **state)
 {
     (void)state;
-#define DIRTY .enabled = true, .any_dirty = true, .publish = true
+#define FRESH .fresh = true, .generates = true, .measures = true, .completes = true, .relights = true
+#define DIRTY .enabled = true, FRESH, .publish = true
     static const struct row rows[] = {
         { "compute, exact", { DIRTY, .has_geometry = true }, 0 },
         { "raster", { DIRTY, .has_geometry = true, .raster = true }, 0 },
@@ -93,6 +99,7 @@ static void a_changed_cascade_is_generated(void **state)
         { "masks", { DIRTY, .has_geometry = true, .masks = true }, 0 },
     };
 #undef DIRTY
+#undef FRESH
     const uint64_t always = generation | publishing;
     const uint64_t runs[] = { always | exact | P(VOXELIZE),
                               always | exact | P(VOXELIZE_RASTER),
@@ -107,15 +114,63 @@ static void a_changed_cascade_is_generated(void **state)
     }
 }
 
+static void a_longer_list_is_written_and_nothing_is_generated(void **state)
+{
+    (void)state;
+#define GREW .enabled = true, .has_geometry = true, .list_grew = true, .relights = true
+    static const struct row rows[] = {
+        { "unlit", { GREW }, 0 },
+        { "lit, masks", { GREW, .has_lights = true, .masks = true }, 0 },
+        { "flood, depths", { GREW, .flood = true, .occlusion = true }, 0 },
+    };
+#undef GREW
+    const uint64_t runs[] = { light | listing, light | listing | P(LIGHT_DIRECT) | P(CELL_MASK),
+                              light | listing };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct row row = rows[i];
+        row.runs = runs[i];
+        require_rows(&row, 1);
+    }
+}
+
+/* A step is spread over frames: each runs what it is about, and only that. */
+static void a_step_runs_in_parts(void **state)
+{
+    (void)state;
+#define MOVING .enabled = true, .has_geometry = true, .has_lights = true, .masks = true, .publish = true
+    static const struct row rows[] = {
+        { "voxels", { MOVING, .generates = true }, 0 },
+        { "distances", { MOVING, .measures = true }, 0 },
+        { "complete", { MOVING, .completes = true, .relights = true }, 0 },
+        { "another cascade's light", { MOVING, .relights = true }, 0 },
+    };
+#undef MOVING
+    const uint64_t runs[] = {
+        publishing | P(REGION_CLEAR) | P(VOXELIZE) | P(VOXEL_RESOLVE),
+        publishing | exact,
+        publishing | seeding | P(PROBE_PLACE) | P(PROBE_LINK) | listing | P(CELL_MASK) | P(LIGHT_DIRECT),
+        publishing | P(LIGHT_DIRECT),
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct row row = rows[i];
+        row.runs = runs[i];
+        require_rows(&row, 1);
+    }
+}
+
 /* Every situation there is: decisions have reasons, and follow from the situation alone. */
 static void every_situation_has_reasons_and_one_plan(void **state)
 {
     (void)state;
     uint64_t ever = 0;
-    for (uint32_t i = 0; i < 1u << 12; i++) {
+    for (uint32_t i = 0; i < 1u << 17; i++) {
         const struct situation s = {
             .enabled = i & 1,
-            .any_dirty = i >> 1 & 1,
+            .generates = i >> 1 & 1,
+            .measures = i >> 12 & 1,
+            .completes = i >> 13 & 1,
+            .fresh = i >> 14 & 1,
+            .relights = i >> 15 & 1,
             .has_geometry = i >> 2 & 1,
             .has_lights = i >> 3 & 1,
             .converged = i >> 4 & 1,
@@ -126,6 +181,7 @@ static void every_situation_has_reasons_and_one_plan(void **state)
             .flood = i >> 9 & 1,
             .occlusion = i >> 10 & 1,
             .masks = i >> 11 & 1,
+            .list_grew = i >> 16 & 1,
         };
         const uint64_t runs = planned(&s);
         REQUIRE_CMP(runs, ==, planned(&s));
@@ -145,6 +201,8 @@ int main(void)
         cmocka_unit_test(nothing_runs_that_is_not_called_for),
         cmocka_unit_test(unsettled_light_is_traced),
         cmocka_unit_test(a_changed_cascade_is_generated),
+        cmocka_unit_test(a_longer_list_is_written_and_nothing_is_generated),
+        cmocka_unit_test(a_step_runs_in_parts),
         cmocka_unit_test(every_situation_has_reasons_and_one_plan),
     };
     return cmocka_run_group_tests_name("plan", tests, NULL, NULL);

@@ -128,46 +128,81 @@ static double wall_form_factor(double d, double half_width, double height)
     return (atan(half_width / d) - d / slant * atan(half_width / slant)) / PI;
 }
 
-/* The target is 3 %. It is missed near the wall: between the wall and the first plane of probes there is nothing to
- * interpolate, so the value of that plane, up to 8 cells away, stands for all of the gap. Measured: 15.1 % at most where the
- * wall is half way between probes, 5.9 % where a plane of probes is 0.1 m beside it; 1 to 2 % from one spacing on.
- *
- * A floor point sees the wall instead of up to half of the sky. The wall ends where the cascade does (8 m
- * from the middle), and is as wide as it. 0.1 m from it the exact value is 0.507. */
-static void check_right_angle(double wall_x, double tolerance)
+/* A black wall on a black floor. The wall ends where the cascades do, and is as wide as they are. */
+struct right_angle {
+    enum sdfgi_y_scale y_scale;
+    uint32_t cascades;
+    int axis;      /* 0: the wall faces +x, 2: +z */
+    double wall_m; /* where its face is; probes stand every 2 m from 0 on */
+};
+
+static void build_right_angle(struct gi_test *t, const struct right_angle *angle)
 {
+    struct sdfgi_settings settings = light_settings(64, 0.25f);
+    settings.y_scale = angle->y_scale;
+    settings.cascades = angle->cascades;
+    gi_test_open(t, &settings);
+    light_add_box(t, (double[]){ -40, -1, -40 }, (double[]){ 40, 0.05, 40 }, black, 0);
+    double low[3] = { -40, 0.05, -40 }, high[3] = { 40, 40, 40 };
+    low[angle->axis] = angle->wall_m - 1;
+    high[angle->axis] = angle->wall_m;
+    light_add_box(t, low, high, black, 0);
+    light_set_uniform_sky(t, 1);
+    gi_test_converge(t, 80);
+}
+
+/* A floor point sees the wall instead of up to half of the sky: 0.1 m from it the exact value is 0.507. */
+static void check_right_angle(struct right_angle angle)
+{
+    enum { POINTS = 5 };
+    static const double distances[POINTS] = { 0.1, 0.25, 0.5, 1, 2 };
+    static const double heights[] = {
+        [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1
+    };
+    const double half_m = 8 * (double)(1 << (angle.cascades - 1));
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(64, 0.25f);
-    gi_test_open(&t, &settings);
-    light_add_box(&t, (double[]){ -20, -1, -20 }, (double[]){ 20, 0.05, 20 }, black, 0);
-    light_add_box(&t, (double[]){ wall_x - 1, 0.05, -20 }, (double[]){ wall_x, 20, 20 }, black, 0);
-    light_set_uniform_sky(&t, 1);
-    gi_test_converge(&t, 80);
-    static const double distances[] = { 0.1, 0.25, 0.5, 1, 2 };
-    double ratios[5];
-    for (int i = 0; i < 5; i++) {
-        const struct gi_test_point point = { { (float)(wall_x + distances[i]), 0.05f, 0.3f }, { 0, 1, 0 } };
-        const double exact = 1 - wall_form_factor(distances[i], 8, 7.95),
-                     found = light_white_at(&t, point) / PI;
-        ratios[i] = found / exact;
-        printf("right angle at %.1f m, %.2f m from the wall: E / pi %.4f, exact %.4f, ratio %.4f\n", wall_x,
-               distances[i], found, exact, ratios[i]);
+    build_right_angle(&t, &angle);
+    struct gi_test_point at[POINTS];
+    float found[POINTS][3];
+    for (int i = 0; i < POINTS; i++) {
+        at[i] = (struct gi_test_point){ { 0.3f, 0.05f, 0.3f }, { 0, 1, 0 } };
+        at[i].position[angle.axis] = (float)(angle.wall_m + distances[i]);
     }
-    for (int i = 0; i < 5; i++)
-        REQUIRE_NEAR(ratios[i], 1, tolerance);
+    gi_test_irradiance(&t, at, POINTS, found);
     gi_test_close(&t);
+    double ratios[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        const double exact =
+            1 - wall_form_factor(distances[i], half_m, half_m * heights[angle.y_scale] - 0.05);
+        ratios[i] = (double)found[i][1] / PI / exact;
+        printf("Y scale %d, wall at %c = %.2f m, %.2f m from it: exact %.4f, ratio %.4f\n",
+               (int)angle.y_scale, "xyz"[angle.axis], angle.wall_m, distances[i], exact, ratios[i]);
+    }
+    for (int i = 0; i < POINTS; i++)
+        REQUIRE_NEAR(ratios[i], 1, 0.03);
 }
 
-static void hard_38_black_right_angle_between_probes(void **state)
+/* From just in front of one plane of probes to just in front of the next, along both level axes. */
+static void hard_38_black_right_angle_wherever_the_probes_are(void **state)
 {
     (void)state;
-    check_right_angle(-1.1, 0.16);
+    static const double walls_m[] = { -1.84, -1.58, -1.34, -1.1, -0.79, -0.53, -0.27, -0.1, 0.03 };
+    for (size_t i = 0; i < sizeof walls_m / sizeof *walls_m; i++)
+        check_right_angle((struct right_angle){ SDFGI_Y_SCALE_100, 1, i & 1 ? 2 : 0, walls_m[i] });
 }
 
-static void hard_38_black_right_angle_beside_probes(void **state)
+static void hard_38_black_right_angle_at_y_scale_75(void **state)
 {
     (void)state;
-    check_right_angle(-0.1, 0.065);
+    check_right_angle((struct right_angle){ SDFGI_Y_SCALE_75, 2, 0, -1.1 });
+    check_right_angle((struct right_angle){ SDFGI_Y_SCALE_75, 2, 2, -0.4 });
+}
+
+static void hard_38_black_right_angle_at_y_scale_50(void **state)
+{
+    (void)state;
+    check_right_angle((struct right_angle){ SDFGI_Y_SCALE_50, 2, 2, -1.1 });
+    check_right_angle((struct right_angle){ SDFGI_Y_SCALE_50, 2, 0, -1.7 });
 }
 
 int main(void)
@@ -180,8 +215,9 @@ int main(void)
         cmocka_unit_test(hard_38_sky_on_a_plane_is_pi_at_y_scale_100),
         cmocka_unit_test(hard_38_sky_on_a_plane_is_pi_at_y_scale_75),
         cmocka_unit_test(hard_38_sky_on_a_plane_is_pi_at_y_scale_50),
-        cmocka_unit_test(hard_38_black_right_angle_between_probes),
-        cmocka_unit_test(hard_38_black_right_angle_beside_probes),
+        cmocka_unit_test(hard_38_black_right_angle_wherever_the_probes_are),
+        cmocka_unit_test(hard_38_black_right_angle_at_y_scale_75),
+        cmocka_unit_test(hard_38_black_right_angle_at_y_scale_50),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -242,6 +242,37 @@ static void what_cannot_be_compared_is_refused_by_name(void **state)
     image_finish(&small);
 }
 
+static void a_strip_shows_picture_reference_and_errors(void **state)
+{
+    (void)state;
+    struct image picture = make_scene(3), reference = make_scene(0);
+    float *flip_map = malloc(COUNT * sizeof *flip_map);
+    uint8_t *strip = malloc((size_t)4 * COMPARE_STRIP_PANELS * COUNT), *map = malloc((size_t)4 * COUNT);
+    assert_true(flip_map && strip && map);
+    struct compare_result r;
+    assert_true(compare_images(&(struct compare_input){ &picture, "a" },
+                               &(struct compare_input){ &reference, "b" }, NULL, &r, flip_map, error,
+                               sizeof error));
+    compare_paint_strip(&picture, &reference, flip_map, r.exposure, strip);
+    compare_paint_map(flip_map, COUNT, map);
+    const struct image *const panels[2] = { &picture, &reference };
+    for (int i = 0; i < COUNT; i++) {
+        const uint8_t *const row = strip + 4 * COMPARE_STRIP_PANELS * WIDTH * (i / WIDTH);
+        for (int p = 0; p < 2; p++) {
+            float shown[3];
+            tone_map(panels[p]->rgba + 4 * i, (float)r.exposure, shown);
+            for (int c = 0; c < 3; c++)
+                assert_true(fabsf((float)row[4 * (p * WIDTH + i % WIDTH) + c] - 255 * shown[c]) <= 0.51f);
+        }
+        assert_memory_equal(row + 4 * (2 * WIDTH + i % WIDTH), map + 4 * i, 4);
+    }
+    free(flip_map);
+    free(strip);
+    free(map);
+    image_finish(&picture);
+    image_finish(&reference);
+}
+
 static void srgb_curve_and_its_inverse_agree(void **state)
 {
     (void)state;
@@ -265,6 +296,7 @@ int main(void)
         cmocka_unit_test(only_pixels_in_the_mask_count),
         cmocka_unit_test(a_black_reference_has_no_ratio_but_a_maximum),
         cmocka_unit_test(what_cannot_be_compared_is_refused_by_name),
+        cmocka_unit_test(a_strip_shows_picture_reference_and_errors),
         cmocka_unit_test(srgb_curve_and_its_inverse_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,6 +74,8 @@ static int make_folder(void **state)
     write_text("broken.json", "{\"camera\":\n{]");
     write_text("unknown.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0]},\"skies\":1}");
     write_text("range.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":200}}");
+    write_text("path.json", "{\"points\":[[0,0,0],[10,0,0]]}");
+    write_text("short.json", "{\"points\":[[0,0,0]]}");
     write_text("broken.glb", "glTF is what this is not");
     write_text("one.pfm", "Pf\n1 1\n-1\nabcd");
     write_text("two.pfm", "Pf\n2 1\n-1\nabcdabcd");
@@ -114,8 +116,36 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "render none.glb --out a.png --set energy", "key=value" },
         { "render none.glb --out a.png --frames 1x", "1x" },
         { "render none.glb --out a.png --size 10000x10000 --ssaa 4", "--ssaa" },
+        { "walk --out w", "out/world.glb" },
+        { "walk none.glb --out w", "views/walk.json" },
+        { "walk none.glb --path none.json --out w", "none.json" },
+        { "walk none.glb --path broken.json --out w", "broken.json: broken JSON in line 2" },
+        { "walk none.glb --path short.json --out w", "short.json: points" },
+        { "walk none.glb --path path.json", "--out" },
+        { "walk none.glb --path path.json --out none/w", "none/w" },
+        { "walk none.glb --path path.json --out broken.json", "broken.json" },
+        { "walk none.glb --path path.json --out . --report none/r.json", "none/r.json" },
+        { "walk none.glb --path path.json --out .", "none.glb" },
+        { "walk none.glb --path path.json --out w", "none.glb" },
+        { "walk none.glb --path path.json --out w --report none/r.json", "none/r.json" },
+        { "walk none.glb --path path.json --out . --start 11", "--start" },
+        { "walk none.glb --path path.json --out . --speed 0", "--speed" },
+        { "walk none.glb --path path.json --out . --fps 10000 --speed 0.001", "frames" },
+        { "walk none.glb --path path.json --out . --every 0", "--every" },
+        { "walk none.glb --path path.json --out . --sample 1,2,3", "--sample" },
+        { "walk none.glb --path path.json --out . --sample 1,2,3,0,0,0", "--sample" },
+        { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0,5", "--sample" },
+        { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0 --window", "--sample" },
+        { "walk none.glb --path path.json --out . --view none.json", "none.json" },
+        { "walk none.glb --path path.json --out . --set energy=-1", "sdfgi_energy" },
         { "info --set cascades=9", "sdfgi_cascades" },
         { "properties --xml --json", "--xml" },
+#ifdef SDFGI_WITH_RAYCAST
+        { "reference none.glb --out a.exr --geometry cubes", "cubes" },
+        { "reference none.glb --out a.exr --set cascades=2", "--set" },
+        { "reference none.glb --out a.exr --device 0", "--device" },
+        { "reference none.glb --out a.exr --geometry voxels --set cascades=9", "sdfgi_cascades" },
+#endif
         { "compare one.pfm", "REFERENCE" },
         { "compare one.pfm none.pfm", "none.pfm" },
         { "compare one.pfm two.pfm", "expected equal sizes" },

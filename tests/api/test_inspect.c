@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: MIT
+ * Copies of the volumes hold what was voxelised, at the places the header says. */
+#include "gi_test.h"
+#include "require.h"
+
+#include <math.h>
+#include <sdfgi/inspect.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct copy {
+    struct gi_test *test;
+    uint32_t cascade;
+    enum sdfgi_volume volume;
+    VkBuffer to;
+    enum sdfgi_result result;
+};
+
+static void record_copy(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    struct copy *c = user;
+    (void)index;
+    c->result = sdfgi_inspect_copy(c->test->gi, cmd, c->cascade, c->volume, c->to, 0);
+}
+
+static uint32_t *read_volume(struct gi_test *t, uint32_t cascade, enum sdfgi_volume volume)
+{
+    const uint64_t bytes = sdfgi_inspect_volume_size(t->gi, volume);
+    REQUIRE_CMP(bytes, >, 0ul);
+    struct gpu_test_buffer buffer = gpu_test_buffer_host(&t->gpu, bytes, 0, NULL);
+    struct copy c = { t, cascade, volume, buffer.buffer, SDFGI_ERROR_UNSUPPORTED };
+    gpu_test_submit(&t->gpu, record_copy, &c);
+    REQUIRE_CMP(c.result, ==, SDFGI_OK);
+    uint32_t *words = malloc(bytes);
+    REQUIRE_TRUE(words);
+    memcpy(words, buffer.mapped, bytes);
+    gpu_test_buffer_destroy(&t->gpu, &buffer);
+    return words;
+}
+
+static const float albedo[3] = { 0.25f, 0.5f, 0.75f }, emission[3] = { 2, 0, 8 };
+static const double box_center[3] = { -100.2, 7.3, 33.1 };
+
+/* Emits from its front alone, unlike gi_test_material. */
+static sdfgi_material one_sided_material(struct gi_test *t)
+{
+    struct sdfgi_material_desc desc = { .alpha = 1 };
+    sdfgi_material material;
+    memcpy(desc.albedo, albedo, sizeof desc.albedo);
+    memcpy(desc.emission, emission, sizeof desc.emission);
+    REQUIRE_CMP(sdfgi_material_create(t->gi, &desc, &material), ==, SDFGI_OK);
+    return material;
+}
+
+/* An emissive box far enough from the origin for the volumes to wrap at odd places. */
+static void open_box(struct gi_test *t, uint32_t cascades)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.cascades = cascades;
+    gi_test_open(t, &settings);
+    memcpy(t->frame.camera_position, box_center, sizeof box_center);
+    struct test_mesh mesh = test_mesh_box(box_center, (double[]){ 1.1, 0.9, 1.3 }, test_rotation_none);
+    gi_test_add(t, &mesh, one_sided_material(t));
+    test_mesh_destroy(&mesh);
+    gi_test_update(t, 1);
+}
+
+static void bits_are_where_the_header_says(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    open_box(&t, 2);
+    for (uint32_t cascade = 0; cascade < 2; cascade++) {
+        struct sdfgi_inspect_cascade where;
+        REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, cascade, &where), ==, SDFGI_OK);
+        const struct oracle_grid grid = gi_test_grid(&t, cascade);
+        for (int i = 0; i < 3; i++) {
+            REQUIRE_NEAR(where.origin_m[i], grid.origin[i], 1e-9);
+            REQUIRE_NEAR(where.cell_m[i], 4 * grid.step[i], 1e-9);
+            REQUIRE_NEAR((double)where.origin_cells[i] * where.cell_m[i], where.origin_m[i], 1e-6);
+        }
+        struct oracle_bits bits = gi_test_bits(&t, cascade);
+        uint32_t *words = read_volume(&t, cascade, SDFGI_VOLUME_BITS);
+        uint64_t set = 0;
+        for (uint32_t z = 0; z < bits.size; z++)
+            for (uint32_t y = 0; y < bits.size; y++)
+                for (uint32_t x = 0; x < bits.size; x++) {
+                    const uint32_t *cell = words + 2 * sdfgi_inspect_cell(&where, x / 4, y / 4, z / 4);
+                    const uint32_t bit = x % 4 + 4 * (y % 4) + 16 * (z % 4);
+                    const bool is_set = cell[bit / 32] >> bit % 32 & 1;
+                    REQUIRE_TRUE(is_set == oracle_bits_get(&bits, x, y, z));
+                    set += is_set;
+                }
+        REQUIRE_CMP(set, >, 100ul);
+        free(words);
+        oracle_bits_destroy(&bits);
+    }
+    gi_test_close(&t);
+}
+
+/* Blocks of a side of the box: what it is made of, and that it faces and emits outwards. */
+static void blocks_tell_what_they_hold(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    open_box(&t, 1);
+    struct sdfgi_inspect_cascade where;
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
+    uint32_t *words[SDFGI_VOLUME_COUNT];
+    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
+        words[i] = read_volume(&t, 0, (enum sdfgi_volume)i);
+    const double half[3] = { 1.1, 0.9, 1.3 };
+    for (int axis = 0; axis < 6; axis++) {
+        uint32_t cell[3];
+        for (int i = 0; i < 3; i++) {
+            const double side = i == axis / 2 ? (axis % 2 ? -half[i] : half[i]) : 0;
+            cell[i] = (uint32_t)floor((box_center[i] + side - where.origin_m[i]) / where.cell_m[i]);
+        }
+        const uint64_t block = sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]);
+        struct sdfgi_inspect_surface s;
+        sdfgi_inspect_decode_block(words[SDFGI_VOLUME_ALBEDO][block],
+                                   words[SDFGI_VOLUME_EMISSION] + 2 * block,
+                                   words[SDFGI_VOLUME_NORMALS][block], where.emission_unit, &s);
+        for (int i = 0; i < 3; i++) {
+            REQUIRE_NEAR((double)s.albedo[i], 255 * (double)albedo[i], 1);
+            REQUIRE_NEAR((double)s.emission[i], (double)emission[i], 0.02);
+            REQUIRE_TRUE(s.has_normal[i] == (i == axis / 2));
+            REQUIRE_CMP(s.slopes[i][0], ==, 0);
+            REQUIRE_CMP(s.slopes[i][1], ==, 0);
+        }
+        for (int other = 0; other < 6; other++)
+            REQUIRE_CMP(s.emitting[other], ==, (other == axis ? 31 : 0));
+    }
+    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
+        free(words[i]);
+    gi_test_close(&t);
+}
+
+/* Before the first update, out of range, with no buffer: refused, and nothing is written. */
+static void wrong_requests_are_refused(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    struct sdfgi_settings settings = gi_test_settings();
+    struct sdfgi_inspect_cascade where = { .resolution = 7 };
+    gi_test_open(&t, &settings);
+    struct gpu_test_buffer buffer =
+        gpu_test_buffer_host(&t.gpu, sdfgi_inspect_volume_size(t.gi, SDFGI_VOLUME_BITS), 0, NULL);
+    struct copy c = { &t, 0, SDFGI_VOLUME_BITS, buffer.buffer, SDFGI_OK };
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_ERROR_INVALID_ARGUMENT);
+    gpu_test_submit(&t.gpu, record_copy, &c);
+    REQUIRE_CMP(c.result, ==, SDFGI_ERROR_INVALID_ARGUMENT);
+    gi_test_update(&t, 1);
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 1, &where), ==, SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_CMP(where.resolution, ==, 7u);
+    c.cascade = 1;
+    gpu_test_submit(&t.gpu, record_copy, &c);
+    REQUIRE_CMP(c.result, ==, SDFGI_ERROR_INVALID_ARGUMENT);
+    c = (struct copy){ &t, 0, SDFGI_VOLUME_COUNT, buffer.buffer, SDFGI_OK };
+    gpu_test_submit(&t.gpu, record_copy, &c);
+    REQUIRE_CMP(c.result, ==, SDFGI_ERROR_INVALID_ARGUMENT);
+    c = (struct copy){ &t, 0, SDFGI_VOLUME_BITS, VK_NULL_HANDLE, SDFGI_OK };
+    gpu_test_submit(&t.gpu, record_copy, &c);
+    REQUIRE_CMP(c.result, ==, SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_CMP(sdfgi_inspect_volume_size(t.gi, SDFGI_VOLUME_COUNT), ==, 0ul);
+    gpu_test_buffer_destroy(&t.gpu, &buffer);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bits_are_where_the_header_says),
+        cmocka_unit_test(blocks_tell_what_they_hold),
+        cmocka_unit_test(wrong_requests_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT
+ * The list of light cells against one made here from the solid bits: which cells, in which order, and what
+ * becomes of the light they had. */
+#include "pass_scene.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include <stdlib.h>
+
+enum { N = 32, CELLS = N * N * N };
+
+/* ---- The list as it should be: blocks of 4^3 texels in order, texels in order within */
+
+static bool is_solid(const struct gi_test *t, const uint64_t *bits, int x, int y, int z)
+{
+    return x >= 0 && y >= 0 && z >= 0 && x < N && y < N && z < N &&
+           bits[gi_test_cell(t, 0, (uint32_t)x, (uint32_t)y, (uint32_t)z)] != 0;
+}
+
+static bool is_light_cell(const struct gi_test *t, const uint64_t *bits, const uint32_t texel[3])
+{
+    const ivec4 wrap = t->gi->params.cascades[0].wrap;
+    const int x = (int)(texel[0] - (uint32_t)wrap.x) & (N - 1),
+              y = (int)(texel[1] - (uint32_t)wrap.y) & (N - 1),
+              z = (int)(texel[2] - (uint32_t)wrap.z) & (N - 1);
+    return !is_solid(t, bits, x, y, z) && (is_solid(t, bits, x - 1, y, z) || is_solid(t, bits, x + 1, y, z) ||
+                                           is_solid(t, bits, x, y - 1, z) || is_solid(t, bits, x, y + 1, z) ||
+                                           is_solid(t, bits, x, y, z - 1) || is_solid(t, bits, x, y, z + 1));
+}
+
+/* Texel indices; returns how many. */
+static uint32_t expected_list(struct gi_test *t, uint32_t list[static CELLS])
+{
+    uint64_t *bits = gi_test_read(t, RESOURCE_BITS, NULL);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < CELLS; i++) {
+        const uint32_t block = i / 64, bit = i % 64, side = N / 4;
+        const uint32_t texel[3] = { 4 * (block % side) + bit % 4, 4 * (block / side % side) + bit / 4 % 4,
+                                    4 * (block / side / side) + bit / 16 };
+        if (is_light_cell(t, bits, texel))
+            list[count++] = texel[0] + N * (texel[1] + N * texel[2]);
+    }
+    free(bits);
+    return count;
+}
+
+/* ---- A scene whose cascade begins in the middle of its volumes */
+
+static struct sdfgi_settings settings(void)
+{
+    struct sdfgi_settings s = gi_test_settings();
+    s.resolution = N;
+    return s;
+}
+
+static void open_scene(struct gi_test *t, uint64_t room)
+{
+    const double low[3] = { 1, -4, -7 }, high[3] = { 8, 3, 1 };
+    struct test_mesh soup = test_mesh_soup(3, 60, low, high, 1.5);
+    const struct sdfgi_settings s = settings();
+    gi_test_open(t, &s);
+    if (room > 0)
+        t->gi->resources->extent.light_cells = t->gi->resources->extent.light_cells_max = room;
+    pass_scene_stand(t, (double[]){ 5, -1, -3 });
+    gi_test_add(t, &soup, gi_test_material(t, (float[]){ 0.5f, 0.5f, 0.5f }, (float[]){ 0, 0, 0 }));
+    test_mesh_destroy(&soup);
+    gi_test_update(t, 1);
+}
+
+static uint32_t counted(struct gi_test *t)
+{
+    uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
+    const uint32_t count = counters[SDFGI_COUNTER_LIGHT_CELLS];
+    free(counters);
+    return count;
+}
+
+static void require_list(struct gi_test *t, const uint32_t *expected, uint32_t count)
+{
+    uint32_t *list = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL),
+             *groups = gi_test_read(t, RESOURCE_INDIRECT, NULL);
+    for (uint32_t i = 0; i < count; i++)
+        REQUIRE_CMP(list[3 * i] & 0xffffff, ==, expected[i]);
+    REQUIRE_CMP(groups[0], ==, (count + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR);
+    free(list);
+    free(groups);
+}
+
+static void the_list_is_complete_and_in_the_order_of_blocks(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static uint32_t expected[CELLS];
+    open_scene(&t, 0);
+    REQUIRE_CMP(t.gi->params.cascades[0].wrap.x, !=, 0);
+    const uint32_t count = expected_list(&t, expected);
+    REQUIRE_CMP(count, >, 2000u);
+    REQUIRE_CMP(counted(&t), ==, count);
+    require_list(&t, expected, count);
+    gi_test_close(&t);
+}
+
+/* ---- Listed again: what each cell held decides what it holds afterwards */
+
+static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct gi_test *t = user;
+    struct frame frame = { .gi = t->gi, .slot = 0 };
+    gpu_recorder_begin(&frame.rec, &t->gi->device, cmd);
+    gpu_timer_begin_frame(&t->gi->resources->timer, 0);
+    light_cache_list_record(&frame, 0);
+    gpu_recorder_end(&frame.rec);
+}
+
+struct held {
+    uint32_t color, weights;
+};
+
+/* A third of the cells held light, a third something without the valid bit, a third nothing. */
+static void fill_light(struct held light[static CELLS])
+{
+    for (uint32_t i = 0; i < CELLS; i++)
+        light[i] = i % 3 == 0   ? (struct held){ 77 + i, SDFGI_LIGHT_VALID | i }
+                   : i % 3 == 1 ? (struct held){ 5 + i, 0 }
+                                : (struct held){ 0, 0 };
+}
+
+static void list_over(struct gi_test *t, const struct held light[static CELLS])
+{
+    gpu_test_buffer_write(&t->gpu, t->gi->resources->buffers[RESOURCE_LIGHT].handle, 0, sizeof *light * CELLS,
+                          light);
+    gpu_test_submit(&t->gpu, record_list, t);
+}
+
+static void require_light(struct gi_test *t, const struct held before[static CELLS], const uint32_t *list,
+                          uint32_t count)
+{
+    struct held *after = gi_test_read(t, RESOURCE_LIGHT, NULL);
+    struct held *wanted = test_array_alloc(CELLS, sizeof *wanted);
+    memset(wanted, 0, sizeof *wanted * CELLS);
+    for (uint32_t i = 0; i < count; i++)
+        wanted[list[i]] = before[list[i]].weights & SDFGI_LIGHT_VALID ? before[list[i]]
+                                                                      : (struct held){ 0, SDFGI_LIGHT_VALID };
+    REQUIRE_BYTES(after, wanted, sizeof *wanted * CELLS);
+    free(wanted);
+    free(after);
+}
+
+static void cells_that_stay_keep_their_light_and_others_forget_it(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static uint32_t expected[CELLS];
+    static struct held light[CELLS];
+    open_scene(&t, 0);
+    const uint32_t count = expected_list(&t, expected);
+    fill_light(light);
+    list_over(&t, light);
+    require_light(&t, light, expected, count);
+    require_list(&t, expected, count);
+    gi_test_close(&t);
+}
+
+static void without_room_the_first_cells_are_lit_and_the_others_are_dark(void **state)
+{
+    (void)state;
+    enum { ROOM = 777 };
+    static struct gi_test t;
+    static uint32_t expected[CELLS];
+    static struct held light[CELLS];
+    open_scene(&t, ROOM);
+    const uint32_t count = expected_list(&t, expected);
+    REQUIRE_CMP(counted(&t), ==, count);
+    require_list(&t, expected, ROOM);
+    fill_light(light);
+    list_over(&t, light);
+    require_light(&t, light, expected, ROOM);
+    gi_test_update(&t, 6);
+    REQUIRE_CMP(pass_health_count(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, count - ROOM);
+    REQUIRE_CMP(t.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_list_is_complete_and_in_the_order_of_blocks),
+        cmocka_unit_test(cells_that_stay_keep_their_light_and_others_forget_it),
+        cmocka_unit_test(without_room_the_first_cells_are_lit_and_the_others_are_dark),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+#include "scroll_scene.h"
+
+#include "light_scene.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include <stdlib.h>
+
+struct sdfgi_settings scroll_settings(uint32_t resolution)
+{
+    struct sdfgi_settings settings = light_settings(resolution, 0.25f);
+    settings.cascades = 2;
+    return settings;
+}
+
+static void add_boxes(struct gi_test *t, const double center[static 3], double reach)
+{
+    struct test_random random = { 7 };
+    const uint32_t count = (uint32_t)(reach * 1.5);
+    for (uint32_t i = 0; i < count && i < 40; i++) {
+        double low[3], high[3];
+        float albedo[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = center[k] + test_random_real(&random, -reach, reach) * (k == 1 ? 0.3 : 1);
+            high[k] = low[k] + test_random_real(&random, 0.3, 3);
+            albedo[k] = (float)test_random_real(&random, 0.05, 0.9);
+        }
+        light_add_box(t, low, high, albedo, i % 5 == 0 ? 1.5f : 0);
+    }
+}
+
+void scroll_world(struct gi_test *t, const double center[static 3], double reach)
+{
+    const double c[3] = { center[0], center[1], center[2] };
+    const double ground[3] = { c[0], c[1] - 2.1, c[2] }, u[3] = { 0, 0.4, 2 * reach },
+                 v[3] = { 2 * reach, 0, 0 };
+    light_add(t, test_mesh_plane(ground, u, v, 4), 0.5f, 0);
+    add_boxes(t, c, reach);
+    const double low[3] = { c[0] - reach, c[1] - 3, c[2] - reach },
+                 high[3] = { c[0] + reach, c[1] + 3, c[2] + reach };
+    light_add(t, test_mesh_soup(11, 150, low, high, 1.2), 0.4f, 0);
+    const struct sdfgi_light_desc sun = light_sun(-0.5f, -0.8f, 0.2f, 5),
+                                  lamp = light_point(c[0] + 1.3, c[1] + 2.5, c[2] + 0.4, 30);
+    light_create(t, &sun);
+    light_create(t, &lamp);
+    REQUIRE_CMP(
+        sdfgi_set_sky(t->gi, &(struct sdfgi_sky){ { 0.5f, 0.7f, 1 }, { 1, 1, 1 }, { 0.2f, 0.2f, 0.1f } }), ==,
+        SDFGI_OK);
+}
+
+void scroll_stand(struct gi_test *t, const double position[static 3])
+{
+    memcpy(t->frame.camera_position, position, sizeof t->frame.camera_position);
+}
+
+void scroll_place_as(struct gi_test *fresh, const struct gi_test *walked)
+{
+    for (uint32_t c = 0; c < fresh->gi->settings.cascades; c++) {
+        struct cascade *cascade = &fresh->gi->cascades[c];
+        memcpy(cascade->origin, walked->gi->cascades[c].origin, sizeof cascade->origin);
+        cascade->placed = true;
+    }
+}
+
+uint32_t scroll_settle(struct gi_test *t)
+{
+    for (uint32_t frames = 1; frames <= 400; frames++) {
+        gi_test_update(t, 1);
+        if (schedule_idle(t->gi))
+            return frames;
+    }
+    require_fail(__FILE__, __LINE__, "cascades are still at work after 400 frames");
+    return 0;
+}
+
+static void require_same_bytes(struct gi_test *a, struct gi_test *b, enum resource resource, const char *what)
+{
+    uint64_t size;
+    uint8_t *x = gi_test_read(a, resource, &size), *y = gi_test_read(b, resource, NULL);
+    uint64_t differ = 0, first = 0;
+    for (uint64_t i = size; i-- > 0;)
+        if (x[i] != y[i]) {
+            differ++;
+            first = i;
+        }
+    if (differ)
+        require_fail(__FILE__, __LINE__, "%s: %s: %llu of %llu bytes differ, first at %llu: %#x and %#x",
+                     what, resource_name(resource), (unsigned long long)differ, (unsigned long long)size,
+                     (unsigned long long)first, x[first], y[first]);
+    free(x);
+    free(y);
+}
+
+/* Words of a buffer under a mask: one that tells probes and light cells, not what they hold. */
+static void require_same_words(struct gi_test *a, struct gi_test *b, enum resource resource, uint64_t stride,
+                               uint64_t word, uint32_t mask, const char *what)
+{
+    uint64_t size, differ = 0, first = 0;
+    uint32_t *x = gi_test_read(a, resource, &size), *y = gi_test_read(b, resource, NULL);
+    for (uint64_t i = size / 4 / stride; i-- > 0;)
+        if ((x[i * stride + word] ^ y[i * stride + word]) & mask) {
+            differ++;
+            first = i;
+        }
+    if (differ)
+        require_fail(__FILE__, __LINE__, "%s: %s: %llu elements differ, first %llu: %#x and %#x", what,
+                     resource_name(resource), (unsigned long long)differ, (unsigned long long)first,
+                     x[first * stride + word], y[first * stride + word]);
+    free(x);
+    free(y);
+}
+
+static void require_same_list(struct gi_test *a, struct gi_test *b, const char *what)
+{
+    uint32_t *x = gi_test_read(a, RESOURCE_LIGHT_CELLS, NULL),
+             *y = gi_test_read(b, RESOURCE_LIGHT_CELLS, NULL);
+    uint32_t *m = gi_test_read(a, RESOURCE_COUNTERS, NULL), *n = gi_test_read(b, RESOURCE_COUNTERS, NULL);
+    const uint64_t room = a->gi->resources->extent.light_cells;
+    REQUIRE_CMP(room, ==, b->gi->resources->extent.light_cells);
+    for (uint32_t c = 0; c < a->gi->settings.cascades; c++) {
+        const uint32_t count = m[SDFGI_COUNTER_LIGHT_CELLS + c];
+        if (count != n[SDFGI_COUNTER_LIGHT_CELLS + c])
+            require_fail(__FILE__, __LINE__, "%s: cascade %u: %u and %u light cells", what, c, count,
+                         n[SDFGI_COUNTER_LIGHT_CELLS + c]);
+        for (uint64_t i = 3 * c * room; i < 3 * (c * room + count); i++)
+            if (x[i] != y[i])
+                require_fail(__FILE__, __LINE__, "%s: cascade %u: light cell %llu, word %llu: %#x and %#x",
+                             what, c, (unsigned long long)(i / 3 - c * room), (unsigned long long)(i % 3),
+                             x[i], y[i]);
+    }
+    free(x);
+    free(y);
+    free(m);
+    free(n);
+}
+
+void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what)
+{
+    for (uint32_t c = 0; c < walked->gi->settings.cascades; c++)
+        REQUIRE_BYTES(walked->gi->cascades[c].origin, fresh->gi->cascades[c].origin,
+                      sizeof walked->gi->cascades[c].origin);
+    static const enum resource whole[] = { RESOURCE_BITS, RESOURCE_DISTANCE, RESOURCE_ALBEDO,
+                                           RESOURCE_EMISSION, RESOURCE_NORMALS };
+    for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
+        require_same_bytes(walked, fresh, whole[i], what);
+    require_same_words(walked, fresh, RESOURCE_PROBES, 1, 0, ~SDFGI_PROBE_NEW, what);
+    require_same_words(walked, fresh, RESOURCE_LIGHT, 2, 1, SDFGI_LIGHT_VALID, what);
+    require_same_bytes(walked, fresh, RESOURCE_MASKS, what);
+    require_same_list(walked, fresh, what);
+}

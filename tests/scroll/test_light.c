@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT
+ * Light while the camera moves: what stays keeps its light, what is new is never black, a fixed point hardly
+ * notices, and after convergence light is that of a fresh start (HARD_CASES rows 19, 23, 39 and 54). */
+#include "light_scene.h"
+#include "require.h"
+#include "scroll_scene.h"
+#include "test_memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double home[3] = { 0.3, 0.2, -0.4 };
+
+static struct gi_test_point at(double x, double y, double z, float nx, float ny, float nz)
+{
+    return (struct gi_test_point){ { (float)x, (float)y, (float)z }, { nx, ny, nz } };
+}
+
+/* Points on the ground around a place, a little above it. */
+static uint32_t ground_points(const double center[static 3], struct gi_test_point *points)
+{
+    uint32_t count = 0;
+    for (int z = -3; z <= 3; z++)
+        for (int x = -3; x <= 3; x++)
+            points[count++] = at(center[0] + 0.7 * x, center[1] + 2.5, center[2] + 0.7 * z, 0, 1, 0);
+    return count;
+}
+
+static void light_after_a_journey_is_that_of_a_fresh_start(void **state)
+{
+    (void)state;
+    static struct gi_test t, fresh;
+    const struct sdfgi_settings settings = scroll_settings(64);
+    gi_test_open(&t, &settings);
+    scroll_world(&t, home, 14);
+    scroll_stand(&t, home);
+    gi_test_update(&t, 6);
+    const double way[4][3] = { { 4, 1, 0 }, { 6, 0, 5 }, { 1, -1, 7 }, { 3.5, 0.5, 2.5 } };
+    for (int i = 0; i < 4; i++) {
+        scroll_stand(&t, way[i]);
+        scroll_settle(&t);
+    }
+    gi_test_converge(&t, 400);
+    gi_test_open(&fresh, &settings);
+    scroll_world(&fresh, home, 14);
+    scroll_stand(&fresh, way[3]);
+    scroll_place_as(&fresh, &t);
+    gi_test_converge(&fresh, 400);
+
+    struct gi_test_point points[49];
+    float a[49][3], b[49][3];
+    const uint32_t count = ground_points(way[3], points);
+    gi_test_irradiance(&t, points, count, a);
+    gi_test_irradiance(&fresh, points, count, b);
+    double worst = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            worst = fmax(worst, fabs((double)a[i][k] / (double)b[i][k] - 1));
+    printf("light after a journey differs from a fresh start's by at most %.4f %%\n", 100 * worst);
+    REQUIRE_CMP(worst, <, 0.005);
+    gi_test_close(&fresh);
+    gi_test_close(&t);
+}
+
+/* Rays as they are by default: few in each frame. */
+static struct sdfgi_settings walking_settings(void)
+{
+    struct sdfgi_settings settings = scroll_settings(64);
+    settings.ray_count = 25;
+    settings.frames_to_converge = 20;
+    return settings;
+}
+
+/* A camera walks past a point; the point's light must not jump while cascades step, appear and go. */
+static void a_fixed_point_hardly_notices(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = walking_settings();
+    gi_test_open(&t, &settings);
+    scroll_world(&t, home, 16);
+    double camera[3] = { -9, 0.2, -0.4 };
+    scroll_stand(&t, camera);
+    gi_test_converge(&t, 400);
+    const struct gi_test_point point = at(0.3, 2.4, 1.1, 0, 1, 0);
+    double before = light_white_at(&t, point), worst = 0, low = before, high = before;
+    for (int frame = 0; frame < 90; frame++) {
+        camera[0] += 0.2;
+        scroll_stand(&t, camera);
+        gi_test_update(&t, 1);
+        const double now = light_white_at(&t, point);
+        worst = fmax(worst, fabs(now / before - 1));
+        low = fmin(low, now);
+        high = fmax(high, now);
+        before = now;
+    }
+    printf("fixed point: at most %.2f %% from frame to frame, %.2f %% over all hand-overs\n", 100 * worst,
+           100 * (high / low - 1));
+    REQUIRE_CMP(worst, <=, 0.02);
+    gi_test_close(&t);
+}
+
+/* A cascade's width per frame: light never fails. */
+static void hard_23_flying_leaves_nothing_black(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = scroll_settings(32);
+    settings.cascades = 4;
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -400, -3, -400 }, (double[]){ 400, -2, 400 }, (float[]){ 0.5f, 0.5f, 0.5f },
+                  0);
+    light_set_uniform_sky(&t, 1);
+    double camera[3] = { -120, 0.1, 0.1 };
+    scroll_stand(&t, camera);
+    gi_test_converge(&t, 400);
+    double low = 1e30, high = 0;
+    for (int frame = 0; frame < 30; frame++) {
+        camera[0] += 8;
+        scroll_stand(&t, camera);
+        gi_test_update(&t, 1);
+        const double e = light_white_at(&t, at(camera[0] + 0.4, -1.9, 0.3, 0, 1, 0)) / PI;
+        low = fmin(low, e);
+        high = fmax(high, e);
+    }
+    printf("flying over a plain: irradiance over pi between %.4f and %.4f\n", low, high);
+    REQUIRE_CMP(low, >, 0.9);
+    REQUIRE_CMP(high, <, 1.1);
+    gi_test_close(&t);
+}
+
+/* A sealed room, the camera to and fro in it for a hundred steps of cascades: its light does not add up. */
+static void hard_39_a_furnace_does_not_drift(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = walking_settings();
+    settings.cascades = 1;
+    gi_test_open(&t, &settings);
+    const double center[3] = { 0, 0, 0 }, half[3] = { 6, 2.4, 2.9 };
+    light_add(&t, test_mesh_room(center, half, 1, test_rotation_none), 0.5f, 1);
+    double camera[3] = { 0.1, 0.3, 0.2 };
+    scroll_stand(&t, camera);
+    gi_test_converge(&t, 400);
+    const struct gi_test_point point = at(0.2, -2.3, 0.1, 0, 1, 0);
+    const double before = light_white_at(&t, point);
+    for (int i = 0; t.gi->schedule.steps_begun < 100 && i < 400; i++) {
+        camera[0] = i & 1 ? -4.1 : 4.1;
+        scroll_stand(&t, camera);
+        gi_test_update(&t, 2);
+    }
+    REQUIRE_CMP(t.gi->schedule.steps_begun, >=, 100u);
+    camera[0] = 0.1;
+    scroll_stand(&t, camera);
+    gi_test_converge(&t, 400);
+    const double after = light_white_at(&t, point);
+    printf("furnace: %.4f of exact, after 100 steps %.4f\n", before / PI / 2, after / PI / 2);
+    REQUIRE_NEAR(after / before, 1, 0.005);
+    REQUIRE_NEAR(after / PI / 2, 1, 0.025);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_after_a_journey_is_that_of_a_fresh_start),
+        cmocka_unit_test(a_fixed_point_hardly_notices),
+        cmocka_unit_test(hard_23_flying_leaves_nothing_black),
+        cmocka_unit_test(hard_39_a_furnace_does_not_drift),
+    };
+    return cmocka_run_group_tests_name("scroll_light", tests, NULL, NULL);
+}

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ * After any journey the volumes are bit for bit those of a fresh start at the same place (HARD_CASES rows 18
+ * to 21 and 25). */
+#include "light_scene.h"
+#include "require.h"
+#include "scroll_scene.h"
+#include "test_memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double home[3] = { 0.3, 0.2, -0.4 };
+
+static uint32_t test_resolution(void)
+{
+    return getenv("SDFGI_TEST_FULL") ? 128 : 64;
+}
+
+/* Light does not matter here: one ray a frame. */
+static struct sdfgi_settings volume_settings(void)
+{
+    struct sdfgi_settings settings = scroll_settings(test_resolution());
+    settings.ray_count = 1;
+    settings.frames_to_converge = 25;
+    return settings;
+}
+
+static double world_reach(void)
+{
+    return 0.25 * test_resolution();
+}
+
+/* Half the cells at twice the size, for what takes long. */
+static struct sdfgi_settings coarse_settings(void)
+{
+    struct sdfgi_settings settings = volume_settings();
+    settings.resolution /= 2;
+    settings.min_cell_size_m *= 2;
+    return settings;
+}
+
+static void open_world(struct gi_test *t, const struct sdfgi_settings *settings,
+                       const double position[static 3])
+{
+    gi_test_open(t, settings);
+    scroll_world(t, home, world_reach());
+    scroll_stand(t, position);
+    scroll_settle(t);
+}
+
+static void require_as_fresh(struct gi_test *walked, const double position[static 3], const char *what)
+{
+    static struct gi_test fresh;
+    gi_test_open(&fresh, &walked->gi->settings);
+    scroll_world(&fresh, home, world_reach());
+    scroll_stand(&fresh, position);
+    scroll_place_as(&fresh, walked);
+    scroll_settle(&fresh);
+    scroll_require_equal(walked, &fresh, what);
+    gi_test_close(&fresh);
+}
+
+static void walk_to(struct gi_test *t, const double position[static 3])
+{
+    scroll_stand(t, position);
+    scroll_settle(t);
+}
+
+/* Steps of the first cascade: a probe spacing and a half is past its hysteresis. */
+static void one_step(struct gi_test *t, double x, double y, double z, const char *what)
+{
+    const double spacing = 8 * (double)t->gi->settings.min_cell_size_m;
+    const double to[3] = { home[0] + 1.5 * spacing * x, home[1] + 1.5 * spacing * y,
+                           home[2] + 1.5 * spacing * z };
+    const uint64_t begun = t->gi->schedule.steps_begun;
+    walk_to(t, to);
+    REQUIRE_CMP(t->gi->schedule.steps_begun, >, begun);
+    require_as_fresh(t, to, what);
+    walk_to(t, home);
+    require_as_fresh(t, home, what);
+}
+
+static void hard_18_a_step_along_each_axis_equals_a_fresh_start(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = volume_settings();
+    open_world(&t, &settings, home);
+    one_step(&t, 1, 0, 0, "+x, then -x");
+    one_step(&t, 0, -1, 0, "-y, then +y");
+    one_step(&t, 0, 0, 1, "+z, then -z");
+    gi_test_close(&t);
+}
+
+static void hard_21_all_axes_in_one_frame_equal_a_fresh_start(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = coarse_settings();
+    open_world(&t, &settings, home);
+    one_step(&t, -2, 1, -3, "-x +y -z, far");
+    gi_test_close(&t);
+}
+
+static void flat_cells_scroll_too(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = coarse_settings();
+    settings.y_scale = SDFGI_Y_SCALE_50;
+    open_world(&t, &settings, home);
+    one_step(&t, 1, 1, 0, "flat");
+    gi_test_close(&t);
+}
+
+/* Steps of one cascade, one a frame, anywhere within a world: nothing adds up, and nothing is left behind. */
+static void hard_19_a_journey_of_a_thousand_steps_leaves_no_trace(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = coarse_settings();
+    settings.cascades = 1;
+    open_world(&t, &settings, home);
+    struct test_random random = { 19 };
+    double camera[3] = { home[0], home[1], home[2] };
+    uint32_t checked = 0;
+    while (t.gi->schedule.steps_begun < 1000) {
+        for (int i = 0; i < 3; i++) {
+            camera[i] += test_random_real(&random, -9, 9) * (i == 1 ? 0.5 : 1);
+            camera[i] = fmin(fmax(camera[i], -world_reach()), world_reach());
+        }
+        scroll_stand(&t, camera);
+        gi_test_update(&t, 1);
+        if (t.gi->schedule.steps_begun / 500 > checked) {
+            checked++;
+            scroll_settle(&t);
+            require_as_fresh(&t, camera, "journey");
+        }
+    }
+    REQUIRE_CMP(checked, ==, 2u);
+    gi_test_close(&t);
+}
+
+/* Back where it began, by another way. */
+static void hard_20_a_closed_loop_ends_where_it_began(void **state)
+{
+    (void)state;
+    static struct gi_test t, start;
+    const struct sdfgi_settings settings = coarse_settings();
+    open_world(&t, &settings, home);
+    open_world(&start, &settings, home);
+    static const double way[5][3] = { { 5, 0, 0 }, { 5, 2, 6 }, { -4, 1, 6 }, { -6, -2, -3 }, { 3, 0, -6 } };
+    for (int i = 0; i < 5; i++)
+        walk_to(&t, way[i]);
+    walk_to(&t, home);
+    scroll_place_as(&start, &t);
+    for (uint32_t c = 0; c < settings.cascades; c++)
+        start.gi->cascades[c].rebuild = true;
+    scroll_settle(&start);
+    scroll_require_equal(&t, &start, "loop");
+    gi_test_close(&start);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_18_a_step_along_each_axis_equals_a_fresh_start),
+        cmocka_unit_test(hard_21_all_axes_in_one_frame_equal_a_fresh_start),
+        cmocka_unit_test(hard_19_a_journey_of_a_thousand_steps_leaves_no_trace),
+        cmocka_unit_test(hard_20_a_closed_loop_ends_where_it_began),
+        cmocka_unit_test(flat_cells_scroll_too),
+    };
+    return cmocka_run_group_tests_name("scroll_volumes", tests, NULL, NULL);
+}
