@@ -381,6 +381,14 @@ static uint64_t frame_budget(const struct sdfgi *gi)
     return (uint64_t)fmin(fmax(called_for, slowest) + s->carry, limit);
 }
 
+static bool any_changes(const struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (gi->cascades[c].change.active)
+            return true;
+    return false;
+}
+
 /* Fine cascades first, but before all the coarsest if it falls behind: behind that there is nothing. */
 static void advance_all(struct sdfgi *gi, uint64_t budget)
 {
@@ -395,7 +403,10 @@ static void advance_all(struct sdfgi *gi, uint64_t budget)
         if (gi->cascades[c].change.active)
             advance(gi, c, &budget);
     }
-    gi->schedule.carry = fmin((double)budget, (double)layer_cells(gi));
+    /* Where not even one unit fitted, it all is kept until one does. */
+    const bool stuck = gi->schedule.cells == 0 && any_changes(gi);
+    const double most = stuck ? (double)gi->settings.max_scroll_cells : (double)layer_cells(gi);
+    gi->schedule.carry = fmin((double)budget, most);
 }
 
 void schedule_frame(struct sdfgi *gi, const double camera[3])

@@ -17,6 +17,16 @@ static struct gi_test_point at(double x, double y, double z, float nx, float ny,
     return (struct gi_test_point){ { (float)x, (float)y, (float)z }, { nx, ny, nz } };
 }
 
+/* Two cascades of 32^3 cells of 0.5 m, 500 rays a probe in all. */
+static struct sdfgi_settings light_walk_settings(uint32_t rays)
+{
+    struct sdfgi_settings settings = scroll_settings(32);
+    settings.min_cell_size_m = 0.5f;
+    settings.ray_count = rays;
+    settings.frames_to_converge = 500 / rays;
+    return settings;
+}
+
 /* Points on the ground around a place, a little above it. */
 static uint32_t ground_points(const double center[static 3], struct gi_test_point *points)
 {
@@ -31,7 +41,7 @@ static void light_after_a_journey_is_that_of_a_fresh_start(void **state)
 {
     (void)state;
     static struct gi_test t, fresh;
-    const struct sdfgi_settings settings = scroll_settings(64);
+    const struct sdfgi_settings settings = light_walk_settings(125);
     gi_test_open(&t, &settings);
     scroll_world(&t, home, 14);
     scroll_stand(&t, home);
@@ -63,21 +73,12 @@ static void light_after_a_journey_is_that_of_a_fresh_start(void **state)
     gi_test_close(&t);
 }
 
-/* Rays as they are by default: few in each frame. */
-static struct sdfgi_settings walking_settings(void)
-{
-    struct sdfgi_settings settings = scroll_settings(64);
-    settings.ray_count = 25;
-    settings.frames_to_converge = 20;
-    return settings;
-}
-
 /* A camera walks past a point; the point's light must not jump while cascades step, appear and go. */
 static void a_fixed_point_hardly_notices(void **state)
 {
     (void)state;
     static struct gi_test t;
-    const struct sdfgi_settings settings = walking_settings();
+    const struct sdfgi_settings settings = light_walk_settings(25);
     gi_test_open(&t, &settings);
     scroll_world(&t, home, 16);
     double camera[3] = { -9, 0.2, -0.4 };
@@ -135,10 +136,10 @@ static void hard_39_a_furnace_does_not_drift(void **state)
 {
     (void)state;
     static struct gi_test t;
-    struct sdfgi_settings settings = walking_settings();
+    struct sdfgi_settings settings = light_walk_settings(25);
     settings.cascades = 1;
     gi_test_open(&t, &settings);
-    const double center[3] = { 0, 0, 0 }, half[3] = { 6, 2.4, 2.9 };
+    const double center[3] = { 0, 0, 0 }, half[3] = { 2.8, 2.4, 2.9 };
     light_add(&t, test_mesh_room(center, half, 1, test_rotation_none), 0.5f, 1);
     double camera[3] = { 0.1, 0.3, 0.2 };
     scroll_stand(&t, camera);
@@ -153,6 +154,7 @@ static void hard_39_a_furnace_does_not_drift(void **state)
     REQUIRE_CMP(t.gi->schedule.steps_begun, >=, 100u);
     camera[0] = 0.1;
     scroll_stand(&t, camera);
+    t.gi->cascades[0].placed = false; /* back where it began, whatever hysteresis would have it */
     gi_test_converge(&t, 400);
     const double after = light_white_at(&t, point);
     printf("furnace: %.4f of exact, after 100 steps %.4f\n", before / PI / 2, after / PI / 2);

@@ -183,6 +183,24 @@ static void hard_24_an_oscillating_camera_steps_once(void **state)
     REQUIRE_CMP(gi->schedule.steps_begun - begun, <=, 1u);
 }
 
+/* A fine cascade that was left behind comes back while the camera still walks, at any resolution. */
+static void a_lost_cascade_comes_back_on_the_way(void **state)
+{
+    (void)state;
+    for (uint32_t resolution = 32; resolution <= 256; resolution *= 2) {
+        struct sdfgi *gi = begin(4194304);
+        gi->settings.resolution = resolution;
+        double camera[3] = { 0.1, 0.1, 0.1 };
+        frame(gi, camera);
+        camera[0] += 0.2 * resolution * 1.5;
+        for (uint32_t i = 0; i < 1200; i++) {
+            camera[0] += 1.0 / 60;
+            frame(gi, camera);
+        }
+        REQUIRE_TRUE(!cell_box_empty(&gi->cascades[0].window) && covers(&gi->cascades[0], camera, 2));
+    }
+}
+
 /* It cannot be cut, and is done all the same. */
 static void a_flood_is_done_whole(void **state)
 {
@@ -267,6 +285,7 @@ int main(void)
         cmocka_unit_test(hard_22_a_teleport_is_one_rebuild),
         cmocka_unit_test(hard_23_a_cascade_width_per_frame_leaves_no_hole),
         cmocka_unit_test(hard_24_an_oscillating_camera_steps_once),
+        cmocka_unit_test(a_lost_cascade_comes_back_on_the_way),
         cmocka_unit_test(a_flood_is_done_whole),
         cmocka_unit_test(borders_move_smoothly),
         cmocka_unit_test(boxes_are_cut_without_overlap),
