@@ -5,40 +5,37 @@
 
 #include <math.h>
 
-/* Workgroups along x; Vulkan guarantees 65535. */
-enum { GROUP_WIDTH = 32768, MAX_SLICES = 64 };
-/* Columns that one thread walks before another one is worth its share of the triangle's set-up. */
-#define COLUMNS_PER_THREAD 8
-/* Threads of one draw beyond which triangles are not cut further: most of a large mesh is elsewhere. */
-#define MOST_THREADS 4e6
+/* Workgroups along x; Vulkan guarantees 65535. MAX_SLICES: each culls its triangles again. */
+enum { GROUP_WIDTH = 32768, MAX_SLICES = 256 };
+/* Columns that one thread walks before another one is worth its share of culling and set-up. */
+#define COLUMNS_PER_THREAD 8.0
+/* How often a mesh is taken to cover the largest side of what its bounds and the box share. */
+#define COVERINGS 4.0
 
-/* Sub-voxel columns that a triangle of the mesh is likely to cover in the box: the largest side of the
- * instance's bounds, shared out evenly, but no more than the box has. */
-static double columns_per_triangle(const struct cascade *cascade, const struct cell_box *box,
-                                   const struct instance *instance, uint32_t triangles)
+/* The box in the world, and a sub-voxel more: triangles set sub-voxels that they touch. */
+static struct box world_box(const struct cascade *cascade, const struct cell_box *cells)
 {
-    double size[3], room[3], largest = 0, most = 0;
+    struct box box;
     for (int i = 0; i < 3; i++) {
-        size[i] =
-            (instance->bounds.max[i] - instance->bounds.min[i]) / cascade->cell_size[i] * SDFGI_SUBVOXELS + 1;
-        room[i] = fmin(size[i], (box->high[i] - box->low[i]) * SDFGI_SUBVOXELS);
+        const double margin = 1.0 / SDFGI_SUBVOXELS, size = cascade->cell_size[i];
+        box.min[i] = ((double)(cascade->origin[i] + cells->low[i]) - margin) * size;
+        box.max[i] = ((double)(cascade->origin[i] + cells->high[i]) + margin) * size;
     }
-    for (int i = 0; i < 3; i++) {
-        largest = fmax(largest, size[i] * size[(i + 1) % 3]);
-        most = fmax(most, room[i] * room[(i + 1) % 3]);
-    }
-    return fmin(4 * largest / triangles, most);
+    return box;
 }
 
-static void share_out(struct sdfgi_voxelize_args *args, double columns)
+/* Workgroups that share the columns of SDFGI_GROUP_TRIANGLE triangles, so that each thread has but a few. */
+static uint32_t slice_count(const struct cascade *cascade, const struct cell_box *cells,
+                            const struct box *bounds, uint32_t groups)
 {
-    args->threads = args->slices = 1;
-    while (args->threads < SDFGI_GROUP_TRIANGLE && args->threads * COLUMNS_PER_THREAD < columns)
-        args->threads *= 2;
-    const double triangles = (double)args->triangle_count;
-    while (args->slices < MAX_SLICES && args->slices * args->threads * COLUMNS_PER_THREAD < columns &&
-           triangles * args->threads * args->slices < MOST_THREADS)
-        args->slices *= 2;
+    const struct box box = world_box(cascade, cells);
+    double room[3];
+    for (int i = 0; i < 3; i++)
+        room[i] = (fmin(bounds->max[i], box.max[i]) - fmax(bounds->min[i], box.min[i])) *
+                  (SDFGI_SUBVOXELS / cascade->cell_size[i]);
+    const double columns = COVERINGS * fmax(room[0] * room[1], fmax(room[1] * room[2], room[2] * room[0]));
+    const double threads = (double)groups * SDFGI_GROUP_TRIANGLE;
+    return (uint32_t)fmin(fmax(ceil(columns / (COLUMNS_PER_THREAD * threads)), 1), MAX_SLICES);
 }
 
 static double determinant(const float m[9])
@@ -93,9 +90,12 @@ static struct sdfgi_voxelize_args voxelize_args(const struct sdfgi *gi, uint32_t
                                                 const struct mesh *mesh)
 {
     const struct sdfgi_mesh_desc *d = &mesh->desc;
+    const uint32_t groups = (d->triangle_count - 1) / SDFGI_GROUP_TRIANGLE + 1;
     struct sdfgi_voxelize_args args = {
         .cascade = c,
         .triangle_count = d->triangle_count,
+        .groups = groups,
+        .slices = slice_count(&gi->cascades[c], box, &instance->bounds, groups),
         .material = pool_index(instance->desc.material.id),
         .flags = mesh_flags(d),
         .position_offset = (uint32_t)(d->position_offset / 4),
@@ -110,7 +110,6 @@ static struct sdfgi_voxelize_args voxelize_args(const struct sdfgi *gi, uint32_t
         .anchor.w = (int32_t)packed_corner(box->low),
         .box_high = packed_corner(box->high),
     };
-    share_out(&args, columns_per_triangle(&gi->cascades[c], box, instance, d->triangle_count));
     fill_rows(&gi->cascades[c], &instance->desc.transform, &args);
     if (determinant(instance->desc.transform.basis) < 0)
         args.flags |= SDFGI_MESH_MIRRORED;
@@ -153,25 +152,11 @@ static void draw_instance(struct binder *b, uint32_t cascade, const struct insta
         gpu_draw(&b->frame->rec, 3 * triangles);
         pass = PASS_VOXELIZE_RASTER;
     } else {
-        const uint32_t per_group = SDFGI_GROUP_TRIANGLE / args.threads;
-        const uint32_t groups = triangles / per_group + (triangles % per_group != 0);
-        const uint32_t width = groups < GROUP_WIDTH ? groups : GROUP_WIDTH;
-        gpu_dispatch(&b->frame->rec, width, args.slices, (groups + GROUP_WIDTH - 1) / GROUP_WIDTH);
+        const uint32_t width = args.groups < GROUP_WIDTH ? args.groups : GROUP_WIDTH;
+        gpu_dispatch(&b->frame->rec, width, args.slices, (args.groups - 1) / GROUP_WIDTH + 1);
     }
     gi->passes[pass].dispatches++;
     gi->passes[pass].work += triangles;
-}
-
-/* The box in the world, and a sub-voxel more: triangles set sub-voxels that they touch. */
-static struct box world_box(const struct cascade *cascade, const struct cell_box *cells)
-{
-    struct box box;
-    for (int i = 0; i < 3; i++) {
-        const double margin = 1.0 / SDFGI_SUBVOXELS, size = cascade->cell_size[i];
-        box.min[i] = ((double)(cascade->origin[i] + cells->low[i]) - margin) * size;
-        box.max[i] = ((double)(cascade->origin[i] + cells->high[i]) + margin) * size;
-    }
-    return box;
 }
 
 static void draw_instances(struct binder *b, uint32_t c)
@@ -238,7 +223,7 @@ static void record_box(struct frame *frame, enum pass pass, const struct sdfgi_p
 void voxelize_record(struct frame *frame, uint32_t c, const struct cell_box *box)
 {
     struct sdfgi *gi = frame->gi;
-    struct sdfgi_pass_args args = {
+    const struct sdfgi_pass_args args = {
         .low = { box->low[0], box->low[1], box->low[2], 0 },
         .high = { box->high[0], box->high[1], box->high[2], 0 },
         .cascade = c,
@@ -249,7 +234,4 @@ void voxelize_record(struct frame *frame, uint32_t c, const struct cell_box *box
     if (gi->plan[PASS_VOXELIZE_RASTER].run)
         record_raster(frame, c, box);
     record_box(frame, PASS_VOXEL_RESOLVE, &args, 8);
-    /* The emissive bits have been read: the volume now belongs to light. */
-    args.step = 1;
-    record_box(frame, PASS_REGION_CLEAR, &args, 4);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks; or, with
- * args.step = 1, its light alone, which held emissive bits until then. One thread per four cells along x, which share a word
- * of masks; boxes begin and end at multiples of 8 cells. */
+ * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks. One thread per
+ * four cells along x, which share a word of masks; boxes begin and end at multiples of 8 cells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
@@ -29,11 +28,7 @@ void main()
         args.low.xyz + ivec3(4u * (i % size.x), i / size.x % size.y, i / (size.x * size.y));
     const uint index = cell_index(args.cascade, first);
     for (uint k = 0u; k < 4u; k++)
-        sdfgi_light[index + k] = uvec2(0u);
-    if (args.step != 0u)
-        return;
-    for (uint k = 0u; k < 4u; k++)
-        sdfgi_bits[index + k] = uvec2(0u);
+        sdfgi_bits[index + k] = sdfgi_light[index + k] = uvec2(0u);
     sdfgi_masks[index >> 2u] = 0u;
     if (((first.y | first.z) & 1) == 0) {
         clear_accumulators(first);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Means of albedo, emission and normals from the accumulators. One thread per block of 2x2x2 cells of the box. */
+ * Means of albedo, emission and normals from the accumulators. The light volume, which held emissive bits until then, becomes
+ * light's again. One thread per block of 2x2x2 cells of the box. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACE
 #include "surface.glsl"
 
@@ -82,20 +84,30 @@ float resolve_filled(float covered, int bits, uint facing)
     return corner && bits > most_of_speck ? 1.0 : min(covered / (float(max(bits, 1)) * SDFGI_EMISSION_STEPS), 1.0);
 }
 
-uvec2 resolve_emission(uint block, uvec3 block_texel)
+/* Takes a block's bits, and clears those that emit; returns how many did. */
+int take_bits(uvec3 block_texel)
 {
-    const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
-    if (covered == 0.0)
-        return uvec2(0u);
-    int bits = 0;
+    int count = 0;
     for (uint i = 0u; i < 8u; i++) {
         const uvec3 texel = 2u * block_texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
         const uint index = texel_index(texel) | args.cascade << (3u * sdfgi_frame.size.y);
         block_bits[i] = sdfgi_bits[index];
         block_emissive[i] = sdfgi_light[index];
-        bits += bitCount(block_emissive[i].x) + bitCount(block_emissive[i].y);
+        sdfgi_light[index] = uvec2(0u);
+        count += bitCount(block_emissive[i].x) + bitCount(block_emissive[i].y);
     }
+    return count;
+}
+
+uvec2 resolve_emission(uint block, uvec3 block_texel)
+{
+    const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
     const uint facing = accumulated(SDFGI_ACCUM_EMISSION_FACING, block);
+    if (covered == 0.0 && facing == 0u)
+        return uvec2(0u);
+    const int bits = take_bits(block_texel);
+    if (covered == 0.0)
+        return uvec2(0u);
     float shares[6], largest = 0.0;
     for (uint axis = 0u; axis < 6u; axis++) {
         shares[axis] = (facing >> axis & 1u) != 0u ? resolve_seen_share(axis) : 0.0;

@@ -99,21 +99,31 @@ bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
     return true;
 }
 
-/* Sets up everything that does not depend on the column. False if the triangle has no area or misses the box. Nothing but
- * the range of columns depends on the box or on where the cascade is: a sub-voxel comes out the same whenever it is made. */
-bool triangle_setup(inout triangle t, vec3 v[3])
+/* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box. Nothing but the range
+ * of columns depends on the box or on where the cascade is: a sub-voxel comes out the same whenever it is made. */
+bool triangle_place(inout triangle t, vec3 v[3])
 {
     const ivec3 box_low = box_corner(uint(args.anchor.w)), box_high = box_corner(args.box_high);
     const vec3 low = min(v[0], min(v[1], v[2]));
     const vec3 high = max(v[0], max(v[1], v[2]));
     if (any(lessThan(high, vec3(box_low) - 0.5)) || any(greaterThan(low, vec3(box_high) + 0.5)))
         return false;
-    const vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
-    const vec3 height = abs(normal);
+    const vec3 height = abs(cross(v[1] - v[0], v[2] - v[0]));
     const float largest = max(height.x, max(height.y, height.z));
     if (!(largest > 1e-12))
         return false;
     t.axis = height.x >= largest ? 0 : (height.y >= largest ? 1 : 2);
+    /* A column's centre, or a point half a sub-voxel beside it along x or y, must be inside. */
+    const vec2 first = max(permute(low, t.axis).xy - 1.0 - EDGE_MARGIN, vec2(permute(box_low, t.axis).xy));
+    const vec2 last = min(permute(high, t.axis).xy + EDGE_MARGIN, vec2(permute(box_high, t.axis).xy - 1));
+    t.columns = ivec4(ivec2(ceil(first)), ivec2(floor(last)));
+    return t.columns.x <= t.columns.z && t.columns.y <= t.columns.w;
+}
+
+/* Sets up what all columns need of a triangle whose dominant axis is known. */
+void triangle_setup(inout triangle t, vec3 v[3])
+{
+    const vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
     const vec3 n = permute(normal, t.axis);
     t.slope = -n.xy / n.z;
     for (int i = 0; i < 3; i++)
@@ -136,14 +146,7 @@ bool triangle_setup(inout triangle t, vec3 v[3])
     /* Cells are y_scale as high as wide: back to metric lengths, and to the side that the mesh calls front. */
     const vec3 metric = normal / vec3(1.0, space_y_scale(), 1.0);
     t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_MIRRORED) != 0u ? -1.0 : 1.0);
-
-    const vec3 plow = permute(low, t.axis), phigh = permute(high, t.axis);
-    t.tiny = all(lessThan(phigh - plow, vec3(1.0)));
-    /* A column's centre, or a point half a sub-voxel beside it along x or y, must be inside. */
-    const vec2 first = max(plow.xy - 1.0 - EDGE_MARGIN, vec2(permute(box_low, t.axis).xy));
-    const vec2 last = min(phigh.xy + EDGE_MARGIN, vec2(permute(box_high, t.axis).xy - 1));
-    t.columns = ivec4(ivec2(ceil(first)), ivec2(floor(last)));
-    return t.columns.x <= t.columns.z && t.columns.y <= t.columns.w;
+    t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));
 }
 
 bool triangle_inside(triangle t, vec2 p)

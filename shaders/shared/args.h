@@ -18,8 +18,8 @@ struct sdfgi_voxelize_args {
     ivec4 anchor;        /* xyz: the anchor's sub-voxel in the cascade; w: low corner of the box of cells to fill, 10 bits each */
     uint cascade;
     uint triangle_count;
-    uint threads;        /* of a workgroup that share a triangle: a power of two up to SDFGI_GROUP_TRIANGLE */
-    uint slices;         /* workgroups that share it then, where all threads do */
+    uint groups;         /* of SDFGI_GROUP_TRIANGLE triangles */
+    uint slices;         /* workgroups that share the columns of a group of triangles */
     uint material;
     uint flags;          /* SDFGI_MESH_* */
     uint position_offset, position_stride; /* in words, as all that follow */
@@ -49,7 +49,7 @@ SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
 struct sdfgi_pass_args {
     ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high) */
     uint cascade;
-    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring; region_clear: 1 for light alone */
+    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring */
     uint source;          /* flood: which of the two pointer halves is read */
     uint fresh;           /* 1: probe passes, no earlier ring counts; cell_mask, no earlier mask counts */
 };

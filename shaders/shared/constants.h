@@ -46,7 +46,7 @@
 #define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
 #define SDFGI_GROUP_LINES 128      /* threads that share eight lines of cells, or a layer */
 #define SDFGI_LINES 8              /* lines of a workgroup */
-#define SDFGI_GROUP_TRIANGLE 32    /* threads that share one triangle */
+#define SDFGI_GROUP_TRIANGLE 64    /* threads that share as many triangles */
 #define SDFGI_GROUP_PROBE 32       /* threads that share one probe */
 #define SDFGI_GROUP_OCCLUSION 64   /* threads that share one probe's 256 depths */
 #define SDFGI_GROUP_PIXELS 8       /* 8x8: one thread per pixel */

@@ -111,7 +111,7 @@ static void visit_all(const struct spirv_visitor *visitor)
     X(sdfgi_voxelize_args, rows)                                                                             \
     X(sdfgi_voxelize_args, cascade)                                                                          \
     X(sdfgi_voxelize_args, triangle_count)                                                                   \
-    X(sdfgi_voxelize_args, threads)                                                                          \
+    X(sdfgi_voxelize_args, groups)                                                                           \
     X(sdfgi_voxelize_args, slices)                                                                           \
     X(sdfgi_voxelize_args, material)                                                                         \
     X(sdfgi_voxelize_args, flags)                                                                            \
