@@ -11,9 +11,12 @@ layout(local_size_x = SDFGI_GROUP_TRIANGLE) in;
 shared ivec4 places[SDFGI_GROUP_TRIANGLE]; /* of each thread's triangle: first column, columns in a row, dominant axis */
 shared uint ends[SDFGI_GROUP_TRIANGLE];    /* how many columns it and those before it have */
 
+/* From one thread to the next, groups are shifted against each other by about the golden section of their number: no rows
+ * of a grid of triangles line up with it. */
 uint triangle_of(uint group, uint thread)
 {
-    return thread * args.groups + group;
+    const uint shift = args.groups * 5u / 8u | 1u;
+    return thread * args.groups + (group + thread * shift) % args.groups;
 }
 
 /* How many columns of a thread's triangle are to be tested; where they are goes to its place. */
