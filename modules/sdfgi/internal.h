@@ -141,6 +141,8 @@ struct change {
     struct cell_box boxes[SDFGI_MAX_CHANGES]; /* those within the cascade are generated; rays may end elsewhere in all */
     uint32_t count;
     struct cell_box kept;      /* complete all the while */
+    int32_t before[3];         /* low corner of the cells that were complete, in the new place's cells */
+    bool begun;                /* voxels have been made */
     uint32_t box;              /* of `boxes`: next to be voxelised, ... */
     int32_t slice;             /* ... from this cell on along its longest axis */
     uint32_t layer;            /* of blocks: next to get distances */

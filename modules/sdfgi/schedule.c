@@ -142,6 +142,7 @@ static void begin_step(struct sdfgi *gi, struct cascade *cascade, const struct c
     cascade->change =
         (struct change){ .kept = kept, .at_once = coarsest && longest_shift(shift) > SDFGI_PROBE_SPACING };
     struct change *change = &cascade->change;
+    memcpy(change->before, shift, sizeof change->before);
     change->count = cell_box_difference(&whole, &kept, change->boxes);
     change->count += cell_box_difference(&old, &kept, change->boxes + change->count);
     begin_change(gi, cascade);

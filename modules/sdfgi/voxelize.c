@@ -220,14 +220,35 @@ static void record_box(struct frame *frame, enum pass pass, const struct sdfgi_p
     pass_end(frame);
 }
 
+/* Boxes around what goes and comes lie in strips along z, or where cells moved along z alone, along x: slabs
+ * are cut across. Where nothing is kept, nobody asks. */
+static int32_t content_axis(const struct change *change)
+{
+    if (cell_box_empty(&change->kept))
+        return -1;
+    return change->before[2] != 0 && change->before[0] == 0 && change->before[1] == 0 ? 0 : 2;
+}
+
+/* Before the first box of a change. */
+static void forget_content(struct frame *frame, uint32_t c)
+{
+    struct change *change = &frame->gi->cascades[c].change;
+    if (!change->begun && content_axis(change) >= 0)
+        pass_clear(frame, RESOURCE_CONTENT, (uint64_t)c * SDFGI_CONTENT_BYTES, SDFGI_CONTENT_BYTES);
+    change->begun = true;
+}
+
 void voxelize_record(struct frame *frame, uint32_t c, const struct cell_box *box)
 {
     struct sdfgi *gi = frame->gi;
+    const struct change *change = &gi->cascades[c].change;
     const struct sdfgi_pass_args args = {
         .low = { box->low[0], box->low[1], box->low[2], 0 },
         .high = { box->high[0], box->high[1], box->high[2], 0 },
+        .before = { change->before[0], change->before[1], change->before[2], content_axis(change) },
         .cascade = c,
     };
+    forget_content(frame, c);
     record_box(frame, PASS_REGION_CLEAR, &args, 4);
     if (gi->plan[PASS_VOXELIZE].run)
         record_compute(frame, c, box);

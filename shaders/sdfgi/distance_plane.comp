@@ -63,10 +63,13 @@ uint row_of_cell(uint place, uint z)
     return (bits.x & 1u) | (bits.x >> 15u & 2u) | (bits.y & 1u) << 2u | (bits.y >> 15u & 2u) << 2u;
 }
 
-uint row_of_four_cells(uint place, uint z)
+/* The sub-voxels of a row in a run. */
+uint row_of_run(uint place, uint run)
 {
-    return row_of_cell(place, z) | row_of_cell(place, z + 1u) << 4u | row_of_cell(place, z + 2u) << 8u |
-           row_of_cell(place, z + 3u) << 12u;
+    uint row = 0u;
+    for (uint i = 0u; i < 8u; i++)
+        row |= row_of_cell(place, 8u * run + i) << 4u * i;
+    return row;
 }
 
 /* A bit per run in which a row holds bits. All are read at once: one wait. */
@@ -87,29 +90,16 @@ const int NOTHING = 1 << 16; /* sub-voxels: further than any */
 int way_below(uint place, uint runs, uint run)
 {
     const int below = findMSB(runs & ((1u << run) - 1u));
-    if (below < 0)
-        return NOTHING;
-    const uint high = row_of_four_cells(place, 8u * uint(below) + 4u);
-    const int last = high != 0u ? 16 + findMSB(high) : findMSB(row_of_four_cells(place, 8u * uint(below)));
-    return 32 * (int(run) - below) - 1 - last;
+    const int last = findMSB(row_of_run(place, uint(max(below, 0))));
+    return below < 0 ? NOTHING : 32 * (int(run) - below) - 1 - last;
 }
 
 /* From the high end of a run up to the nearest set one above it. */
 int way_above(uint place, uint runs, uint run)
 {
     const int above = findLSB(runs & ~1u << run);
-    if (above < 0)
-        return NOTHING;
-    const uint low = row_of_four_cells(place, 8u * uint(above));
-    const int first = low != 0u ? findLSB(low) : 16 + findLSB(row_of_four_cells(place, 8u * uint(above) + 4u));
-    return 32 * (above - int(run) - 1) + first;
-}
-
-uint bits_of_run(uint place, uint runs, uint run)
-{
-    if ((runs >> run & 1u) == 0u)
-        return 0u;
-    return row_of_four_cells(place, 8u * run) | row_of_four_cells(place, 8u * run + 4u) << 16u;
+    const int first = findLSB(row_of_run(place, uint(max(above, 0))));
+    return above < 0 ? NOTHING : 32 * (above - int(run) - 1) + first;
 }
 
 /* Steps of a sub-voxel from the one next to a cell's centre to the nearest set one of a row, on either side. */
@@ -128,7 +118,8 @@ void put_rows(uint first)
         const uint at = line_rank(place) - first, run = first_z() >> 3u;
         if (!line_holds(place) || at >= BATCH)
             continue;
-        const uint runs = runs_of_row(place), bits = bits_of_run(place, runs, run);
+        /* Nothing here asks before it reads: all three runs are waited for once. */
+        const uint runs = runs_of_row(place), bits = row_of_run(place, run);
         const int below = way_below(place, runs, run), above = way_above(place, runs, run);
         for (uint i = 0u; i < LINES; i++) {
             const uint own = i + (at >> 2u) & (LINES - 1u), steps = steps_along_row(bits, own, below, above);

@@ -1,71 +1,93 @@
 /* SPDX-License-Identifier: MIT
- * Which blocks of 4^3 cells to search: those with a cell that lies in a changed box, or whose nearest sub-voxel may have been
- * in one, or may be in one now. Stored lengths are rounded down and rounding keeps order: a box whose nearest sub-voxel would
- * be stored as further away cannot matter. One workgroup per column of blocks along y, one thread per block. */
+ * Which blocks of 4^3 cells to search: those that touch a changed box, and those with a cell whose nearest sub-voxel may have
+ * gone, or may be one that came (content.glsl). Stored lengths are rounded down and rounding keeps order: a box whose nearest
+ * sub-voxel would be stored as further away cannot matter. One workgroup per column of blocks along y, four threads per block. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "content.glsl"
 #include "occupancy.glsl"
 
-layout(local_size_x = SDFGI_GROUP_LINEAR) in;
+layout(local_size_x = SDFGI_GROUP_LINES) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_stale_args args; };
 
+const uint BOXES = uint(2 * SDFGI_CONTENT_STRIPS);
+const uint BLOCKS = uint(SDFGI_GROUP_LINES / 4);
+
+shared ivec3 content_lows[BOXES], content_highs[BOXES];
+shared uint content_count;
 shared uint stale[2];
 
+/* Brings boxes that hold anything to the front, in any order. */
+void fetch_content()
+{
+    const uint lane = gl_LocalInvocationIndex;
+    if (lane == 0u)
+        content_count = 0u;
+    barrier();
+    if (lane < BOXES && content_any(args.cascade, lane)) {
+        const uint i = atomicAdd(content_count, 1u);
+        content_lows[i] = content_low(args.cascade, lane);
+        content_highs[i] = content_high(args.cascade, lane);
+    }
+    barrier();
+}
+
 /* Two's complement, 16 bits each. */
-ivec3 box_low(uint i)
+bool block_changed(ivec3 block)
 {
-    return ivec3(args.corners[3u * i], args.corners[3u * i + 1u], args.corners[3u * i + 2u]) << 16 >> 16;
-}
-
-ivec3 box_high(uint i)
-{
-    return ivec3(args.corners[3u * i], args.corners[3u * i + 1u], args.corners[3u * i + 2u]) >> 16;
-}
-
-bool box_matters(uint i, ivec3 cell, uint stored)
-{
-    /* Along each axis, from the cell's centre to the nearest sub-voxel of the box. Further than the cascade is wide is as good
-     * as that: nearer than it is only costs a search. */
-    const ivec3 way = clamp(max(8 * (box_low(i) - cell) - 3, 8 * (cell - box_high(i)) + 5), 1, 8 * space_resolution() - 1);
-    if (way == ivec3(1))
-        return true;
-    const uvec3 square = uvec3(way * way);
-    return distance_encode(16u * (square.x + square.z) + distance_y_weight() * square.y) <= stored;
-}
-
-bool cell_is_stale(ivec3 cell, uint stored)
-{
-    for (uint i = 0u; i < args.box_count; i++)
-        if (box_matters(i, cell, stored))
+    for (uint i = 0u; i < args.box_count; i++) {
+        const ivec3 corners = ivec3(args.corners[3u * i], args.corners[3u * i + 1u], args.corners[3u * i + 2u]);
+        if (all(lessThan(corners << 16 >> 16, 4 * block + 4)) && all(greaterThan(corners >> 16, 4 * block)))
             return true;
+    }
     return false;
 }
 
-bool block_is_stale(ivec3 block)
+/* Whether a sub-voxel of a box may be as near to the centre of a cell of [first, last] as `stored` says. Further than the
+ * cascade is wide is as good as that: nearer than it is only costs a search. */
+bool content_reaches(uint box, ivec3 first, ivec3 last, uint stored)
 {
-    if (args.box_count == 0u)
-        return true;
-    for (int i = 0; i < 32; i++) {
-        const ivec3 cell = 4 * block + ivec3(2 * (i & 1), i >> 1 & 3, i >> 3);
-        const uint pair = sdfgi_distances[cell_index(args.cascade, cell) >> 1u];
-        if (cell_is_stale(cell, pair & 0xffffu) || cell_is_stale(cell + ivec3(1, 0, 0), pair >> 16u))
-            return true;
+    const ivec3 way = clamp(max(8 * (content_lows[box] - last) - 3, 8 * (first - content_highs[box]) + 5), 1,
+                            8 * space_resolution() - 1);
+    const uvec3 square = uvec3(way * way);
+    return distance_square(16u * (square.x + square.z) + distance_y_weight() * square.y) <= stored * (stored + 2u);
+}
+
+/* A layer of 4x4 cells. */
+bool layer_is_stale(ivec3 first)
+{
+    uint pairs[8], most = 0u;
+    for (int i = 0; i < 8; i++)
+        pairs[i] = sdfgi_distances[cell_index(args.cascade, first + ivec3(2 * (i & 1), i >> 1, 0)) >> 1u];
+    for (int i = 0; i < 8; i++)
+        most = max(most, max(pairs[i] & 0xffffu, pairs[i] >> 16u));
+    for (uint box = 0u; box < content_count; box++) {
+        if (!content_reaches(box, first, first + ivec3(3, 3, 0), most))
+            continue;
+        for (int i = 0; i < 8; i++) {
+            const ivec3 cell = first + ivec3(2 * (i & 1), i >> 1, 0);
+            if (content_reaches(box, cell, cell, pairs[i] & 0xffffu) ||
+                content_reaches(box, cell + ivec3(1, 0, 0), cell + ivec3(1, 0, 0), pairs[i] >> 16u))
+                return true;
+        }
     }
     return false;
 }
 
 void main()
 {
-    const uint y = gl_LocalInvocationIndex, side = sdfgi_frame.size.x >> 2u;
-    const uvec3 block = uvec3(gl_WorkGroupID.x, y, args.first + gl_WorkGroupID.y);
-    if (y < 2u)
-        stale[y] = 0u;
+    const uint lane = gl_LocalInvocationIndex, side = sdfgi_frame.size.x >> 2u;
+    if (lane < 2u)
+        stale[lane] = 0u;
+    fetch_content();
+    for (uint y = lane / 4u; y < side; y += BLOCKS) {
+        const ivec3 block = ivec3(gl_WorkGroupID.x, y, args.first + gl_WorkGroupID.y);
+        if (args.box_count == 0u || block_changed(block) || layer_is_stale(4 * block + ivec3(0, 0, lane & 3u)))
+            atomicOr(stale[y >> 5u], 1u << (y & 31u));
+    }
     barrier();
-    if (y < side && block_is_stale(ivec3(block)))
-        atomicOr(stale[y >> 5u], 1u << (y & 31u));
-    barrier();
-    if (y < 2u)
-        sdfgi_scratch[stale_slot(block.x, block.z) + y] = stale[y];
-    if (y == 0u)
+    if (lane < 2u)
+        sdfgi_scratch[stale_slot(gl_WorkGroupID.x, args.first + gl_WorkGroupID.y) + lane] = stale[lane];
+    if (lane == 0u)
         counter_add(SDFGI_COUNTER_DISTANCE_CELLS, 64u * uint(bitCount(stale[0]) + bitCount(stale[1])));
 }

@@ -146,18 +146,24 @@ void line_lower(uint cell, uint value)
     line_least[at] = min(line_least[at], value);
 }
 
+/* A team that the next one would start from is as good as asked. */
+bool line_team_asked(uint team)
+{
+    return line_slots_wanted(team, 8u);
+}
+
 /* The last cell of each team looks at all candidates; its threads take a quarter each. */
 void line_search_teams(uint count)
 {
     const uint lane = gl_LocalInvocationIndex, member = line_slot() & 3u, team = line_slot() & ~3u;
     const uint cell = (team + 4u) * line_cells_per_slot() - 1u;
     uint least = 0xffffffffu, best = 0u;
-    if (line_slots_wanted(team, 4u))
+    if (line_team_asked(team))
         line_scan(cell, count * member >> 2u, count * (member + 1u) >> 2u, least, best);
     line_part[lane] = least;
     line_best[lane] = best;
     barrier();
-    if (member == 3u && line_slots_wanted(team, 4u)) {
+    if (member == 3u && line_team_asked(team)) {
         for (uint other = lane - 3u * LINES; other < lane; other += LINES)
             if (line_part[other] < least) {
                 least = line_part[other];

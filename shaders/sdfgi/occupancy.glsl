@@ -55,10 +55,16 @@ uint distance_y_weight()
     return quarters * quarters;
 }
 
-/* Stored form, rounded down: a step is N / 32768 cells, a cell 8 half sub-voxels. */
+/* In squares of the stored step, N / 32768 cells; a cell is 8 half sub-voxels. At most 3 * 2^30. */
+uint distance_square(uint length2)
+{
+    return length2 << (20u - 2u * occupancy_side_bits());
+}
+
+/* Stored form, rounded down. */
 uint distance_encode(uint length2)
 {
-    const uint square = length2 << (20u - 2u * occupancy_side_bits()); /* at most 3 * 2^30 */
+    const uint square = distance_square(length2);
     uint root = uint(sqrt(float(square)));
     root -= uint(root * root > square);
     return root + uint((root + 1u) * (root + 1u) <= square);

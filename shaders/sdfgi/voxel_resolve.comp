@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACE
+#include "content.glsl"
 #include "surface.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -137,6 +138,9 @@ void main()
     sdfgi_albedo[out_index] = packUnorm4x8(vec4(albedo, 0.0));
     sdfgi_emission[out_index] = resolve_emission(block, block_texel);
     sdfgi_normals[out_index] = resolve_normals(block);
-    if (count > 0u)
-        counter_add(SDFGI_COUNTER_VOXELS, count);
+    if (count == 0u)
+        return;
+    counter_add(SDFGI_COUNTER_VOXELS, count);
+    if (args.before.w >= 0)
+        content_add(args.cascade, CONTENT_CAME, args.before.w, cell, cell + 2);
 }

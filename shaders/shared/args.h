@@ -48,12 +48,13 @@ SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
 /* Passes over cells, probes and light cells. */
 struct sdfgi_pass_args {
     ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high) */
+    ivec4 before;         /* xyz: low corner of the cells whose storage the box takes; w: axis of content.glsl's strips, -1: none */
     uint cascade;
     uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring */
     uint source;          /* flood: which of the two pointer halves is read */
     uint fresh;           /* 1: probe passes, no earlier ring counts; cell_mask, no earlier mask counts */
 };
-SDFGI_ASSERT_SIZE(sdfgi_pass_args, 48);
+SDFGI_ASSERT_SIZE(sdfgi_pass_args, 64);
 
 /* Boxes of cells that changed: distances near them are searched anew. */
 

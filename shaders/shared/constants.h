@@ -5,6 +5,10 @@
 
 #define SDFGI_MAX_CASCADES 8
 #define SDFGI_MAX_CHANGES 6   /* boxes of cells that a cascade makes new at once: three that enter it, three that leave */
+/* Strips across a cascade in which boxes around what went and what came are kept, see sdfgi/content.glsl. */
+#define SDFGI_CONTENT_STRIPS 16
+#define SDFGI_CONTENT_BYTES (2 * SDFGI_CONTENT_STRIPS * 6 * 4) /* of one cascade */
+#define SDFGI_CONTENT_ORIGIN 4096 /* further than any cell that leaves is from the cascade */
 #define SDFGI_PROBE_SPACING 8 /* cells between probes */
 /* Probes after which hashed places repeat: a scene moved by so many probes has the same light to the bit. */
 #define SDFGI_HASH_PERIOD 64

@@ -104,6 +104,18 @@ static void write_window(struct gi_test *t, const struct world *w)
     free(bits);
 }
 
+/* Boxes around what went and what came, as content.glsl has them: here a whole changed box each. */
+static void write_content(struct gi_test *t, const struct cell_box *changed, uint32_t count)
+{
+    uint32_t words[SDFGI_CONTENT_BYTES / 4] = { 0 };
+    for (uint32_t b = 0; b < count; b++)
+        for (uint32_t i = 0; i < 3 && !cell_box_empty(&changed[b]); i++) {
+            words[6 * b + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN - changed[b].low[i]);
+            words[6 * b + 3 + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN + changed[b].high[i]);
+        }
+    write_buffer(t, RESOURCE_CONTENT, words, sizeof words);
+}
+
 struct recording {
     struct gi_test *t;
     struct distance_part part;
@@ -139,6 +151,7 @@ static uint32_t make_parts(struct gi_test *t, const struct cell_box *changed, ui
     static const uint32_t layers[] = { 3, 1, 12 };
     uint32_t first = 0;
     fill_buffer(t, RESOURCE_COUNTERS, 0);
+    write_content(t, changed, changed_count);
     for (uint32_t i = 0; i < 3; first += layers[i++])
         make_part(t, (struct distance_part){ first, layers[i], changed, changed_count });
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);

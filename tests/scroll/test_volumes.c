@@ -7,6 +7,7 @@
 #include "test_memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 static const double home[3] = { 0.3, 0.2, -0.4 };
@@ -113,6 +114,44 @@ static void flat_cells_scroll_too(void **state)
     gi_test_close(&t);
 }
 
+/* Share of a cascade whose distances were made anew since the newest frame that voxelised. */
+static double searched_share(struct gi_test *t)
+{
+    uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
+    const double n = t->gi->settings.resolution;
+    const double share = counters[SDFGI_COUNTER_DISTANCE_CELLS] / (n * n * n);
+    free(counters);
+    return share;
+}
+
+/* Over a plain, air is nearer to the ground below than to that which goes and comes beside it: besides the
+ * slab, an eighth, little is searched. */
+static void a_step_over_a_plain_searches_little(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = volume_settings();
+    settings.cascades = 1;
+    settings.resolution = 64;
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -40, -1.6, -40 }, (double[]){ 40, -1, 40 }, (float[]){ 0.5f, 0.5f, 0.5f },
+                  0);
+    scroll_stand(&t, home);
+    gi_test_update(&t, 1);
+    REQUIRE_NEAR(searched_share(&t), 1, 1e-6);
+    static const double ways[2][3] = { { 3.2, 0.2, -0.4 }, { 3.2, 0.2, 2.6 } };
+    for (int i = 0; i < 2; i++) {
+        const uint64_t begun = t.gi->schedule.steps_begun;
+        walk_to(&t, ways[i]);
+        REQUIRE_CMP(t.gi->schedule.steps_begun, ==, begun + 1);
+        const double share = searched_share(&t);
+        printf("a step along %c: %.1f %% searched\n", i ? 'z' : 'x', 100 * share);
+        REQUIRE_CMP(share, >=, 0.125);
+        REQUIRE_CMP(share, <, 0.4);
+    }
+    gi_test_close(&t);
+}
+
 /* Steps of one cascade, one a frame, anywhere within a world: nothing adds up, and nothing is left behind. */
 static void hard_19_a_journey_of_a_thousand_steps_leaves_no_trace(void **state)
 {
@@ -172,6 +211,7 @@ int main(void)
         cmocka_unit_test(hard_19_a_journey_of_a_thousand_steps_leaves_no_trace),
         cmocka_unit_test(hard_20_a_closed_loop_ends_where_it_began),
         cmocka_unit_test(flat_cells_scroll_too),
+        cmocka_unit_test(a_step_over_a_plain_searches_little),
     };
     return cmocka_run_group_tests_name("scroll_volumes", tests, NULL, NULL);
 }

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+ * Where sub-voxels of a change went and came: other distances can only differ near there. Of each cascade, boxes of cells around
+ * all that went and around all that came, one of each per strip across the cascade, in cells of the place that it moves to. */
+#ifndef SDFGI_CONTENT_GLSL
+#define SDFGI_CONTENT_GLSL
+
+#include "pass.glsl"
+
+/* Six words per box: how far it reaches from SDFGI_CONTENT_ORIGIN downwards, and upwards. Zeroes are no box, maxima its growth. */
+layout(std430, set = 0, binding = SDFGI_BINDING_CONTENT) buffer sdfgi_content_buffer
+{
+    uint sdfgi_content[];
+};
+
+const uint CONTENT_WENT = 0u;
+const uint CONTENT_CAME = uint(SDFGI_CONTENT_STRIPS);
+
+uint content_slot(uint cascade, uint box)
+{
+    return 6u * (cascade * 2u * uint(SDFGI_CONTENT_STRIPS) + box);
+}
+
+/* Testing first spares contended atomics. */
+void content_raise(uint slot, int value)
+{
+    if (sdfgi_content[slot] < uint(value))
+        atomicMax(sdfgi_content[slot], uint(value));
+}
+
+/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. */
+void content_add(uint cascade, uint what, int axis, ivec3 low, ivec3 high)
+{
+    const int strip = clamp(low[axis] * SDFGI_CONTENT_STRIPS >> int(sdfgi_frame.size.y), 0, SDFGI_CONTENT_STRIPS - 1);
+    const uint slot = content_slot(cascade, what + uint(strip));
+    for (int i = 0; i < 3; i++) {
+        content_raise(slot + uint(i), SDFGI_CONTENT_ORIGIN - low[i]);
+        content_raise(slot + 3u + uint(i), SDFGI_CONTENT_ORIGIN + high[i]);
+    }
+}
+
+bool content_any(uint cascade, uint box)
+{
+    return sdfgi_content[content_slot(cascade, box)] != 0u;
+}
+
+ivec3 content_low(uint cascade, uint box)
+{
+    const uint slot = content_slot(cascade, box);
+    return SDFGI_CONTENT_ORIGIN - ivec3(sdfgi_content[slot], sdfgi_content[slot + 1u], sdfgi_content[slot + 2u]);
+}
+
+ivec3 content_high(uint cascade, uint box)
+{
+    const uint slot = content_slot(cascade, box) + 3u;
+    return ivec3(sdfgi_content[slot], sdfgi_content[slot + 1u], sdfgi_content[slot + 2u]) - SDFGI_CONTENT_ORIGIN;
+}
+
+#endif
