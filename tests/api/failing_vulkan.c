@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "failing_vulkan.h"
 
+#include "empty.comp.h"
+
 #include <vulkan/vulkan.h>
 
-#include <stdbool.h>
 #include <string.h>
 
 static uint32_t calls, failing_call;
 static VkResult failure;
+static bool skip_shaders;
 
 void failing_vulkan_reset(uint32_t fail_at, VkResult result)
 {
@@ -19,6 +21,11 @@ void failing_vulkan_reset(uint32_t fail_at, VkResult result)
 uint32_t failing_vulkan_calls(void)
 {
     return calls;
+}
+
+void failing_vulkan_skip_shaders(bool skip)
+{
+    skip_shaders = skip;
 }
 
 static bool fails(void)
@@ -92,11 +99,37 @@ static bool fails(void)
 FALLIBLE(WRAPPER)
 #undef WRAPPER
 
+static VKAPI_ATTR VkResult VKAPI_CALL create_empty_pipeline(VkDevice device, VkPipelineCache cache,
+                                                            uint32_t count,
+                                                            const VkComputePipelineCreateInfo *infos,
+                                                            const VkAllocationCallbacks *callbacks,
+                                                            VkPipeline *out)
+{
+    const VkShaderModuleCreateInfo code = { .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = sizeof empty_comp,
+                                            .pCode = empty_comp };
+    VkComputePipelineCreateInfo info = infos[0]; /* the library makes them one by one */
+    VkResult result =
+        count == 1 ? vkCreateShaderModule(device, &code, NULL, &info.stage.module) : VK_ERROR_UNKNOWN;
+    if (result != VK_SUCCESS)
+        return result;
+    result = vkCreateComputePipelines(device, cache, 1, &info, callbacks, out);
+    vkDestroyShaderModule(device, info.stage.module, NULL);
+    return result;
+}
+
+static PFN_vkVoidFunction real_function(VkDevice device, const char *name)
+{
+    if (skip_shaders && strcmp(name, "vkCreateComputePipelines") == 0)
+        return (PFN_vkVoidFunction)create_empty_pipeline;
+    return vkGetDeviceProcAddr(device, name);
+}
+
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
 {
 #define CHOOSE(id, parameters, arguments)                                                                    \
     if (strcmp(name, "vk" #id) == 0) {                                                                       \
-        real_##id = (PFN_vk##id)vkGetDeviceProcAddr(device, name);                                           \
+        real_##id = (PFN_vk##id)real_function(device, name);                                                 \
         return (PFN_vkVoidFunction)failing_##id;                                                             \
     }
     FALLIBLE(CHOOSE)

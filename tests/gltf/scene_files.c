@@ -1,56 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene_files.h"
 
-#include <dirent.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static char folder[FILES_PATH_SIZE / 2];
-
-int files_setup(void **state)
-{
-    (void)state;
-    const char *const temporary = getenv("TMPDIR");
-    const int length =
-        snprintf(folder, sizeof folder - 6, "%s/gltf_test_", temporary == NULL ? "/tmp" : temporary);
-    assert_true(length > 0 && (size_t)length < sizeof folder - 6);
-    memset(folder + length, 'X', 6); /* what mkdtemp replaces */
-    return mkdtemp(folder) == NULL;
-}
-
-int files_teardown(void **state)
-{
-    (void)state;
-    DIR *const dir = opendir(folder);
-    if (dir == NULL)
-        return 1;
-    for (const struct dirent *entry = readdir(dir); entry != NULL; entry = readdir(dir))
-        if (entry->d_name[0] != '.')
-            unlink(files_path(entry->d_name));
-    closedir(dir);
-    return rmdir(folder);
-}
-
-const char *files_path(const char *name)
-{
-    static char path[FILES_PATH_SIZE];
-    snprintf(path, sizeof path, "%.120s/%.120s", folder, name);
-    return path;
-}
-
-void files_write(const char *name, const void *data, size_t size)
-{
-    FILE *const f = fopen(files_path(name), "wb");
-    assert_non_null(f);
-    assert_int_equal(fwrite(data, 1, size, f), size);
-    assert_int_equal(fclose(f), 0);
-}
-
-void files_write_text(const char *name, const char *text)
-{
-    files_write(name, text, strlen(text));
-}
 
 static void u32_put(uint8_t *p, uint32_t value)
 {

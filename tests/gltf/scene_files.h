@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * glTF files made by the tests: a folder that goes away with the test, drafts that collect accessors and end
+ * glTF files made by the tests: drafts that collect accessors and end
  * as a .glb, PNG images, and the check that every loaded scene must pass.
  */
 #ifndef TESTS_GLTF_SCENE_FILES_H
 #define TESTS_GLTF_SCENE_FILES_H
 
+#include "files.h"
 #include "gltf_scene.h"
 
 #include <setjmp.h>
@@ -16,7 +17,7 @@
 
 #include <cmocka.h>
 
-enum { FILES_PATH_SIZE = 256, DRAFT_TEXT_SIZE = 8192, DRAFT_BINARY_SIZE = 16384 };
+enum { DRAFT_TEXT_SIZE = 8192, DRAFT_BINARY_SIZE = 16384 };
 
 /* glTF's codes for component types. */
 enum component {
@@ -45,14 +46,6 @@ struct elements {
     const char *more; /* further members of the accessor, each with a comma before it; or NULL */
 };
 
-/* cmocka group fixtures: a temporary folder. */
-int files_setup(void **state);
-int files_teardown(void **state);
-
-/* The path of a file in the folder; valid until the next call. */
-const char *files_path(const char *name);
-void files_write(const char *name, const void *data, size_t size);
-void files_write_text(const char *name, const char *text);
 size_t glb_assemble(uint8_t *out, size_t capacity, const char *json, const void *binary, size_t binary_size);
 
 /* Each appends, and returns the index of what was appended. */

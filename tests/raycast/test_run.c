@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Runs: the same bits for the same seed, interrupted or not; states and settings that are refused. */
+#include "files.h"
 #include "scenes.h"
 
 #include <math.h>
@@ -12,23 +13,9 @@ enum { WIDTH = 40, HEIGHT = 24, VALUES = WIDTH * HEIGHT * 3, ERROR_BYTES = 256 }
 
 static const struct raycast_settings small = { .width = WIDTH, .height = HEIGHT, .seed = 7 };
 
-static char state_path[64];
-
-static int set_up(void **state)
+static const char *state_path(void)
 {
-    (void)state;
-    strcpy(state_path, "/tmp/raycast_test_XXXXXX");
-    const int file = mkstemp(state_path);
-    if (file < 0)
-        return 1;
-    close(file);
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return remove(state_path);
+    return files_path("picture.state");
 }
 
 /* A room corner with a lamp, blended glass and an emitter, away from the origin by `shift` metres. */
@@ -117,10 +104,10 @@ static void interrupted_run_resumes_to_the_same_bits(void **state)
     uint32_t done = 0;
     assert_false(raycast_render(b, &(struct raycast_budget){ .samples = 20 }, stop_at_once, &done, NULL));
     assert_in_range(done, 1, 19);
-    assert_true(raycast_state_save(b, state_path, error, sizeof error));
+    assert_true(raycast_state_save(b, state_path(), error, sizeof error));
     raycast_destroy(b);
     struct raycast *c = tracer_create(&s, &v, &small);
-    assert_true(raycast_state_load(c, state_path, error, sizeof error));
+    assert_true(raycast_state_load(c, state_path(), error, sizeof error));
     render(c, 20, resumed);
     assert_true(raycast_image(c, RAYCAST_AOV_VARIANCE, variance[1]));
     assert_memory_equal(whole, resumed, sizeof whole);
@@ -138,13 +125,13 @@ static void refuses(const struct raycast_view *v, const struct built_scene *s,
     struct raycast *rc = tracer_create(s, v, &settings);
     if (settings.width == WIDTH) {
         render(rc, 1, before);
-        assert_false(raycast_state_load(rc, state_path, error, sizeof error));
+        assert_false(raycast_state_load(rc, state_path(), error, sizeof error));
         render(rc, 1, after);
         assert_memory_equal(before, after, sizeof before);
     } else {
-        assert_false(raycast_state_load(rc, state_path, error, sizeof error));
+        assert_false(raycast_state_load(rc, state_path(), error, sizeof error));
     }
-    assert_non_null(strstr(error, state_path));
+    assert_non_null(strstr(error, state_path()));
     raycast_destroy(rc);
 }
 
@@ -157,7 +144,7 @@ static void states_of_other_pictures_are_refused(void **state)
     struct raycast_view v = scene_make(&s, 0);
     struct raycast *rc = tracer_create(&s, &v, &small);
     render(rc, 2, picture);
-    assert_true(raycast_state_save(rc, state_path, error, sizeof error));
+    assert_true(raycast_state_save(rc, state_path(), error, sizeof error));
     raycast_destroy(rc);
     struct raycast_settings settings = small;
     settings.seed = 6;
@@ -175,7 +162,7 @@ static void states_of_other_pictures_are_refused(void **state)
     refuses(&v, &s, small);
     s.primitives[0].positions[4] -= 0.125f;
     /* Last byte changed, then cut off, then all of it. */
-    FILE *file = fopen(state_path, "r+b");
+    FILE *file = fopen(state_path(), "r+b");
     fseek(file, -1, SEEK_END);
     const int last = fgetc(file);
     fseek(file, -1, SEEK_END);
@@ -183,9 +170,9 @@ static void states_of_other_pictures_are_refused(void **state)
     const long size = ftell(file);
     fclose(file);
     refuses(&v, &s, small);
-    assert_int_equal(truncate(state_path, size - 1), 0);
+    assert_int_equal(truncate(state_path(), size - 1), 0);
     refuses(&v, &s, small);
-    assert_int_equal(truncate(state_path, 0), 0);
+    assert_int_equal(truncate(state_path(), 0), 0);
     refuses(&v, &s, small);
     scene_finish(&s);
 }
@@ -320,5 +307,5 @@ int main(void)
         cmocka_unit_test(wrong_views_are_refused_by_name),
         cmocka_unit_test(an_empty_scene_is_its_sky),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Truth over voxels: the same known answers as over triangles where discretisation cannot change them, and no
  * light through closed walls at any angle. */
+#include "files.h"
 #include "voxel_scene.h"
 
 #include <math.h>
@@ -265,25 +266,22 @@ static void room_agrees_with_triangles(void **state)
 static void volumes_are_part_of_a_picture(void **state)
 {
     (void)state;
-    char path[] = "/tmp/raycast_voxels_XXXXXX", error[ERROR_BYTES] = "";
+    char error[ERROR_BYTES] = "";
     struct built_scene s;
     struct voxel_scene v;
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
     room_build(&s);
     voxel_scene_init(&v, &s, 0.1, 1, 1);
     const struct raycast_view view = lambert_view(0, -0.4, -1);
     const struct raycast_settings settings = { .width = 8, .height = 8, .voxels = &v.voxels };
     struct raycast *a = tracer_create(&s, &view, &settings);
     assert_true(raycast_render(a, &(struct raycast_budget){ .samples = 2 }, NULL, NULL, NULL));
-    assert_true(raycast_state_save(a, path, error, sizeof error));
-    assert_true(raycast_state_load(a, path, error, sizeof error));
+    assert_true(raycast_state_save(a, files_path("picture.state"), error, sizeof error));
+    assert_true(raycast_state_load(a, files_path("picture.state"), error, sizeof error));
     raycast_destroy(a);
     v.bits[0][5]++;
     struct raycast *b = tracer_create(&s, &view, &settings);
-    assert_false(raycast_state_load(b, path, error, sizeof error));
+    assert_false(raycast_state_load(b, files_path("picture.state"), error, sizeof error));
     raycast_destroy(b);
-    assert_int_equal(remove(path), 0);
     voxel_scene_finish(&v);
     scene_finish(&s);
 }
@@ -319,7 +317,7 @@ int main(void)
         cmocka_unit_test(emissive_voxels_match_their_form_factor),
         cmocka_unit_test(sealed_room_stays_dark),
         cmocka_unit_test(room_agrees_with_triangles),
-        cmocka_unit_test(volumes_are_part_of_a_picture),
+        cmocka_unit_test_setup_teardown(volumes_are_part_of_a_picture, files_setup, files_teardown),
         cmocka_unit_test(volumes_off_the_lattice_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "far_scene.h"
 
-#include <math.h>
-#include <stdint.h>
+#include "files.h"
+#include "require.h"
+
 #include <stdio.h>
-#include <string.h>
 
 /* Boxes as centre, size and colour. The root node carries the shift, half of it as a matrix, half as a
  * translation further down: the importer has to add them up in doubles. */
@@ -26,15 +26,17 @@ static const struct box boxes[] = {
 enum { BOX_COUNT = sizeof boxes / sizeof boxes[0], FACES = 6, VERTICES = 4 * FACES, INDICES = 6 * FACES };
 
 /* A cube of side 1 around the origin. */
-static bool write_cube(const char *path)
+static void write_cube(void)
 {
-    float positions[VERTICES][3], normals[VERTICES][3];
-    uint16_t indices[INDICES];
+    struct {
+        float positions[VERTICES][3], normals[VERTICES][3];
+        uint16_t indices[INDICES];
+    } cube;
     for (int face = 0; face < FACES; face++) {
         const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
         const float side = face % 2 ? -1.0f : 1.0f;
         for (int i = 0; i < 4; i++) {
-            float *p = positions[4 * face + i], *n = normals[4 * face + i];
+            float *p = cube.positions[4 * face + i], *n = cube.normals[4 * face + i];
             memset(n, 0, 3 * sizeof(float));
             n[axis] = side;
             p[axis] = 0.5f * side;
@@ -43,15 +45,9 @@ static bool write_cube(const char *path)
         }
         static const uint16_t corners[6] = { 0, 1, 2, 0, 2, 3 };
         for (int i = 0; i < 6; i++)
-            indices[6 * face + i] = (uint16_t)(4 * face + corners[i]);
+            cube.indices[6 * face + i] = (uint16_t)(4 * face + corners[i]);
     }
-    FILE *file = fopen(path, "wb");
-    if (!file)
-        return false;
-    const bool written = fwrite(positions, sizeof positions, 1, file) == 1 &&
-                         fwrite(normals, sizeof normals, 1, file) == 1 &&
-                         fwrite(indices, sizeof indices, 1, file) == 1;
-    return fclose(file) == 0 && written;
+    files_write("far.bin", &cube, sizeof cube);
 }
 
 static void write_boxes(FILE *file)
@@ -89,16 +85,12 @@ static void write_nodes(FILE *file, const double shift[3])
     fputs("],\"scenes\":[{\"nodes\":[0]}],\"scene\":0}\n", file);
 }
 
-bool far_scene_write(const char *folder, const double shift[3])
+const char *far_scene_write(const double shift[3])
 {
-    char path[512];
-    snprintf(path, sizeof path, "%s/far.bin", folder);
-    if (!write_cube(path))
-        return false;
-    snprintf(path, sizeof path, "%s/far.gltf", folder);
+    write_cube();
+    const char *path = files_path("far.gltf");
     FILE *file = fopen(path, "wb");
-    if (!file)
-        return false;
+    REQUIRE_TRUE(file != NULL);
     const unsigned bytes = 12 * VERTICES;
     fprintf(file,
             "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"far.bin\",\"byteLength\":%u}],"
@@ -112,7 +104,8 @@ bool far_scene_write(const char *folder, const double shift[3])
             INDICES);
     write_boxes(file);
     write_nodes(file, shift);
-    return fclose(file) == 0;
+    assert_int_equal(fclose(file), 0);
+    return path;
 }
 
 static void place(double out[3], const double shift[3], double x, double y, double z)

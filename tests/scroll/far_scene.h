@@ -7,10 +7,8 @@
 
 #include "host_view.h"
 
-#include <stdbool.h>
-
-/* Writes FOLDER/far.gltf and FOLDER/far.bin with everything moved by `shift`. */
-bool far_scene_write(const char *folder, const double shift[3]);
+/* Writes the scene with everything moved by `shift` into the folder of files.h; the path of its glTF file. */
+const char *far_scene_write(const double shift[3]);
 
 /* The camera and lights of the same place. */
 struct host_view far_scene_view(const double shift[3], struct host_light lights[2]);

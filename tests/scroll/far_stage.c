@@ -9,42 +9,34 @@
 #include "far_stage.h"
 
 #include "far_scene.h"
+#include "files.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 enum { SKIP = 77 };
 
-int far_place_open(struct far_place *place)
+int far_place_open(struct host_device **device)
 {
     char error[256];
     const struct host_device_desc desc = { .select = getenv("SDFGI_TEST_DEVICE") };
-    place->device = host_device_create(&desc, error, sizeof error);
-    if (!place->device) {
+    *device = host_device_create(&desc, error, sizeof error);
+    if (!*device) {
         fprintf(stderr, "skipped: %s\n", error);
         return SKIP;
     }
-    strcpy(place->folder, "sdfgi-test-far-XXXXXX");
-    if (mkdtemp(place->folder))
+    if (files_setup(NULL) == 0)
         return 0;
-    host_device_destroy(place->device);
+    host_device_destroy(*device);
     return EXIT_FAILURE;
 }
 
-int far_place_close(struct far_place *place, int failed)
+int far_place_close(struct host_device *device, int failed)
 {
-    static const char *const names[] = { "far.gltf", "far.bin" };
-    for (int i = 0; i < 2; i++) {
-        char path[64];
-        snprintf(path, sizeof path, "%s/%s", place->folder, names[i]);
-        unlink(path);
-    }
-    failed += rmdir(place->folder) != 0;
-    failed += host_device_validation_count(place->device) > 0;
-    host_device_destroy(place->device);
+    failed += files_teardown(NULL) != 0;
+    failed += host_device_validation_count(device) > 0;
+    host_device_destroy(device);
     return failed;
 }
 
@@ -61,25 +53,23 @@ static struct sdfgi_settings settings_of(bool gi)
     return settings;
 }
 
-void far_stage_open(struct far_stage *stage, const struct far_place *place, const double shift[3], bool gi,
+void far_stage_open(struct far_stage *stage, struct host_device *device, const double shift[3], bool gi,
                     uint32_t seed)
 {
-    char path[64], error[256] = "the files cannot be written";
+    char error[256];
     const struct sdfgi_settings settings = settings_of(gi);
     const struct host_renderer_desc desc = {
         .width = FAR_WIDTH, .height = FAR_HEIGHT, .settings = &settings, .seed = seed
     };
     const struct host_until_desc until = { .frames = gi ? 8 : 1 };
-    snprintf(path, sizeof path, "%s/far.gltf", place->folder);
     stage->view = far_scene_view(shift, stage->lights);
-    const bool written = far_scene_write(place->folder, shift);
-    stage->gltf = written ? gltf_scene_load(path, error, sizeof error) : NULL;
+    stage->gltf = gltf_scene_load(far_scene_write(shift), error, sizeof error);
     if (!stage->gltf)
         fail_msg("%s", error);
-    stage->scene = host_scene_create(place->device, stage->gltf, &stage->view);
-    stage->renderer = stage->scene ? host_renderer_create(place->device, stage->scene, &desc) : NULL;
+    stage->scene = host_scene_create(device, stage->gltf, &stage->view);
+    stage->renderer = stage->scene ? host_renderer_create(device, stage->scene, &desc) : NULL;
     if (!stage->renderer || !host_render_until(stage->renderer, &stage->view.camera, &until, NULL))
-        fail_msg("%s", host_device_error(place->device));
+        fail_msg("%s", host_device_error(device));
 }
 
 void far_stage_close(struct far_stage *stage)

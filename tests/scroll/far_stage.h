@@ -17,20 +17,15 @@ struct far_stage {
     struct host_renderer *renderer;
 };
 
-/* All tests of a program share one device and one folder for files. */
-struct far_place {
-    struct host_device *device;
-    char folder[32];
-};
-
-/* 0, or the exit code with which to leave. */
-int far_place_open(struct far_place *place);
+/* All tests of a program share one device and the folder of files.h. Returns 0, or the exit code with which
+ * to leave. */
+int far_place_open(struct host_device **device);
 /* Adds messages of the validation layer to `failed`, and returns it. */
-int far_place_close(struct far_place *place, int failed);
+int far_place_close(struct host_device *device, int failed);
 
 /* Cells of 1/4 m, the coarsest of 1/2 m: a shift by a power of two metres is a whole number of probes, so
  * that the cascades lie alike. */
-void far_stage_open(struct far_stage *stage, const struct far_place *place, const double shift[3], bool gi,
+void far_stage_open(struct far_stage *stage, struct host_device *device, const double shift[3], bool gi,
                     uint32_t seed);
 void far_stage_close(struct far_stage *stage);
 

@@ -14,7 +14,7 @@
 enum { PIXELS = FAR_PIXELS };
 
 static const double at_origin[3], far_out[3] = { 8388608, -1048576, 8388608 };
-static struct far_place place;
+static struct host_device *device;
 
 /* Of the scene at the origin; the last two with GI. */
 static float near_direct[4 * PIXELS], near_albedo[4 * PIXELS], near_color[4 * PIXELS],
@@ -24,13 +24,13 @@ static float picture[4 * PIXELS];
 static void read_aov(const struct far_stage *stage, enum host_aov aov, float *rgba)
 {
     if (!host_renderer_read_aov(stage->renderer, aov, rgba))
-        fail_msg("%s", host_device_error(place.device));
+        fail_msg("%s", host_device_error(device));
 }
 
 static void draw(const double shift[3], enum host_aov aov, bool gi, uint32_t seed)
 {
     struct far_stage stage;
-    far_stage_open(&stage, &place, shift, gi, seed);
+    far_stage_open(&stage, device, shift, gi, seed);
     read_aov(&stage, aov, picture);
     far_stage_close(&stage);
 }
@@ -39,11 +39,11 @@ static int draw_near(void **state)
 {
     (void)state;
     struct far_stage stage;
-    far_stage_open(&stage, &place, at_origin, false, 0);
+    far_stage_open(&stage, device, at_origin, false, 0);
     read_aov(&stage, HOST_AOV_DIRECT, near_direct);
     read_aov(&stage, HOST_AOV_ALBEDO, near_albedo);
     far_stage_close(&stage);
-    far_stage_open(&stage, &place, at_origin, true, 0);
+    far_stage_open(&stage, device, at_origin, true, 0);
     read_aov(&stage, HOST_AOV_COLOR, near_color);
     read_aov(&stage, HOST_AOV_IRRADIANCE, near_irradiance);
     far_stage_close(&stage);
@@ -141,7 +141,7 @@ static void elsewhere_only_the_noise_is_another(void **state)
 
 int main(void)
 {
-    const int code = far_place_open(&place);
+    const int code = far_place_open(&device);
     if (code)
         return code;
     const struct CMUnitTest tests[] = {
@@ -150,5 +150,5 @@ int main(void)
         cmocka_unit_test(the_whole_picture_with_gi_is_the_same),
         cmocka_unit_test(elsewhere_only_the_noise_is_another),
     };
-    return far_place_close(&place, cmocka_run_group_tests(tests, draw_near, NULL));
+    return far_place_close(device, cmocka_run_group_tests(tests, draw_near, NULL));
 }

@@ -14,7 +14,7 @@
 
 enum { POINTS = 16 };
 
-static struct far_place place;
+static struct host_device *device;
 
 /* Points of the floor, away from walls. */
 static void floor_points(const double shift[3], struct host_sample samples[POINTS])
@@ -63,7 +63,7 @@ static void a_point_has_the_light_that_the_picture_shows(void **state)
     struct host_sample samples[POINTS];
     float light[POINTS][3];
     struct far_stage stage;
-    far_stage_open(&stage, &place, at_origin, true, 0);
+    far_stage_open(&stage, device, at_origin, true, 0);
     floor_points(at_origin, samples);
     assert_true(host_renderer_sample(stage.renderer, samples, POINTS, light));
     assert_true(host_renderer_read_aov(stage.renderer, HOST_AOV_IRRADIANCE, picture));
@@ -93,7 +93,7 @@ static void far_out_the_light_is_the_same(void **state)
     float light[2][POINTS][3];
     for (int i = 0; i < 2; i++) {
         struct far_stage stage;
-        far_stage_open(&stage, &place, shifts[i], true, 0);
+        far_stage_open(&stage, device, shifts[i], true, 0);
         floor_points(shifts[i], samples);
         assert_true(host_renderer_sample(stage.renderer, samples, POINTS, light[i]));
         far_stage_close(&stage);
@@ -108,16 +108,16 @@ static void without_gi_there_is_nothing_to_sample(void **state)
     struct host_sample samples[POINTS];
     float light[POINTS][3];
     struct far_stage stage;
-    far_stage_open(&stage, &place, at_origin, false, 0);
+    far_stage_open(&stage, device, at_origin, false, 0);
     floor_points(at_origin, samples);
     assert_false(host_renderer_sample(stage.renderer, samples, POINTS, light));
-    assert_non_null(strstr(host_device_error(place.device), "off"));
+    assert_non_null(strstr(host_device_error(device), "off"));
     far_stage_close(&stage);
 }
 
 int main(void)
 {
-    const int code = far_place_open(&place);
+    const int code = far_place_open(&device);
     if (code)
         return code;
     const struct CMUnitTest tests[] = {
@@ -125,5 +125,5 @@ int main(void)
         cmocka_unit_test(far_out_the_light_is_the_same),
         cmocka_unit_test(without_gi_there_is_nothing_to_sample),
     };
-    return far_place_close(&place, cmocka_run_group_tests(tests, NULL, NULL));
+    return far_place_close(device, cmocka_run_group_tests(tests, NULL, NULL));
 }

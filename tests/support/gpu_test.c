@@ -2,6 +2,7 @@
 #include "gpu_test.h"
 
 #include "gpu_test_check.h"
+#include "gpu_test_compute.h"
 #include "test_memory.h"
 #include "require.h"
 
@@ -280,6 +281,7 @@ struct gpu_test_messages gpu_test_take_messages(struct gpu_test *gpu)
 void gpu_test_close(struct gpu_test *gpu)
 {
     if (gpu->device) {
+        gpu_test_compute_forget(gpu);
         vkDestroyCommandPool(gpu->device, gpu->command_pool, NULL);
         vkDestroyDevice(gpu->device, NULL);
     }

@@ -36,6 +36,15 @@ struct gpu_test_messages {
     bool quiet; /* count without printing: for tests that provoke messages */
 };
 
+/* The pipeline of the last shader that gpu_test_compute ran: compiling takes much longer than running. */
+struct gpu_test_pipeline {
+    const uint32_t *code;
+    VkDescriptorSetLayout given;      /* of set 0, by the caller; null: none */
+    VkDescriptorSetLayout layouts[2]; /* of sets 0 and 1 */
+    VkPipelineLayout layout;
+    VkPipeline pipeline;
+};
+
 /* Must stay where it is between open and close: the validation layer writes to `messages`. */
 struct gpu_test {
     VkInstance instance;
@@ -48,6 +57,7 @@ struct gpu_test {
     uint32_t queue_family_index; /* graphics and compute */
     VkQueue queue;
     VkCommandPool command_pool;
+    struct gpu_test_pipeline kept;
 };
 
 /* True if there is any Vulkan device; otherwise says so on stderr. */

@@ -8,9 +8,7 @@
 enum { GROUP_SIZE = 64 };
 
 struct work {
-    VkDescriptorSetLayout layouts[2]; /* of the shader's sets; the first is made here unless it was given */
-    VkPipelineLayout pipeline_layout;
-    VkPipeline pipeline;
+    const struct gpu_test_pipeline *pipeline;
     VkDescriptorPool pool;
     VkDescriptorSet sets[2];
     uint32_t count;
@@ -30,17 +28,22 @@ static VkDescriptorSetLayout set_layout_create(struct gpu_test *gpu, uint32_t bi
     return layout;
 }
 
-static void pipeline_create(struct gpu_test *gpu, const struct gpu_test_shader *shader, struct work *work)
+static void pipeline_create(struct gpu_test *gpu, const struct gpu_test_shader *shader)
 {
+    struct gpu_test_pipeline *kept = &gpu->kept;
+    kept->code = shader->code;
+    kept->given = shader->layout;
+    kept->layouts[0] = shader->layout ? shader->layout : set_layout_create(gpu, 0);
+    kept->layouts[1] = set_layout_create(gpu, 1);
     const VkPushConstantRange push = { VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(uint32_t) };
     const VkPipelineLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
         .setLayoutCount = 2,
-        .pSetLayouts = work->layouts,
+        .pSetLayouts = kept->layouts,
         .pushConstantRangeCount = 1,
         .pPushConstantRanges = &push,
     };
-    GPU_CHECK(vkCreatePipelineLayout(gpu->device, &layout, NULL, &work->pipeline_layout));
+    GPU_CHECK(vkCreatePipelineLayout(gpu->device, &layout, NULL, &kept->layout));
     const VkShaderModuleCreateInfo code = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
         .codeSize = shader->code_size,
@@ -54,9 +57,9 @@ static void pipeline_create(struct gpu_test *gpu, const struct gpu_test_shader *
                    .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                    .module = module,
                    .pName = "main" },
-        .layout = work->pipeline_layout,
+        .layout = kept->layout,
     };
-    GPU_CHECK(vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &work->pipeline));
+    GPU_CHECK(vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &kept->pipeline));
     vkDestroyShaderModule(gpu->device, module, NULL);
 }
 
@@ -74,7 +77,7 @@ static void set_create(struct gpu_test *gpu, struct work *work, VkBuffer buffer)
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
         .descriptorPool = work->pool,
         .descriptorSetCount = 1,
-        .pSetLayouts = &work->layouts[1],
+        .pSetLayouts = &work->pipeline->layouts[1],
     };
     GPU_CHECK(vkAllocateDescriptorSets(gpu->device, &allocate, &work->sets[1]));
     const VkDescriptorBufferInfo range = { buffer, 0, VK_WHOLE_SIZE };
@@ -93,31 +96,37 @@ static void record(VkCommandBuffer cmd, uint32_t index, void *user)
     (void)index;
     const struct work *work = user;
     const uint32_t first = work->sets[0] ? 0 : 1;
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, work->pipeline);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, work->pipeline_layout, first, 2 - first,
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, work->pipeline->pipeline);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, work->pipeline->layout, first, 2 - first,
                             work->sets + first, 0, NULL);
-    vkCmdPushConstants(cmd, work->pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof work->count,
+    vkCmdPushConstants(cmd, work->pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof work->count,
                        &work->count);
     vkCmdDispatch(cmd, (work->count + GROUP_SIZE - 1) / GROUP_SIZE, 1, 1);
+}
+
+void gpu_test_compute_forget(struct gpu_test *gpu)
+{
+    struct gpu_test_pipeline *kept = &gpu->kept;
+    vkDestroyPipeline(gpu->device, kept->pipeline, NULL);
+    vkDestroyPipelineLayout(gpu->device, kept->layout, NULL);
+    vkDestroyDescriptorSetLayout(gpu->device, kept->layouts[1], NULL);
+    if (!kept->given)
+        vkDestroyDescriptorSetLayout(gpu->device, kept->layouts[0], NULL);
+    *kept = (struct gpu_test_pipeline){ 0 };
 }
 
 void gpu_test_compute(struct gpu_test *gpu, const struct gpu_test_shader *shader, uint32_t count, void *data,
                       size_t size)
 {
-    struct work work = { .count = count };
+    if (gpu->kept.code != shader->code || gpu->kept.given != shader->layout) {
+        gpu_test_compute_forget(gpu);
+        pipeline_create(gpu, shader);
+    }
+    struct work work = { .pipeline = &gpu->kept, .sets = { shader->set }, .count = count };
     struct gpu_test_buffer buffer = gpu_test_buffer_host(gpu, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
-    work.layouts[0] = shader->layout ? shader->layout : set_layout_create(gpu, 0);
-    work.layouts[1] = set_layout_create(gpu, 1);
-    work.sets[0] = shader->set;
-    pipeline_create(gpu, shader, &work);
     set_create(gpu, &work, buffer.buffer);
     gpu_test_submit(gpu, record, &work);
     memcpy(data, buffer.mapped, size);
-    vkDestroyPipeline(gpu->device, work.pipeline, NULL);
-    vkDestroyPipelineLayout(gpu->device, work.pipeline_layout, NULL);
     vkDestroyDescriptorPool(gpu->device, work.pool, NULL);
-    vkDestroyDescriptorSetLayout(gpu->device, work.layouts[1], NULL);
-    if (!shader->layout)
-        vkDestroyDescriptorSetLayout(gpu->device, work.layouts[0], NULL);
     gpu_test_buffer_destroy(gpu, &buffer);
 }

@@ -13,8 +13,12 @@ struct gpu_test_shader {
     VkDescriptorSet set;          /* null: none is bound */
 };
 
-/* Runs `shader` for `count` elements on a copy of `data`, and brings back what it left there. */
+/* Runs `shader` for `count` elements on a copy of `data`, and brings back what it left there. The pipeline is
+ * kept for the next call with the same code and layout. */
 void gpu_test_compute(struct gpu_test *gpu, const struct gpu_test_shader *shader, uint32_t count, void *data,
                       size_t size);
+
+/* Destroys the pipeline that was kept. */
+void gpu_test_compute_forget(struct gpu_test *gpu);
 
 #endif

@@ -1,67 +1,35 @@
 /* SPDX-License-Identifier: MIT */
+#include "files.h"
 #include "unit.h"
 
 #include "image.h"
 #include "output_file.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 enum { WIDTH = 37, HEIGHT = 35, COUNT = WIDTH * HEIGHT };
 
-static char folder[] = "sdfgi-test-image-XXXXXX";
 static float pixels[4 * COUNT];
 static char error[256];
-
-static const char *in_folder(const char *name)
-{
-    static char path[512];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
 
 /* Numbers over twelve decades that differ in every pixel and channel. */
 static int make_folder_and_pixels(void **state)
 {
-    (void)state;
     for (int i = 0; i < 4 * COUNT; i++)
         pixels[i] =
             i % 4 == 3 ? (float)(i % 101) / 100 : (float)pow(10, (i % 97) / 8.0 - 6) * (1 + (float)(i % 7));
-    return mkdtemp(folder) ? 0 : 1;
-}
-
-static int count_files(void)
-{
-    int count = 0;
-    DIR *dir = opendir(folder);
-    assert_non_null(dir);
-    for (struct dirent *entry; (entry = readdir(dir));)
-        count += entry->d_name[0] != '.';
-    closedir(dir);
-    return count;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    DIR *dir = opendir(folder);
-    for (struct dirent *entry; dir && (entry = readdir(dir));)
-        unlink(in_folder(entry->d_name));
-    if (dir)
-        closedir(dir);
-    return rmdir(folder);
+    return files_setup(state);
 }
 
 static struct image write_and_read(const char *name, uint32_t channels)
 {
     struct image image;
-    if (!image_write_float(in_folder(name), pixels, WIDTH, HEIGHT, channels, error, sizeof error) ||
-        !image_read(&image, in_folder(name), error, sizeof error))
+    if (!image_write_float(files_path(name), pixels, WIDTH, HEIGHT, channels, error, sizeof error) ||
+        !image_read(&image, files_path(name), error, sizeof error))
         fail_msg("%s", error);
     assert_int_equal(image.width, WIDTH);
     assert_int_equal(image.height, HEIGHT);
@@ -115,8 +83,8 @@ static void png_gives_back_the_same_bytes(void **state)
         bytes[i] = (uint8_t)(i * 7);
     for (uint32_t channels = 3; channels <= 4; channels++) {
         struct image image;
-        if (!image_write_png(in_folder("a.png"), bytes, WIDTH, HEIGHT, channels, error, sizeof error) ||
-            !image_read(&image, in_folder("a.png"), error, sizeof error))
+        if (!image_write_png(files_path("a.png"), bytes, WIDTH, HEIGHT, channels, error, sizeof error) ||
+            !image_read(&image, files_path("a.png"), error, sizeof error))
             fail_msg("%s", error);
         assert_true(image.display_referred);
         assert_int_equal(image.channels, channels);
@@ -126,21 +94,13 @@ static void png_gives_back_the_same_bytes(void **state)
     }
 }
 
-static void write_bytes(const char *name, const char *bytes, size_t size)
-{
-    FILE *file = fopen(in_folder(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    fclose(file);
-}
-
 static void a_big_endian_pfm_is_swapped(void **state)
 {
     (void)state;
     /* Two rows of one pixel, from the bottom: 1.0, then 2.0. */
-    write_bytes("big.pfm", "Pf\n1 2\n1.0\n\x3f\x80\x00\x00\x40\x00\x00\x00", 19);
+    files_write("big.pfm", "Pf\n1 2\n1.0\n\x3f\x80\x00\x00\x40\x00\x00\x00", 19);
     struct image image;
-    assert_true(image_read(&image, in_folder("big.pfm"), error, sizeof error));
+    assert_true(image_read(&image, files_path("big.pfm"), error, sizeof error));
     assert_true(image.rgba[0] == 2 && image.rgba[4] == 1);
     image_finish(&image);
 }
@@ -166,14 +126,14 @@ static void broken_files_give_one_line_that_names_them(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct image image;
-        write_bytes(cases[i].name, cases[i].bytes, strlen(cases[i].bytes));
-        assert_false(image_read(&image, in_folder(cases[i].name), error, sizeof error));
+        files_write(cases[i].name, cases[i].bytes, strlen(cases[i].bytes));
+        assert_false(image_read(&image, files_path(cases[i].name), error, sizeof error));
         assert_non_null(strstr(error, cases[i].name));
         assert_null(strchr(error, '\n'));
         assert_null(image.rgba);
     }
     struct image image;
-    assert_false(image_read(&image, in_folder("missing.exr"), error, sizeof error));
+    assert_false(image_read(&image, files_path("missing.exr"), error, sizeof error));
     assert_non_null(strstr(error, "missing.exr"));
 }
 
@@ -186,10 +146,10 @@ static void truncated_files_are_refused(void **state)
         struct image image = write_and_read(names[k], 3);
         image_finish(&image);
         struct stat status;
-        assert_int_equal(stat(in_folder(names[k]), &status), 0);
+        assert_int_equal(stat(files_path(names[k]), &status), 0);
         for (off_t size = status.st_size - 1; size >= 0; size -= 1 + size / 40) {
-            assert_int_equal(truncate(in_folder(names[k]), size), 0);
-            assert_false(image_read(&image, in_folder(names[k]), error, sizeof error));
+            assert_int_equal(truncate(files_path(names[k]), size), 0);
+            assert_false(image_read(&image, files_path(names[k]), error, sizeof error));
             assert_null(image.rgba);
         }
     }
@@ -198,31 +158,31 @@ static void truncated_files_are_refused(void **state)
 static void an_unwritable_place_gives_one_line_and_no_file(void **state)
 {
     (void)state;
-    const int before = count_files();
+    const int before = files_count();
     static const uint8_t bytes[4];
-    assert_false(image_write_float(in_folder("none/a.exr"), pixels, 2, 2, 3, error, sizeof error));
+    assert_false(image_write_float(files_path("none/a.exr"), pixels, 2, 2, 3, error, sizeof error));
     assert_non_null(strstr(error, "none/a.exr"));
-    assert_false(image_write_png(in_folder("none/a.png"), bytes, 1, 1, 3, error, sizeof error));
-    assert_false(image_write_float(in_folder("a.txt"), pixels, 2, 2, 3, error, sizeof error));
-    assert_false(image_write_float(in_folder("a.png"), pixels, 2, 2, 3, error, sizeof error));
-    assert_false(output_file_check(folder, error, sizeof error));
+    assert_false(image_write_png(files_path("none/a.png"), bytes, 1, 1, 3, error, sizeof error));
+    assert_false(image_write_float(files_path("a.txt"), pixels, 2, 2, 3, error, sizeof error));
+    assert_false(image_write_float(files_path("a.png"), pixels, 2, 2, 3, error, sizeof error));
+    assert_false(output_file_check(files_path(""), error, sizeof error));
     assert_false(output_file_check("/dev/null", error, sizeof error));
-    assert_true(output_file_check(in_folder("fine.exr"), error, sizeof error));
-    assert_int_equal(count_files(), before);
+    assert_true(output_file_check(files_path("fine.exr"), error, sizeof error));
+    assert_int_equal(files_count(), before);
 }
 
 static void a_cancelled_file_leaves_the_old_one(void **state)
 {
     (void)state;
-    write_bytes("old.txt", "old", 3);
-    const int before = count_files();
+    files_write("old.txt", "old", 3);
+    const int before = files_count();
     struct output_file file;
-    assert_true(output_file_begin(&file, in_folder("old.txt"), error, sizeof error));
+    assert_true(output_file_begin(&file, files_path("old.txt"), error, sizeof error));
     fputs("new text", file.stream);
     output_file_cancel(&file);
-    assert_int_equal(count_files(), before);
+    assert_int_equal(files_count(), before);
     struct stat status;
-    assert_int_equal(stat(in_folder("old.txt"), &status), 0);
+    assert_int_equal(stat(files_path("old.txt"), &status), 0);
     assert_int_equal(status.st_size, 3);
 }
 
@@ -238,5 +198,5 @@ int main(void)
         cmocka_unit_test(an_unwritable_place_gives_one_line_and_no_file),
         cmocka_unit_test(a_cancelled_file_leaves_the_old_one),
     };
-    return cmocka_run_group_tests(tests, make_folder_and_pixels, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder_and_pixels, files_teardown);
 }

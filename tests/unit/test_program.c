@@ -1,94 +1,52 @@
 /* SPDX-License-Identifier: MIT
  * Bad input to the program: one line on stderr that says what and where, an exit code other than 0, no file.
  */
+#include "files.h"
 #include "unit.h"
 
-#include <dirent.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 static const char *program;
-static char folder[] = "sdfgi-test-program-XXXXXX";
 
 struct run {
     int code;
     char out[8192], err[8192];
 };
 
-static void read_text(const char *name, char *text, size_t size)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    text[fread(text, 1, size - 1, file)] = '\0';
-    fclose(file);
-    unlink(path);
-}
-
 /* Runs the program inside the folder, with `environment` before its name. */
 static struct run run_program(const char *environment, const char *arguments)
 {
     static struct run run;
     char command[2048];
-    snprintf(command, sizeof command, "cd %s && %s '%s' %s >out.txt 2>err.txt", folder, environment, program,
-             arguments);
+    snprintf(command, sizeof command, "cd %s && %s '%s' %s >out.txt 2>err.txt", files_path(""), environment,
+             program, arguments);
     const int status = system(command);
     assert_true(WIFEXITED(status));
     run.code = WEXITSTATUS(status);
-    read_text("out.txt", run.out, sizeof run.out);
-    read_text("err.txt", run.err, sizeof run.err);
+    files_take_text("out.txt", run.out, sizeof run.out);
+    files_take_text("err.txt", run.err, sizeof run.err);
     return run;
 }
 
-static void write_text(const char *name, const char *text)
+static int make_files(void **state)
 {
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-static int count_files(void)
-{
-    int count = 0;
-    DIR *dir = opendir(folder);
-    assert_non_null(dir);
-    for (const struct dirent *entry; (entry = readdir(dir));)
-        count += entry->d_name[0] != '.';
-    closedir(dir);
-    return count;
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    if (!mkdtemp(folder))
+    if (files_setup(state))
         return 1;
-    write_text("broken.json", "{\"camera\":\n{]");
-    write_text("unknown.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0]},\"skies\":1}");
-    write_text("range.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":200}}");
-    write_text("path.json", "{\"points\":[[0,0,0],[10,0,0]]}");
-    write_text("short.json", "{\"points\":[[0,0,0]]}");
-    write_text("broken.glb", "glTF is what this is not");
-    write_text("one.pfm", "Pf\n1 1\n-1\nabcd");
-    write_text("two.pfm", "Pf\n2 1\n-1\nabcdabcd");
-    write_text("cut.pfm", "Pf\n2 2\n-1\nabcd");
+    files_write_text("broken.json", "{\"camera\":\n{]");
+    files_write_text("unknown.json", "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0]},\"skies\":1}");
+    files_write_text("range.json",
+                     "{\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":200}}");
+    files_write_text("path.json", "{\"points\":[[0,0,0],[10,0,0]]}");
+    files_write_text("short.json", "{\"points\":[[0,0,0]]}");
+    files_write_text("broken.glb", "glTF is what this is not");
+    files_write_text("one.pfm", "Pf\n1 1\n-1\nabcd");
+    files_write_text("two.pfm", "Pf\n2 1\n-1\nabcdabcd");
+    files_write_text("cut.pfm", "Pf\n2 2\n-1\nabcd");
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
 }
 
 static void bad_input_gives_one_line_and_no_file(void **state)
@@ -152,13 +110,13 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "compare one.pfm cut.pfm", "cut.pfm" },
         { "compare one.pfm one.pfm --error-map none/e.png", "none/e.png" },
     };
-    const int before = count_files();
+    const int before = files_count();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const struct run run = run_program("", cases[i][0]);
         if (run.code == 0 || !strstr(run.err, cases[i][1]) || strncmp(run.err, "sdfgi: ", 7) != 0 ||
             strchr(run.err, '\n') != run.err + strlen(run.err) - 1 || run.out[0])
             fail_msg("%s: code %d, stderr \"%s\", stdout \"%s\"", cases[i][0], run.code, run.err, run.out);
-        assert_int_equal(count_files(), before);
+        assert_int_equal(files_count(), before);
     }
 }
 
@@ -213,5 +171,5 @@ int main(int argc, char **argv)
         cmocka_unit_test(every_command_has_help),
         cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_files, files_teardown);
 }

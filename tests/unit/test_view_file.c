@@ -1,18 +1,16 @@
 /* SPDX-License-Identifier: MIT */
+#include "files.h"
 #include "unit.h"
 
 #include "view_file.h"
 
 #include <math.h>
 #include <modules/gltf/gltf_scene.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define CAMERA "\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":60}"
 
-static char path[] = "sdfgi-test-view-XXXXXX";
+static const char file_name[] = "view.json";
 static char error[300];
 static struct host_view view;
 
@@ -25,26 +23,10 @@ void host_view_default(struct host_view *out)
                                .default_albedo = { 0.8f, 0.8f, 0.8f } };
 }
 
-static int make_file(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
-
 static bool load(const char *text)
 {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    return view_file_load(path, &view, error, sizeof error);
+    files_write_text(file_name, text);
+    return view_file_load(files_path(file_name), &view, error, sizeof error);
 }
 
 static void a_camera_is_enough(void **state)
@@ -137,7 +119,7 @@ static void what_is_wrong_is_named_in_one_line(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         if (load(cases[i][0]))
             fail_msg("taken: %s", cases[i][0]);
-        assert_int_equal(strncmp(error, path, strlen(path)), 0);
+        assert_int_equal(strncmp(error, files_path(file_name), strlen(files_path(file_name))), 0);
         if (!strstr(error, cases[i][1]) || strchr(error, '\n'))
             fail_msg("\"%s\" does not say \"%s\"", error, cases[i][1]);
         assert_null(view.lights);
@@ -203,5 +185,5 @@ int main(void)
         cmocka_unit_test(a_scene_without_camera_is_framed_whole),
         cmocka_unit_test(the_camera_of_a_scene_looks_along_minus_z),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }

@@ -1,39 +1,23 @@
 /* SPDX-License-Identifier: MIT
  * Camera paths: what the file may say, and where the camera then is. */
+#include "files.h"
 #include "unit.h"
 
 #include "walk_path.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static char path[] = "sdfgi-test-walk-XXXXXX";
+static const char file_name[] = "path.json";
 static char error[300];
 static struct walk_path walk;
 
-static int make_file(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
-
 static bool load(const char *text)
 {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    return walk_path_load(path, &walk, error, sizeof error);
+    files_write_text(file_name, text);
+    return walk_path_load(files_path(file_name), &walk, error, sizeof error);
 }
 
 static void require_load(const char *text)
@@ -201,19 +185,19 @@ static void every_key_reaches_its_field(void **state)
                  "\"smooth_m\":0.5,\"view\":\"here.view.json\"}");
     assert_true(walk.speed_m_s == 2.5 && walk.fps == 30 && walk.smooth_m == 0.5);
     assert_true(fabsf(walk.yfov_rad - 1.5707963f) < 1e-6f);
-    assert_string_equal(walk.view, "here.view.json");
+    assert_string_equal(walk.view, files_path("here.view.json"));
     walk_path_finish(&walk);
 }
 
 static void a_view_is_found_beside_its_path(void **state)
 {
     (void)state;
-    char name[64];
-    snprintf(name, sizeof name, "./%s", path);
     require_load("{\"points\":[[0,0,0],[1,0,0]],\"view\":\"views/a.json\"}");
+    assert_string_equal(walk.view, files_path("views/a.json"));
     walk_path_finish(&walk);
-    assert_true(walk_path_load(name, &walk, error, sizeof error));
-    assert_string_equal(walk.view, "./views/a.json");
+    assert_int_equal(chdir(files_path("")), 0);
+    assert_true(walk_path_load(file_name, &walk, error, sizeof error));
+    assert_string_equal(walk.view, "views/a.json");
     walk_path_finish(&walk);
 }
 
@@ -247,8 +231,8 @@ static void what_is_wrong_is_named(void **state)
         { "{\"points\":[[0,0,0],", "broken JSON" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        if (load(cases[i][0]) || !strstr(error, cases[i][1]) || strncmp(error, path, strlen(path)) != 0 ||
-            strchr(error, '\n'))
+        if (load(cases[i][0]) || !strstr(error, cases[i][1]) ||
+            strncmp(error, files_path(file_name), strlen(files_path(file_name))) != 0 || strchr(error, '\n'))
             fail_msg("%s: \"%s\"", cases[i][0], error);
         assert_null(walk.points);
     }
@@ -257,14 +241,14 @@ static void what_is_wrong_is_named(void **state)
 static void too_many_points_are_refused(void **state)
 {
     (void)state;
-    FILE *file = fopen(path, "wb");
+    FILE *file = fopen(files_path(file_name), "wb");
     assert_non_null(file);
     fputs("{\"points\":[", file);
     for (int i = 0; i <= WALK_POINTS_MAX; i++)
         fprintf(file, "%s[%d,0,0]", i ? "," : "", i);
     fputs("]}", file);
     fclose(file);
-    assert_false(walk_path_load(path, &walk, error, sizeof error));
+    assert_false(walk_path_load(files_path(file_name), &walk, error, sizeof error));
     assert_non_null(strstr(error, "1025"));
 }
 
@@ -284,5 +268,5 @@ int main(void)
         cmocka_unit_test(what_is_wrong_is_named),
         cmocka_unit_test(too_many_points_are_refused),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }

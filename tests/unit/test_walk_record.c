@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * A walk's record: which time belongs to which frame, what is the worst of it, and how it is written. */
+#include "files.h"
 #include "unit.h"
 
 #include "walk_report.h"
@@ -9,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* The library's own lives beside its Vulkan code, which a unit test does without. */
 const char *sdfgi_memory_category_name(enum sdfgi_memory_category category)
@@ -183,19 +183,14 @@ static void the_report_says_what_every_frame_did(void **state)
 static void the_plot_has_every_series(void **state)
 {
     (void)state;
-    static const char path[] = "sdfgi-test-walk.svg";
     static char text[1 << 20], error[300];
     if (system("gnuplot --version >/dev/null 2>&1") != 0)
         skip();
     fill();
     const struct walk_summary summary = summary_of();
-    if (!walk_plot_write(&record, &summary, path, error, sizeof error))
+    if (!walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error))
         fail_msg("%s", error);
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    text[fread(text, 1, sizeof text - 1, file)] = '\0';
-    fclose(file);
-    unlink(path);
+    files_take_text("walk.svg", text, sizeof text);
     static const char *const expected[] = {
         "<svg", "</svg>", "probe_trace, rays", "light_args, cascades", "GI", "at (1, 2, 3)"
     };
@@ -208,18 +203,17 @@ static void the_plot_has_every_series(void **state)
 static void without_gnuplot_there_is_a_message_and_no_file(void **state)
 {
     (void)state;
-    static const char path[] = "sdfgi-test-walk.svg";
     char error[300];
     fill();
     const struct walk_summary summary = summary_of();
     char *programs = getenv("PATH") ? strdup(getenv("PATH")) : NULL;
     setenv("PATH", "/nonexistent", 1);
-    assert_false(walk_plot_write(&record, &summary, path, error, sizeof error));
+    assert_false(walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error));
     if (programs)
         setenv("PATH", programs, 1);
     free(programs);
     assert_non_null(strstr(error, "gnuplot is not installed"));
-    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(files_count(), 0);
     walk_record_finish(&record);
 }
 
@@ -275,5 +269,5 @@ int main(void)
         cmocka_unit_test(every_picture_has_its_place_on_the_sheet),
         cmocka_unit_test(a_sliver_of_a_picture_fits_a_sheet),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }
