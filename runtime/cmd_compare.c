@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "compare.h"
 #include "flip.h"
+#include "json_write.h"
 #include "output_file.h"
 #include "tone.h"
 
@@ -89,25 +90,20 @@ static void print_text(const struct compare_result *r)
 }
 
 /* NaN and infinity have no place in JSON: they become null. */
-static bool add_number(cJSON *json, const char *name, double value)
-{
-    return (isfinite(value) ? cJSON_AddNumberToObject(json, name, value)
-                            : cJSON_AddNullToObject(json, name)) != NULL;
-}
-
 static bool print_json(const struct compare_result *r)
 {
     cJSON *json = cJSON_CreateObject();
     const bool complete =
-        add_number(json, "pixels", (double)r->pixels) && add_number(json, "mean", r->mean) &&
-        add_number(json, "reference_mean", r->reference_mean) &&
-        add_number(json, "mean_ratio", r->mean_ratio) && add_number(json, "max", r->max) &&
-        add_number(json, "relmse", r->relmse) && add_number(json, "relmse_epsilon", COMPARE_RELMSE_EPSILON) &&
-        add_number(json, "p99_relative_error", r->p99_relative_error) &&
-        add_number(json, "psnr_db", r->psnr_db) && add_number(json, "flip", r->flip) &&
-        add_number(json, "flip_max", r->flip_max) &&
-        add_number(json, "pixels_per_degree", FLIP_PIXELS_PER_DEGREE) &&
-        add_number(json, "exposure", r->exposure) &&
+        json_add_number(json, "pixels", (double)r->pixels) && json_add_number(json, "mean", r->mean) &&
+        json_add_number(json, "reference_mean", r->reference_mean) &&
+        json_add_number(json, "mean_ratio", r->mean_ratio) && json_add_number(json, "max", r->max) &&
+        json_add_number(json, "relmse", r->relmse) &&
+        json_add_number(json, "relmse_epsilon", COMPARE_RELMSE_EPSILON) &&
+        json_add_number(json, "p99_relative_error", r->p99_relative_error) &&
+        json_add_number(json, "psnr_db", r->psnr_db) && json_add_number(json, "flip", r->flip) &&
+        json_add_number(json, "flip_max", r->flip_max) &&
+        json_add_number(json, "pixels_per_degree", FLIP_PIXELS_PER_DEGREE) &&
+        json_add_number(json, "exposure", r->exposure) &&
         cJSON_AddStringToObject(json, "tone_curve", tone_description);
     char *text = complete ? cJSON_Print(json) : NULL;
     if (text)

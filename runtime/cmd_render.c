@@ -56,15 +56,6 @@ static bool parse_frames(struct options *options)
     return true;
 }
 
-static bool check_output(const char *path)
-{
-    char error[CLI_ERROR_BYTES];
-    if (output_file_check(path, error, sizeof error))
-        return true;
-    cli_error("%s", error);
-    return false;
-}
-
 /* Splits "NAME=FILE"; prints what is wrong with it. */
 static const char *split_aov(const char *pair, enum host_aov *aov)
 {
@@ -92,10 +83,10 @@ static bool check_outputs(const struct options *options)
     for (uint32_t i = 0; i < options->aov.count; i++) {
         enum host_aov aov;
         const char *path = split_aov(options->aov.values[i], &aov);
-        if (!path || !check_output(path))
+        if (!path || !run_check_output(path))
             return false;
     }
-    return check_output(options->out) && (!options->report || check_output(options->report));
+    return run_check_output(options->out) && (!options->report || run_check_output(options->report));
 }
 
 static bool resolve_options(struct options *options)

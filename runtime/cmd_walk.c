@@ -185,15 +185,6 @@ struct outputs {
     char report[WALK_PATH_BYTES], plot[WALK_PATH_BYTES], sheet[WALK_PATH_BYTES];
 };
 
-static bool check_output(const char *path)
-{
-    char error[CLI_ERROR_BYTES];
-    if (output_file_check(path, error, sizeof error))
-        return true;
-    cli_error("%s", error);
-    return false;
-}
-
 static bool resolve_outputs(const struct options *o, const struct walk_order *order, struct outputs *outputs)
 {
     const bool fits = walk_output_path(order, "contact_sheet.png", outputs->sheet) &&
@@ -211,7 +202,8 @@ static bool resolve_outputs(const struct options *o, const struct walk_order *or
         cli_error("%s: cannot be made: %s", order->out, strerror(errno));
         return false;
     }
-    return check_output(outputs->sheet) && check_output(outputs->plot) && check_output(outputs->report);
+    return run_check_output(outputs->sheet) && run_check_output(outputs->plot) &&
+           run_check_output(outputs->report);
 }
 
 static bool write_outputs(const struct walk_result *result, const struct outputs *outputs)
@@ -240,7 +232,8 @@ static void print_summary(const struct walk_result *result, const char *out)
         "%s: %u frames in %.2f s; GI on the GPU: median %.3f ms, 99 %% %.3f ms, worst %.3f ms in frame %u\n",
         out, record->frame_count, result->summary.run.seconds, 1e-6 * gi.median, 1e-6 * gi.p99,
         1e-6 * gi.worst, gi.worst_frame);
-    printf("  cascades generated: %.0f in all, at most %.0f in a frame; cells voxelised or given distances: median "
+    printf("  cascades generated: %.0f in all, at most %.0f in a frame; cells voxelised or given distances: "
+           "median "
            "%.0f, 99 %% %.0f, worst %.0f\n",
            cascades.total, cascades.worst, cells.median, cells.p99, cells.worst);
     printf("  counted work: median %.0f, 99 %% %.0f, worst %.0f\n", work.median, work.p99, work.worst);

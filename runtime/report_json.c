@@ -1,38 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * The report as JSON. cJSON's add functions return NULL when memory runs out and accept NULL, so each
- * function adds everything and answers once. */
+ * The report as JSON. Each function adds everything and answers once, see json_write.h. */
 #include "report.h"
 
+#include "json_write.h"
 #include "output_file.h"
 
 #include <base/text.h>
 #include <math.h>
 #include <stdlib.h>
-
-static cJSON *add_object(cJSON *parent, const char *name)
-{
-    return cJSON_AddObjectToObject(parent, name);
-}
-
-static cJSON *add_element(cJSON *array)
-{
-    cJSON *object = cJSON_CreateObject();
-    if (object && cJSON_AddItemToArray(array, object))
-        return object;
-    cJSON_Delete(object);
-    return NULL;
-}
-
-static bool add_number(cJSON *object, const char *name, double value)
-{
-    return cJSON_AddNumberToObject(object, name, value) != NULL;
-}
-
-static bool add_text(cJSON *object, const char *name, const char *text)
-{
-    return text ? cJSON_AddStringToObject(object, name, text) != NULL
-                : cJSON_AddNullToObject(object, name) != NULL;
-}
 
 static bool add_setting(cJSON *object, const struct sdfgi_settings *settings,
                         const struct sdfgi_property_info *info)
@@ -43,9 +18,9 @@ static bool add_setting(cJSON *object, const struct sdfgi_settings *settings,
         return cJSON_AddBoolToObject(object, info->name, sdfgi_settings_get(settings, info->name) != 0) !=
                NULL;
     if (info->type == SDFGI_PROPERTY_ENUM)
-        return add_text(object, info->name, text);
+        return json_add_text(object, info->name, text);
     /* Through the text, so that 0.2f is written as 0.2. */
-    return add_number(object, info->name, strtod(text, NULL));
+    return json_add_number(object, info->name, strtod(text, NULL));
 }
 
 cJSON *report_settings_to_json(const struct sdfgi_settings *settings)
@@ -63,7 +38,7 @@ cJSON *report_settings_to_json(const struct sdfgi_settings *settings)
 
 static bool add_gi(cJSON *json, const struct report *report, const struct report_summary *summary)
 {
-    cJSON *gi = add_object(json, "gi");
+    cJSON *gi = json_add_object(json, "gi");
     cJSON *settings = report_settings_to_json(&summary->settings);
     if (!settings || !cJSON_AddItemToObject(gi, "settings", settings)) {
         cJSON_Delete(settings);
@@ -71,17 +46,17 @@ static bool add_gi(cJSON *json, const struct report *report, const struct report
     }
     return cJSON_AddBoolToObject(gi, "enabled", summary->settings.enabled) &&
            cJSON_AddBoolToObject(gi, "converged", report->last.converged) &&
-           add_number(gi, "converged_fraction", (double)report->last.converged_fraction);
+           json_add_number(gi, "converged_fraction", (double)report->last.converged_fraction);
 }
 
 static bool add_times(cJSON *parent, const char *name, struct report_samples *samples, const char *tail_name,
                       double tail)
 {
-    cJSON *times = add_object(parent, name);
-    return add_number(times, "median", (double)report_quantile(samples, 0.5)) &&
-           add_number(times, tail_name, (double)report_quantile(samples, tail)) &&
-           add_number(times, "max", (double)report_quantile(samples, 1)) &&
-           add_number(times, "samples", (double)samples->count);
+    cJSON *times = json_add_object(parent, name);
+    return json_add_number(times, "median", (double)report_quantile(samples, 0.5)) &&
+           json_add_number(times, tail_name, (double)report_quantile(samples, tail)) &&
+           json_add_number(times, "max", (double)report_quantile(samples, 1)) &&
+           json_add_number(times, "samples", (double)samples->count);
 }
 
 static bool add_passes(cJSON *json, struct report *report)
@@ -90,13 +65,14 @@ static bool add_passes(cJSON *json, struct report *report)
     bool complete = list != NULL;
     for (uint32_t i = 0; complete && i < report->pass_count; i++) {
         struct report_pass *pass = &report->passes[i];
-        cJSON *item = add_element(list);
-        complete = add_text(item, "name", pass->name) && add_number(item, "ran", (double)pass->ran) &&
-                   add_text(item, "reason", pass->reason) &&
-                   add_text(item, "skipped_because", pass->skipped_because) &&
-                   add_number(item, "dispatches", pass->dispatches) &&
-                   add_number(item, "work", (double)pass->work) &&
-                   add_text(item, "work_unit", pass->work_unit) &&
+        cJSON *item = json_add_element(list);
+        complete = json_add_text(item, "name", pass->name) &&
+                   json_add_number(item, "ran", (double)pass->ran) &&
+                   json_add_text(item, "reason", pass->reason) &&
+                   json_add_text(item, "skipped_because", pass->skipped_because) &&
+                   json_add_number(item, "dispatches", pass->dispatches) &&
+                   json_add_number(item, "work", (double)pass->work) &&
+                   json_add_text(item, "work_unit", pass->work_unit) &&
                    add_times(item, "gpu_ns", &pass->gpu_ns, "p95", 0.95);
     }
     return complete;
@@ -104,13 +80,13 @@ static bool add_passes(cJSON *json, struct report *report)
 
 static bool add_memory(cJSON *json, const struct sdfgi_memory *memory, uint64_t estimated_bytes)
 {
-    cJSON *object = add_object(json, "memory");
-    bool complete = add_number(object, "total_bytes", (double)memory->total_bytes) &&
-                    add_number(object, "estimated_bytes", (double)estimated_bytes);
-    cJSON *categories = add_object(object, "by_category");
+    cJSON *object = json_add_object(json, "memory");
+    bool complete = json_add_number(object, "total_bytes", (double)memory->total_bytes) &&
+                    json_add_number(object, "estimated_bytes", (double)estimated_bytes);
+    cJSON *categories = json_add_object(object, "by_category");
     for (int i = 0; complete && i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
-        complete = add_number(categories, sdfgi_memory_category_name((enum sdfgi_memory_category)i),
-                              (double)memory->bytes[i]);
+        complete = json_add_number(categories, sdfgi_memory_category_name((enum sdfgi_memory_category)i),
+                                   (double)memory->bytes[i]);
     return complete;
 }
 
@@ -129,29 +105,30 @@ static bool add_health(cJSON *json, const struct sdfgi_report *last)
     cJSON *list = cJSON_AddArrayToObject(json, "health");
     bool complete = list != NULL;
     for (uint32_t i = 0; complete && i < last->health_count; i++) {
-        cJSON *item = add_element(list);
-        complete = add_text(item, "code", report_message_name(last->health[i].code)) &&
-                   add_number(item, "count", (double)last->health[i].count) &&
-                   add_text(item, "hint", last->health[i].hint);
+        cJSON *item = json_add_element(list);
+        complete = json_add_text(item, "code", report_message_name(last->health[i].code)) &&
+                   json_add_number(item, "count", (double)last->health[i].count) &&
+                   json_add_text(item, "hint", last->health[i].hint);
     }
     return complete;
 }
 
 static bool add_run(cJSON *json, const struct report *report, const struct report_summary *summary)
 {
-    cJSON *device = add_object(json, "device");
+    cJSON *device = json_add_object(json, "device");
     const int size[2] = { (int)summary->width, (int)summary->height };
     cJSON *size_json = cJSON_CreateIntArray(size, 2);
     if (!size_json || !cJSON_AddItemToObject(json, "size", size_json)) {
         cJSON_Delete(size_json);
         return false;
     }
-    return add_text(device, "name", summary->device_name) &&
-           add_text(device, "driver", summary->device_driver) &&
-           add_text(device, "type", summary->device_type) &&
-           add_number(json, "frames", (double)report->frames) &&
-           add_number(json, "seconds", summary->seconds) && add_number(json, "exposure", summary->exposure) &&
-           add_number(json, "validation_messages", summary->validation_messages);
+    return json_add_text(device, "name", summary->device_name) &&
+           json_add_text(device, "driver", summary->device_driver) &&
+           json_add_text(device, "type", summary->device_type) &&
+           json_add_number(json, "frames", (double)report->frames) &&
+           json_add_number(json, "seconds", summary->seconds) &&
+           json_add_number(json, "exposure", summary->exposure) &&
+           json_add_number(json, "validation_messages", summary->validation_messages);
 }
 
 cJSON *report_to_json(struct report *report, const struct report_summary *summary)
@@ -159,7 +136,7 @@ cJSON *report_to_json(struct report *report, const struct report_summary *summar
     cJSON *json = cJSON_CreateObject();
     if (!report->out_of_memory && json && add_run(json, report, summary) && add_gi(json, report, summary) &&
         add_passes(json, report) && add_times(json, "frame_gpu_ns", &report->frame_gpu_ns, "p99", 0.99) &&
-        add_number(json, "library_commands", report->last.command_count) &&
+        json_add_number(json, "library_commands", report->last.command_count) &&
         add_memory(json, &report->last.memory, summary->estimated_bytes) && add_health(json, &report->last))
         return json;
     cJSON_Delete(json);

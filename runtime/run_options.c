@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "run_options.h"
 
+#include "output_file.h"
 #include "view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
@@ -49,6 +50,15 @@ struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path,
     if (!view_path)
         view_file_from_scene(scene, view);
     return scene;
+}
+
+bool run_check_output(const char *path)
+{
+    char error[CLI_ERROR_BYTES];
+    if (output_file_check(path, error, sizeof error))
+        return true;
+    cli_error("%s", error);
+    return false;
 }
 
 void run_log(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)

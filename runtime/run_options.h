@@ -19,6 +19,9 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
  * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);
 
+/* True if a file can be written there; else prints one line. */
+bool run_check_output(const char *path);
+
 /* Prints messages of the library to stderr: errors and warnings, one line each. `user` is not used. */
 void run_log(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text);
 

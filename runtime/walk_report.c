@@ -1,36 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * The report of a walk. cJSON's add functions return NULL when memory runs out and accept NULL, so each
- * function adds everything and answers once. */
+ * The report of a walk. Each function adds everything and answers once, see json_write.h. */
 #include "walk_report.h"
 
+#include "json_write.h"
 #include "output_file.h"
 
 #include <base/text.h>
 #include <stdlib.h>
-
-static cJSON *add_object(cJSON *parent, const char *name)
-{
-    return cJSON_AddObjectToObject(parent, name);
-}
-
-static cJSON *add_element(cJSON *array)
-{
-    cJSON *object = cJSON_CreateObject();
-    if (object && cJSON_AddItemToArray(array, object))
-        return object;
-    cJSON_Delete(object);
-    return NULL;
-}
-
-static bool add_number(cJSON *object, const char *name, double value)
-{
-    return cJSON_AddNumberToObject(object, name, value) != NULL;
-}
-
-static bool add_text(cJSON *object, const char *name, const char *text)
-{
-    return cJSON_AddStringToObject(object, name, text ? text : "") != NULL;
-}
 
 static bool add_vector(cJSON *object, const char *name, const double values[3])
 {
@@ -49,28 +25,31 @@ static bool add_run(cJSON *json, const struct walk_record *record, const struct 
 {
     const struct report_summary *run = &summary->run;
     const int size[2] = { (int)run->width, (int)run->height };
-    cJSON *device = add_object(json, "device");
+    cJSON *device = json_add_object(json, "device");
     cJSON *settings = report_settings_to_json(&run->settings);
     if (!settings || !cJSON_AddItemToObject(json, "settings", settings)) {
         cJSON_Delete(settings);
         return false;
     }
-    return add_text(device, "name", run->device_name) && add_text(device, "driver", run->device_driver) &&
-           add_text(device, "type", run->device_type) &&
+    return json_add_text(device, "name", run->device_name) &&
+           json_add_text(device, "driver", run->device_driver) &&
+           json_add_text(device, "type", run->device_type) &&
            cJSON_AddItemToObject(json, "size", cJSON_CreateIntArray(size, 2)) &&
-           add_number(json, "seconds", run->seconds) &&
-           add_number(json, "estimated_bytes", (double)run->estimated_bytes) &&
-           add_number(json, "validation_messages", run->validation_messages) &&
-           add_number(json, "frames_rendered", record->frame_count);
+           json_add_number(json, "seconds", run->seconds) &&
+           json_add_number(json, "estimated_bytes", (double)run->estimated_bytes) &&
+           json_add_number(json, "validation_messages", run->validation_messages) &&
+           json_add_number(json, "frames_rendered", record->frame_count);
 }
 
 static bool add_path(cJSON *json, const struct walk_summary *summary)
 {
-    cJSON *path = add_object(json, "path");
-    return add_text(path, "scene", summary->scene) && add_text(path, "file", summary->path) &&
-           add_number(path, "length_m", summary->length_m) && add_number(path, "start_m", summary->start_m) &&
-           add_number(path, "speed_m_s", summary->speed_m_s) && add_number(path, "fps", summary->fps) &&
-           add_number(path, "hold_frames", summary->hold_frames);
+    cJSON *path = json_add_object(json, "path");
+    return json_add_text(path, "scene", summary->scene) && json_add_text(path, "file", summary->path) &&
+           json_add_number(path, "length_m", summary->length_m) &&
+           json_add_number(path, "start_m", summary->start_m) &&
+           json_add_number(path, "speed_m_s", summary->speed_m_s) &&
+           json_add_number(path, "fps", summary->fps) &&
+           json_add_number(path, "hold_frames", summary->hold_frames);
 }
 
 /* ---- The journey ------------------------------------------------------------------------------------ */
@@ -81,16 +60,16 @@ static bool add_statistics(cJSON *parent, const char *name, const char *unit,
     struct walk_statistics s;
     if (!walk_record_statistics(record, series, index, &s))
         return false;
-    cJSON *object = add_object(parent, name);
-    const bool complete = (!unit || add_text(object, "unit", unit)) &&
-                          add_number(object, "median", s.median) && add_number(object, "p99", s.p99) &&
-                          add_number(object, "worst", s.worst) &&
-                          add_number(object, "worst_frame", s.worst_frame) &&
-                          add_number(object, "total", s.total) && add_number(object, "samples", s.samples);
+    cJSON *object = json_add_object(parent, name);
+    const bool complete =
+        (!unit || json_add_text(object, "unit", unit)) && json_add_number(object, "median", s.median) &&
+        json_add_number(object, "p99", s.p99) && json_add_number(object, "worst", s.worst) &&
+        json_add_number(object, "worst_frame", s.worst_frame) && json_add_number(object, "total", s.total) &&
+        json_add_number(object, "samples", s.samples);
     /* Nothing can be said of the ratio where most frames have no such work. */
     if (s.median > 0)
-        return complete && add_number(object, "p99_over_median", s.p99 / s.median) &&
-               add_number(object, "worst_over_median", s.worst / s.median);
+        return complete && json_add_number(object, "p99_over_median", s.p99 / s.median) &&
+               json_add_number(object, "worst_over_median", s.worst / s.median);
     return complete;
 }
 
@@ -115,11 +94,11 @@ static bool add_passes(cJSON *journey, const struct walk_record *record)
     cJSON *list = cJSON_AddArrayToObject(journey, "passes");
     bool complete = list != NULL;
     for (uint32_t i = 0; complete && i < record->pass_count; i++) {
-        cJSON *item = add_element(list);
+        cJSON *item = json_add_element(list);
         const uint32_t ran = frames_ran(record, i);
         const char *skipped = last_skip(record, i);
-        complete = add_text(item, "name", record->pass_names[i]) && add_number(item, "ran", ran) &&
-                   (!skipped || add_text(item, "skipped_because", skipped)) &&
+        complete = json_add_text(item, "name", record->pass_names[i]) && json_add_number(item, "ran", ran) &&
+                   (!skipped || json_add_text(item, "skipped_because", skipped)) &&
                    (ran == 0 ||
                     (add_statistics(item, "work", record->pass_units[i], record, walk_series_pass_work, i) &&
                      add_statistics(item, "gpu_ns", NULL, record, walk_series_pass_gpu_ns, i)));
@@ -132,31 +111,31 @@ static bool add_samples(cJSON *journey, const struct walk_record *record, const 
     cJSON *list = cJSON_AddArrayToObject(journey, "samples");
     bool complete = list != NULL;
     for (uint32_t i = 0; complete && i < summary->sample_count; i++) {
-        cJSON *item = add_element(list);
+        cJSON *item = json_add_element(list);
         uint32_t frame;
         const double change = walk_record_change(record, i, &frame);
         complete = add_vector(item, "position", summary->sample_positions[i]) &&
                    add_float_vector(item, "normal", summary->sample_normals[i]) &&
-                   add_number(item, "worst_change_per_frame", change) &&
-                   add_number(item, "worst_change_frame", frame);
+                   json_add_number(item, "worst_change_per_frame", change) &&
+                   json_add_number(item, "worst_change_frame", frame);
     }
     return complete;
 }
 
 static bool add_health(cJSON *journey, const struct walk_record *record)
 {
-    cJSON *health = add_object(journey, "health");
+    cJSON *health = json_add_object(journey, "health");
     bool complete = health != NULL;
     for (int i = 0; complete && i < SDFGI_MESSAGE_COUNT; i++)
         if (record->health[i] > 0)
-            complete =
-                add_number(health, report_message_name((enum sdfgi_message)i), (double)record->health[i]);
+            complete = json_add_number(health, report_message_name((enum sdfgi_message)i),
+                                       (double)record->health[i]);
     return complete;
 }
 
 static bool add_journey(cJSON *json, const struct walk_record *record, const struct walk_summary *summary)
 {
-    cJSON *journey = add_object(json, "journey");
+    cJSON *journey = json_add_object(json, "journey");
     bool complete = add_statistics(journey, "gi_gpu_ns", NULL, record, walk_series_gi_gpu_ns, 0) &&
                     add_statistics(journey, "frame_gpu_ns", NULL, record, walk_series_gpu_ns, 0);
     for (uint32_t i = 0; complete && i < WALK_COUNT_COUNT; i++)
@@ -171,17 +150,17 @@ static bool add_journey(cJSON *json, const struct walk_record *record, const str
 /* Those that ran; the others are `journey.passes`' business. */
 static bool add_frame_passes(cJSON *item, const struct walk_record *record, const struct walk_frame *frame)
 {
-    cJSON *passes = add_object(item, "passes");
+    cJSON *passes = json_add_object(item, "passes");
     bool complete = passes != NULL;
     for (uint32_t i = 0; complete && i < record->pass_count; i++) {
         const struct walk_pass *pass = &frame->passes[i];
         if (!pass->ran)
             continue;
-        cJSON *object = add_object(passes, record->pass_names[i]);
-        complete = add_text(object, "reason", pass->reason) &&
-                   add_number(object, "dispatches", pass->dispatches) &&
-                   add_number(object, "work", (double)pass->work) &&
-                   (!pass->timed || add_number(object, "gpu_ns", (double)pass->gpu_ns));
+        cJSON *object = json_add_object(passes, record->pass_names[i]);
+        complete = json_add_text(object, "reason", pass->reason) &&
+                   json_add_number(object, "dispatches", pass->dispatches) &&
+                   json_add_number(object, "work", (double)pass->work) &&
+                   (!pass->timed || json_add_number(object, "gpu_ns", (double)pass->gpu_ns));
     }
     return complete;
 }
@@ -190,16 +169,17 @@ static bool add_frame(cJSON *list, const struct walk_record *record, uint32_t in
                       const struct walk_summary *summary)
 {
     const struct walk_frame *frame = &record->frames[index];
-    cJSON *item = add_element(list);
-    bool complete =
-        add_number(item, "frame", index) && add_number(item, "time_s", (double)index / summary->fps) &&
-        add_number(item, "distance_m", frame->distance_m) && add_vector(item, "position", frame->position) &&
-        add_number(item, "frame_gpu_ns", (double)frame->gpu_ns) &&
-        add_number(item, "gi_gpu_ns", (double)frame->gi_gpu_ns) &&
-        cJSON_AddBoolToObject(item, "converged", frame->converged) &&
-        add_number(item, "converged_fraction", (double)frame->converged_fraction);
+    cJSON *item = json_add_element(list);
+    bool complete = json_add_number(item, "frame", index) &&
+                    json_add_number(item, "time_s", (double)index / summary->fps) &&
+                    json_add_number(item, "distance_m", frame->distance_m) &&
+                    add_vector(item, "position", frame->position) &&
+                    json_add_number(item, "frame_gpu_ns", (double)frame->gpu_ns) &&
+                    json_add_number(item, "gi_gpu_ns", (double)frame->gi_gpu_ns) &&
+                    cJSON_AddBoolToObject(item, "converged", frame->converged) &&
+                    json_add_number(item, "converged_fraction", (double)frame->converged_fraction);
     for (int i = 0; complete && i < WALK_COUNT_COUNT; i++)
-        complete = add_number(item, walk_count_name((enum walk_count)i), (double)frame->counts[i]);
+        complete = json_add_number(item, walk_count_name((enum walk_count)i), (double)frame->counts[i]);
     cJSON *irradiance = complete ? cJSON_AddArrayToObject(item, "irradiance") : NULL;
     complete = irradiance != NULL;
     for (uint32_t i = 0; complete && i < summary->sample_count; i++)

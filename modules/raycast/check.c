@@ -11,7 +11,7 @@
 #define MAX_BOUNCES     65536
 #define MAX_THREADS     256
 
-static bool fail(char *error, size_t error_size, const char *format, ...)
+bool raycast_fail(char *error, size_t error_size, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -56,11 +56,11 @@ static bool has_length(const float v[3])
 static bool camera_check(const struct raycast_camera *c, char *error, size_t size)
 {
     if (!are_finite_d(c->position, 3) || !are_finite_d(c->look_at, 3))
-        return fail(error, size, "camera: position and look_at must be finite");
+        return raycast_fail(error, size, "camera: position and look_at must be finite");
     if (!has_length(c->up))
-        return fail(error, size, "camera.up: must be a direction");
+        return raycast_fail(error, size, "camera.up: must be a direction");
     if (!(c->yfov_deg > 0.0f && c->yfov_deg < 180.0f))
-        return fail(error, size, "camera.yfov_deg: %g is not between 0 and 180", (double)c->yfov_deg);
+        return raycast_fail(error, size, "camera.yfov_deg: %g is not between 0 and 180", (double)c->yfov_deg);
     double f[3], sine2 = 0.0, length2 = 0.0, up2 = 0.0;
     for (int k = 0; k < 3; k++)
         f[k] = c->look_at[k] - c->position[k];
@@ -72,40 +72,40 @@ static bool camera_check(const struct raycast_camera *c, char *error, size_t siz
         up2 += (double)c->up[k] * c->up[k];
     }
     if (!(length2 > 0.0))
-        return fail(error, size, "camera.look_at: is the camera's position");
+        return raycast_fail(error, size, "camera.look_at: is the camera's position");
     if (!(sine2 > 1e-12 * length2 * up2))
-        return fail(error, size, "camera.up: is parallel to the viewing direction");
+        return raycast_fail(error, size, "camera.up: is parallel to the viewing direction");
     return true;
 }
 
 static bool light_check(const struct raycast_light *l, uint32_t index, char *error, size_t size)
 {
     if (!are_finite_d(l->position, 3))
-        return fail(error, size, "lights[%u].position: must be finite", index);
+        return raycast_fail(error, size, "lights[%u].position: must be finite", index);
     if (!are_amounts(l->intensity, 3))
-        return fail(error, size, "lights[%u].intensity: must be finite and not negative", index);
+        return raycast_fail(error, size, "lights[%u].intensity: must be finite and not negative", index);
     if (!are_amounts(&l->radius_m, 1))
-        return fail(error, size, "lights[%u].radius: must be finite and not negative", index);
+        return raycast_fail(error, size, "lights[%u].radius: must be finite and not negative", index);
     if (!are_amounts(&l->range_m, 1))
-        return fail(error, size, "lights[%u].range: must be finite and not negative", index);
+        return raycast_fail(error, size, "lights[%u].range: must be finite and not negative", index);
     if (l->type != RAYCAST_LIGHT_SPOT)
         return true;
     if (!has_length(l->direction))
-        return fail(error, size, "lights[%u].direction: must be a direction", index);
+        return raycast_fail(error, size, "lights[%u].direction: must be a direction", index);
     if (!(l->inner_deg >= 0.0f && l->inner_deg < l->outer_deg && l->outer_deg <= 90.0f))
-        return fail(error, size, "lights[%u]: needs 0 <= inner_deg < outer_deg <= 90", index);
+        return raycast_fail(error, size, "lights[%u]: needs 0 <= inner_deg < outer_deg <= 90", index);
     return true;
 }
 
 static bool sun_check(const struct raycast_sun *s, char *error, size_t size)
 {
     if (!are_amounts(s->irradiance, 3))
-        return fail(error, size, "sun.irradiance: must be finite and not negative");
+        return raycast_fail(error, size, "sun.irradiance: must be finite and not negative");
     if (!(s->angle_deg >= 0.0f && s->angle_deg <= 90.0f))
-        return fail(error, size, "sun.angle_deg: %g is not between 0 and 90", (double)s->angle_deg);
+        return raycast_fail(error, size, "sun.angle_deg: %g is not between 0 and 90", (double)s->angle_deg);
     const bool is_on = s->irradiance[0] > 0.0f || s->irradiance[1] > 0.0f || s->irradiance[2] > 0.0f;
     if (is_on && !has_length(s->direction))
-        return fail(error, size, "sun.direction: must be a direction");
+        return raycast_fail(error, size, "sun.direction: must be a direction");
     return true;
 }
 
@@ -115,30 +115,31 @@ bool raycast_view_check(const struct raycast_view *view, char *error, size_t siz
         return false;
     if (!are_amounts(view->sky.zenith, 3) || !are_amounts(view->sky.horizon, 3) ||
         !are_amounts(view->sky.ground, 3))
-        return fail(error, size, "sky: radiance must be finite and not negative");
+        return raycast_fail(error, size, "sky: radiance must be finite and not negative");
     for (uint32_t i = 0; i < view->light_count; i++) {
         if (!light_check(&view->lights[i], i, error, size))
             return false;
     }
     if (!are_amounts(&view->punctual_scale, 1))
-        return fail(error, size, "punctual_scale: must be finite and not negative");
+        return raycast_fail(error, size, "punctual_scale: must be finite and not negative");
     if (!are_amounts(&view->emissive_scale, 1))
-        return fail(error, size, "emissive_scale: must be finite and not negative");
+        return raycast_fail(error, size, "emissive_scale: must be finite and not negative");
     if (!are_amounts(view->default_albedo, 3))
-        return fail(error, size, "default_albedo: must be finite and not negative");
+        return raycast_fail(error, size, "default_albedo: must be finite and not negative");
     return true;
 }
 
 bool raycast_settings_check(const struct raycast_settings *s, char *error, size_t size)
 {
     if (s->width > MAX_SIZE_PIXELS || s->height > MAX_SIZE_PIXELS)
-        return fail(error, size, "size: %ux%u is beyond the limit of %u pixels a side", s->width, s->height,
-                    MAX_SIZE_PIXELS);
+        return raycast_fail(error, size, "size: %ux%u is beyond the limit of %u pixels a side", s->width,
+                            s->height, MAX_SIZE_PIXELS);
     if (s->max_bounces > MAX_BOUNCES)
-        return fail(error, size, "bounces: %u is beyond the limit of %u", s->max_bounces, MAX_BOUNCES);
+        return raycast_fail(error, size, "bounces: %u is beyond the limit of %u", s->max_bounces,
+                            MAX_BOUNCES);
     if (s->threads > MAX_THREADS)
-        return fail(error, size, "threads: %u is beyond the limit of %u", s->threads, MAX_THREADS);
+        return raycast_fail(error, size, "threads: %u is beyond the limit of %u", s->threads, MAX_THREADS);
     if (s->aovs >= 1u << RAYCAST_AOV_COUNT)
-        return fail(error, size, "aovs: unknown bits in 0x%x", s->aovs);
+        return raycast_fail(error, size, "aovs: unknown bits in 0x%x", s->aovs);
     return true;
 }

@@ -4,7 +4,6 @@
  * state is for going on where one stopped, not for keeping.
  */
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,15 +19,6 @@ struct state_header {
 };
 
 static const char magic[8] = { 'r', 'a', 'y', 'c', 's', 't', '0', '1' };
-
-static bool fail(char *error, size_t error_size, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error, error_size, format, arguments);
-    va_end(arguments);
-    return false;
-}
 
 static size_t plane_size(const struct film *f, uint32_t aov)
 {
@@ -69,14 +59,14 @@ bool raycast_state_save(const struct raycast *rc, const char *path, char *error,
     const size_t size = strlen(path) + sizeof(".part");
     char *part = malloc(size);
     if (part == NULL)
-        return fail(error, error_size, "%s: out of memory", path);
+        return raycast_fail(error, error_size, "%s: out of memory", path);
     snprintf(part, size, "%s.part", path);
     FILE *file = fopen(part, "wb");
     bool ok = file != NULL && write_all(rc, file);
     ok = (file == NULL || fclose(file) == 0) && ok;
     ok = ok && rename(part, path) == 0;
     if (!ok) {
-        fail(error, error_size, "%s: cannot be written: %s", path, strerror(errno));
+        raycast_fail(error, error_size, "%s: cannot be written: %s", path, strerror(errno));
         if (file != NULL)
             remove(part);
     }
@@ -88,12 +78,13 @@ static bool header_check(const struct raycast *rc, const struct state_header *h,
                          char *error, size_t error_size)
 {
     if (memcmp(h->magic, magic, sizeof(magic)) != 0)
-        return fail(error, error_size, "%s: is not a state of a reference", path);
+        return raycast_fail(error, error_size, "%s: is not a state of a reference", path);
     if (h->width != rc->film.width || h->height != rc->film.height)
-        return fail(error, error_size, "%s: is of a picture of %ux%u, not %ux%u", path, h->width, h->height,
-                    rc->film.width, rc->film.height);
+        return raycast_fail(error, error_size, "%s: is of a picture of %ux%u, not %ux%u", path, h->width,
+                            h->height, rc->film.width, rc->film.height);
     if (h->identity != rc->identity || h->aovs != rc->settings.aovs)
-        return fail(error, error_size, "%s: belongs to another scene, view, seed or choice of AOVs", path);
+        return raycast_fail(error, error_size, "%s: belongs to another scene, view, seed or choice of AOVs",
+                            path);
     return true;
 }
 
@@ -111,15 +102,15 @@ static bool read_state(struct raycast *rc, FILE *file, const char *path, char *e
 {
     struct state_header header;
     if (fread(&header, sizeof(header), 1, file) != 1)
-        return fail(error, error_size, "%s: is too short for a state of a reference", path);
+        return raycast_fail(error, error_size, "%s: is too short for a state of a reference", path);
     if (!header_check(rc, &header, path, error, error_size))
         return false;
     struct film film;
     if (!raycast_film_init(&film, rc->film.width, rc->film.height, rc->settings.aovs))
-        return fail(error, error_size, "%s: out of memory", path);
+        return raycast_fail(error, error_size, "%s: out of memory", path);
     if (!read_sums(&film, &header, file)) {
         raycast_film_finish(&film);
-        return fail(error, error_size, "%s: is damaged or cut short", path);
+        return raycast_fail(error, error_size, "%s: is damaged or cut short", path);
     }
     raycast_film_finish(&rc->film);
     rc->film = film;
@@ -133,7 +124,7 @@ bool raycast_state_load(struct raycast *rc, const char *path, char *error, size_
 {
     FILE *file = fopen(path, "rb");
     if (file == NULL)
-        return fail(error, error_size, "%s: cannot be read: %s", path, strerror(errno));
+        return raycast_fail(error, error_size, "%s: cannot be read: %s", path, strerror(errno));
     const bool ok = read_state(rc, file, path, error, error_size);
     fclose(file);
     return ok;

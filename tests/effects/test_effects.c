@@ -43,6 +43,13 @@ static sdfgi_instance add_floor(struct gi_test *t)
                          0);
 }
 
+static void open_floor(struct gi_test *t, uint32_t cascades)
+{
+    const struct sdfgi_settings settings = small_settings(cascades);
+    gi_test_open(t, &settings);
+    add_floor(t);
+}
+
 /* ---- Off */
 
 static void off_records_nothing_and_holds_nothing(void **state)
@@ -97,9 +104,7 @@ static void converged_and_static_records_nothing(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(2);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 2);
     const struct sdfgi_light_desc sun = light_sun(-0.5f, -0.8f, 0, 5);
     light_create(&t, &sun);
     light_set_uniform_sky(&t, 1);
@@ -120,9 +125,7 @@ static void light_is_bit_still_once_converged(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(1);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 1);
     light_set_uniform_sky(&t, 1);
     gi_test_converge(&t, 120);
     float before[3], after[3];
@@ -140,9 +143,7 @@ static void without_lights_direct_light_is_skipped(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(1);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 1);
     light_set_uniform_sky(&t, 1);
     gi_test_update(&t, 1); /* the first frame makes direct light black */
     t.frame.camera_position[0] = 8;
@@ -189,9 +190,7 @@ static void moving_a_light_relights_and_does_not_voxelize(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(1);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 1);
     struct sdfgi_light_desc lamp = light_point(-2, 0, 0, 10);
     const sdfgi_light light = light_create(&t, &lamp);
     gi_test_converge(&t, 120);
@@ -212,9 +211,7 @@ static void changing_the_sky_traces_and_lights_nothing_directly(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(1);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 1);
     light_set_uniform_sky(&t, 1);
     gi_test_converge(&t, 120);
     light_set_uniform_sky(&t, 2);
@@ -232,9 +229,7 @@ static void moving_an_instance_generates_the_cascades_it_touches(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(2);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 2);
     const sdfgi_instance far =
         light_add_box(&t, (double[]){ 8, -2, -1 }, (double[]){ 10, 0, 1 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
     light_set_uniform_sky(&t, 1);
@@ -337,9 +332,7 @@ static void a_light_that_is_off_in_gi_lights_nothing(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = small_settings(1);
-    gi_test_open(&t, &settings);
-    add_floor(&t);
+    open_floor(&t, 1);
     struct sdfgi_light_desc sun = light_sun(0, -1, 0, 10);
     sun.indirect_energy = 0;
     const sdfgi_light light = light_create(&t, &sun);

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * Adding to JSON. Memory may run out in any of these; all accept a parent that is NULL for that reason, so
+ * that a caller adds everything and asks once. */
+#ifndef RUNTIME_JSON_WRITE_H
+#define RUNTIME_JSON_WRITE_H
+
+#include <cJSON.h>
+#include <stdbool.h>
+
+/* The new member or element; NULL if there is no memory. */
+cJSON *json_add_object(cJSON *parent, const char *name);
+cJSON *json_add_element(cJSON *array);
+
+/* null where the number is not finite, or the text NULL. */
+bool json_add_number(cJSON *object, const char *name, double value);
+bool json_add_text(cJSON *object, const char *name, const char *text);
+
+#endif
