@@ -5,8 +5,9 @@
 
 #include <math.h>
 
-/* Workgroups along x; Vulkan guarantees 65535. MAX_SLICES: each culls its triangles again. */
-enum { GROUP_WIDTH = 32768, MAX_SLICES = 256 };
+/* Workgroups along x, of 65535 that Vulkan guarantees: few, so that meshes in use have some along z too.
+ * MAX_SLICES: each slice culls its triangles again. */
+enum { GROUP_WIDTH = 1024, MAX_SLICES = 256 };
 /* Columns that one thread walks before another one is worth its share of culling and set-up. */
 #define COLUMNS_PER_THREAD 8.0
 /* How often a mesh is taken to cover the largest side of what its bounds and the box share. */

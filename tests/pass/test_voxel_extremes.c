@@ -121,6 +121,27 @@ static void hard_15_huge_triangles_stay_within_a_sub_voxel(void **state)
     }
 }
 
+/* A ground of two triangles in a mesh of many that a sub-voxel holds, as when a whole level is one mesh. */
+static void two_large_triangles_among_many_small_ones_are_complete(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const double height = 0.53, edge_u[3] = { 0, 0, 20 }, edge_v[3] = { 20, 0, 0 };
+    const double beside[3] = { 8.5, -8, -8 }, far[3] = { 10, 8, 8 };
+    struct test_mesh mesh = test_mesh_plane((double[]){ 0, height, 0 }, edge_u, edge_v, 1);
+    struct test_mesh others = test_mesh_soup(15, 100000, beside, far, 0.01);
+    test_mesh_append(&mesh, &others);
+    const struct sdfgi_settings settings = gi_test_settings();
+    pass_scene_open(&t, &settings, &mesh);
+    struct oracle_bits bits = gi_test_bits(&t, 0);
+    const struct oracle_grid grid = gi_test_grid(&t, 0);
+    require_plane(&bits, &grid, height, 0);
+    oracle_bits_destroy(&bits);
+    test_mesh_destroy(&others);
+    test_mesh_destroy(&mesh);
+    gi_test_close(&t);
+}
+
 /* ---- The raster voxeliser */
 
 static void require_voxelizers_agree(struct test_mesh mesh, enum sdfgi_y_scale y_scale)
@@ -186,6 +207,7 @@ int main(void)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_15_huge_triangles_stay_within_a_sub_voxel),
+        cmocka_unit_test(two_large_triangles_among_many_small_ones_are_complete),
         cmocka_unit_test(hard_16_every_tiny_triangle_sets_one_bit),
         cmocka_unit_test(raster_voxelizer_gives_the_same_volumes),
         cmocka_unit_test(raster_voxelizer_gives_the_same_needles),
