@@ -9,7 +9,7 @@
  * MAX_SLICES: each slice culls its triangles again. */
 enum { GROUP_WIDTH = 1024, MAX_SLICES = 256 };
 /* Columns that one thread walks before another one is worth its share of culling and set-up. */
-#define COLUMNS_PER_THREAD 8.0
+#define COLUMNS_PER_THREAD 2.0
 /* How often a mesh is taken to cover the largest side of what its bounds and the box share. */
 #define COVERINGS 4.0
 

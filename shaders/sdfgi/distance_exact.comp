@@ -14,7 +14,6 @@ const uint BATCH = 128u; /* few, for many workgroups at once: 0.095 ms a cascade
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
 const uint PER_THREAD = BATCH * LINES / SDFGI_GROUP_LINES;
-shared uint batch_places[BATCH];
 
 /* 16 per square of half a sub-voxel, 128 per unit of what planes store. */
 uvec4 line_values(ivec4 way, uint brought)
@@ -61,24 +60,13 @@ void mark_all(uvec2 stale)
     line_count();
 }
 
-/* The places of a batch, one per candidate. */
-void put_places(uint first)
-{
-    for (uint place = gl_LocalInvocationIndex; place < 4u * sdfgi_frame.size.x; place += SDFGI_GROUP_LINES) {
-        const uint at = line_rank(place) - first;
-        if (line_holds(place) && at < BATCH)
-            batch_places[at] = place;
-    }
-    barrier();
-}
-
 /* What the planes hold of a batch; a workgroup's lines lie side by side there. All is read before any is written: one wait. */
 void put_planes(uint count)
 {
     uint entries[PER_THREAD];
     for (uint k = 0u; k < PER_THREAD; k++) {
         const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
-        const uint place = batch_places[i / LINES];
+        const uint place = line_batch[i / LINES];
         const uint slot = plane_slot(place, first_x(), first_z() - args.step) + (i & (LINES - 1u));
         entries[k] = sdfgi_scratch[slot] << PLACE_BITS | place;
     }
@@ -114,7 +102,7 @@ void main()
     line_clear();
     const uint count = line_candidates();
     for (uint first = 0u; first < count; first += BATCH) {
-        put_places(first);
+        line_put_batch(first);
         put_planes(min(BATCH, count - first));
         line_search(min(BATCH, count - first));
         barrier();

@@ -7,7 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-const uint BATCH = 192u; /* as many as shared memory has room for: 16 KiB are all that every device has */
+const uint BATCH = 184u; /* as many as shared memory has room for: 16 KiB are all that every device has */
 
 #include "lines.glsl"
 
@@ -111,21 +111,20 @@ uint steps_along_row(uint bits, uint cell, int below, int above)
     return uint(min(down, high != 0u ? findLSB(high) : 32 - int(centre) + above));
 }
 
-/* Puts the rows numbered from `first` into a batch. Threads start at different lines, which are in different banks. */
-void put_rows(uint first)
+/* What the rows of a batch bring along. Threads start at different lines, which are in different banks. */
+void put_rows(uint count)
 {
-    for (uint place = gl_LocalInvocationIndex; place < 4u * sdfgi_frame.size.x; place += SDFGI_GROUP_LINES) {
-        const uint at = line_rank(place) - first, run = first_z() >> 3u;
-        if (!line_holds(place) || at >= BATCH)
-            continue;
+    const uint run = first_z() >> 3u;
+    for (uint at = gl_LocalInvocationIndex; at < count; at += SDFGI_GROUP_LINES) {
         /* Nothing here asks before it reads: all three runs are waited for once. */
-        const uint runs = runs_of_row(place), bits = row_of_run(place, run);
+        const uint place = line_batch[at], runs = runs_of_row(place), bits = row_of_run(place, run);
         const int below = way_below(place, runs, run), above = way_above(place, runs, run);
         for (uint i = 0u; i < LINES; i++) {
             const uint own = i + (at >> 2u) & (LINES - 1u), steps = steps_along_row(bits, own, below, above);
             line_entries[at * LINES + own] = (steps * (steps + 1u) / 2u) << PLACE_BITS | place;
         }
     }
+    barrier();
 }
 
 void store_lines()
@@ -151,8 +150,8 @@ void main()
     line_clear();
     const uint count = line_candidates();
     for (uint first = 0u; first < count; first += BATCH) {
-        put_rows(first);
-        barrier();
+        line_put_batch(first);
+        put_rows(min(BATCH, count - first));
         line_search(min(BATCH, count - first));
         barrier();
     }

@@ -6,7 +6,7 @@
  * each two of those, and then by the rest four at a time.
  * A workgroup works on LINES lines. SLOTS threads share one; each answers for as many cells in a row, and four make a team.
  * Candidates come in batches. A pass defines line_values and, before it includes this, BATCH.
- * Shared memory: 32 bytes per candidate of a batch, 8 KiB of results, 1.3 KiB besides, and what a pass adds. */
+ * Shared memory: 36 bytes per candidate of a batch, 8 KiB of results, and 1.3 KiB besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
 
@@ -22,7 +22,8 @@ shared uint line_places[32];             /* a bit per place along the line that 
 shared uint line_ranks[33];              /* candidates before each 32 places, and all */
 shared uint line_any;                    /* not 0 if there is a candidate */
 shared uint line_wanted;                 /* a bit per slot that has to answer */
-shared uint line_entries[BATCH * LINES]; /* candidates in order: place, and above it what it brings along */
+shared uint line_batch[BATCH];           /* places of a batch of candidates */
+shared uint line_entries[BATCH * LINES]; /* for each line: place, and above it what the candidate brings along */
 shared uint line_least[256u * LINES];    /* per cell, of the batches so far */
 shared uint line_part[SDFGI_GROUP_LINES];
 shared uint line_best[SDFGI_GROUP_LINES]; /* which candidate is best for the last cell of each slot */
@@ -112,6 +113,17 @@ uint line_rank(uint place)
 uint line_candidates()
 {
     return line_ranks[line_words()];
+}
+
+/* Fills line_batch with the places of the candidates numbered from `first`. */
+void line_put_batch(uint first)
+{
+    for (uint place = gl_LocalInvocationIndex; place < 4u * sdfgi_frame.size.x; place += SDFGI_GROUP_LINES) {
+        const uint at = line_rank(place) - first;
+        if (line_holds(place) && at < BATCH)
+            line_batch[at] = place;
+    }
+    barrier();
 }
 
 /* ---- Search */
