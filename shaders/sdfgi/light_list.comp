@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: MIT
- * Writes the list of light cells in the order of blocks and of bits in them. Cells that were light cells before keep their
- * light, new ones begin dark. One workgroup per row of blocks; a thread takes every SDFGI_GROUP_LINEAR-th cell of it. */
+ * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks. Cells that
+ * were light cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A
+ * row of blocks is shared by the workgroups of a column, a cell to a thread in turn. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #include "light_blocks.glsl"
+#include "light_sums.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-shared uvec2 masks[SDFGI_GROUP_LINEAR];
+shared uvec4 blocks[SDFGI_GROUP_LINEAR]; /* as in the scratch buffer */
 
 /* First block of the row whose running sum exceeds `n`. */
 uint block_of(uint n)
 {
     uint block = 0u;
     for (uint step = SDFGI_GROUP_LINEAR / 2u; step > 0u; step /= 2u)
-        if (light_sums[block + step - 1u] <= n)
+        if (light_sums[block + step - 1u].x <= n)
             block += step;
     return block;
 }
@@ -38,31 +40,65 @@ uint bit_of(uvec2 mask, uint n)
     return high ? bit + 32u : bit;
 }
 
-void write_cell(uint entry, uvec3 texel)
+/* Index of a cell in its cascade, then in all. */
+uvec2 cell_at(uvec3 texel)
 {
-    const uint index = texel_index(texel), cell = index | args.cascade << (3u * sdfgi_frame.size.y);
-    if (entry >= sdfgi_frame.light.y) {
-        sdfgi_light[cell] = uvec2(0u); /* counted, but without room nobody lights it */
+    const uint index = texel_index(texel);
+    return uvec2(index, index | args.cascade << (3u * sdfgi_frame.size.y));
+}
+
+bool has_room(uint entry, uint cell)
+{
+    const bool room = entry < sdfgi_frame.light.y;
+    if (!room)
+        sdfgi_light[cell] = uvec2(0u, SDFGI_LIGHT_NO_ROOM); /* counted, but nobody lights it */
+    return room;
+}
+
+/* A cell in a renewed block, the n-th of those. */
+void renew_cell(uint entry, uint n, uvec3 texel)
+{
+    const uvec2 at = cell_at(texel);
+    if (n < sdfgi_frame.light.y)
+        sdfgi_scratch[light_renewed_slot(n)] = entry;
+    if (!has_room(entry, at.y))
         return;
-    }
     const uint slot = light_cell_slot(args.cascade, entry);
-    sdfgi_light_cells[slot] = index;
+    sdfgi_light_cells[slot] = at.x;
     light_cell_store_direct(slot, uvec2(0u, SDFGI_LIGHT_VALID));
-    if ((sdfgi_light[cell].y & SDFGI_LIGHT_VALID) == 0u)
-        sdfgi_light[cell] = uvec2(0u, SDFGI_LIGHT_VALID);
+    if ((sdfgi_light[at.y].y & SDFGI_LIGHT_VALID) == 0u)
+        sdfgi_light[at.y] = uvec2(0u, SDFGI_LIGHT_VALID);
+}
+
+/* A cell that was entry `before` of the list before. */
+void keep_cell(uint entry, uint before, uvec3 texel)
+{
+    const uvec2 at = cell_at(texel);
+    if (!has_room(entry, at.y))
+        return;
+    const uint slot = light_cell_slot(args.cascade, entry), from = light_before_slot(before);
+    sdfgi_light_cells[slot] = at.x | (sdfgi_masks[at.y >> 2u] >> (8u * (at.y & 3u)) & 0xffu) << 24u;
+    light_cell_store_direct(slot, uvec2(sdfgi_scratch[from], sdfgi_scratch[from + 1u]));
 }
 
 void main()
 {
     const uint i = gl_LocalInvocationIndex, row = gl_WorkGroupID.x;
     const uint slot = light_block_slot(row * SDFGI_GROUP_LINEAR + i);
-    masks[i] = uvec2(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u]);
-    light_running_sum(bitCount(masks[i].x) + bitCount(masks[i].y));
-    const uint start = sdfgi_scratch[light_row_slot(row)], count = light_sums[SDFGI_GROUP_LINEAR - 1];
-    for (uint n = i; n < count; n += SDFGI_GROUP_LINEAR) {
-        const uint block = block_of(n), before = block > 0u ? light_sums[block - 1u] : 0u;
-        const uint bit = bit_of(masks[block], n - before);
+    blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u], sdfgi_scratch[slot + 3u]);
+    const uint own = bitCount(blocks[i].x) + bitCount(blocks[i].y);
+    light_running_sum(uvec2(own, own * blocks[i].z));
+    const uint start = sdfgi_scratch[light_row_slot(row)], start_renewed = sdfgi_scratch[light_row_slot(row) + 1u];
+    const uint count = light_sums[SDFGI_GROUP_LINEAR - 1].x;
+    for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count; n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
+        const uint block = block_of(n);
+        const uvec2 before = block > 0u ? light_sums[block - 1u] : uvec2(0u);
+        const uint rank = n - before.x, bit = bit_of(blocks[block].xy, rank);
         const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
-        write_cell(start + n, 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside);
+        const uvec3 texel = 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside;
+        if (blocks[block].z != 0u)
+            renew_cell(start + n, start_renewed + before.y + rank, texel);
+        else
+            keep_cell(start + n, blocks[block].w + rank, texel);
     }
 }

@@ -47,11 +47,13 @@ SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
 
 /* Passes over cells, probes and light cells. */
 struct sdfgi_pass_args {
-    ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high) */
+    ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high); x: the light cells, likewise */
     uint cascade;
-    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring; region_clear: 1 for light alone */
+    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring; region_clear: 1 for light alone;
+                             light cells: 1 for those in renewed blocks */
     uint source;          /* flood: which of the two pointer halves is read */
-    uint fresh;           /* 1: probe passes, no earlier ring counts; cell_mask, no earlier mask counts */
+    uint fresh;           /* 1: probe passes, no earlier ring counts; light_mark, no earlier list counts;
+                             light_bounce: bit per cascade without probes */
 };
 SDFGI_ASSERT_SIZE(sdfgi_pass_args, 48);
 

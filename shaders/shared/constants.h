@@ -37,6 +37,8 @@
 
 /* Second word of a light cell: it is one. */
 #define SDFGI_LIGHT_VALID 0x40000000u
+/* It is one for which the list has no room: nothing lights it. */
+#define SDFGI_LIGHT_NO_ROOM 0x80000000u
 
 /* Longest contractive loop: HARD_CASES row 34. */
 #define SDFGI_MAX_BOUNCE_GAIN 0.95
@@ -74,6 +76,7 @@
 #define SDFGI_COUNTER_VOXELS 9         /* sub-voxel samples that the voxeliser accepted */
 #define SDFGI_COUNTER_DISTANCE_CELLS 10 /* cells whose distances the exact search made anew */
 #define SDFGI_COUNTER_LIGHT_CELLS 16   /* per cascade, unclamped */
+#define SDFGI_COUNTER_LIGHT_RENEWED 24 /* per cascade, unclamped: those in renewed blocks when they were listed */
 #define SDFGI_COUNTER_COUNT 32
 
 /* Lights. */
