@@ -123,10 +123,6 @@ static void record_list(struct frame *frame, const struct sdfgi_pass_args *args)
     pass_begin(frame, PASS_LIGHT_MARK);
     pass_dispatch_cells(frame, PASS_LIGHT_MARK, args);
     pass_end(frame);
-    pass_begin(frame, PASS_LIGHT_ARGS);
-    pass_dispatch(frame, PASS_LIGHT_ARGS, args, 1, 1, 1);
-    gi->passes[PASS_LIGHT_ARGS].work++;
-    pass_end(frame);
     pass_begin(frame, PASS_LIGHT_LIST);
     pass_dispatch(frame, PASS_LIGHT_LIST, args, (uint32_t)rows, LIST_SHARES, 1);
     gi->passes[PASS_LIGHT_LIST].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];

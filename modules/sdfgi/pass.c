@@ -53,7 +53,7 @@ void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_p
 
 void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
 {
-    /* light_args leaves two records per cascade: a thread for each cell, and eight. */
+    /* light_list leaves two records per cascade: a thread for each cell, and eight. */
     const uint32_t record = args->cascade + (pass == PASS_CELL_MASK ? SDFGI_MAX_CASCADES : 0);
     gpu_use(&frame->rec, GPU_USAGE_INDIRECT, pass_reads(pass) | RESOURCE_BIT(INDIRECT), pass_writes(pass));
     pass_prepare(frame, pass, args);

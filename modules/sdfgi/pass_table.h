@@ -29,8 +29,7 @@
     X(PROBE_SEED,      probe_seed,      "probes",      R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE), SEED) \
     X(OCCLUSION_TRACE, occlusion_trace, "rays",        R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION), OCCLUSION)   \
     X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(COUNTERS), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \
-    X(LIGHT_ARGS,      light_args,      "cascades",    0, R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST)              \
-    X(LIGHT_LIST,      light_list,      "light cells", R(MASKS), R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH), LIST)       \
+    X(LIGHT_LIST,      light_list,      "light cells", R(MASKS), R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST) \
     X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(COUNTERS) | R(SCRATCH), R(LIGHT_CELLS) | R(MASKS), MASKS) \
     X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES), R(RAYS), SEED)                                       \
     X(LIGHT_DIRECT,    light_direct,    "light cells", R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS), DIRECT) \

@@ -2,8 +2,7 @@
  * The scratch buffer while light cells are listed. Blocks are 4^3 texels, numbered by where they are stored, so that a
  * cascade that scrolled here lists what one built here lists; a block is *renewed* if something new touches its cage.
  *   per block  a bit per light cell, x + 4 y + 16 z, in two words; 1 if it is renewed; where its cells began in the list before
- *   per row    of SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks; from light_args on where
- *              these begin in the list, and among the renewed
+ *   per row    of SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks
  *   per entry  of the list before, its direct light
  *   per cell   in a renewed block, in the order of the list, its entry */
 #ifndef SDFGI_LIGHT_BLOCKS_GLSL

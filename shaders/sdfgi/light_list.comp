@@ -1,24 +1,65 @@
 /* SPDX-License-Identifier: MIT
- * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks. Cells that
- * were light cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A
- * row of blocks is shared by the workgroups of a column, a cell to a thread in turn. */
+ * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks; their
+ * numbers, and the indirect arguments of passes over the latter, with a thread or with eight for each. Cells that were light
+ * cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A row of
+ * blocks is shared by the workgroups of a column, a cell to a thread in turn. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #include "light_blocks.glsl"
-#include "light_sums.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
 
 shared uvec4 blocks[SDFGI_GROUP_LINEAR]; /* as in the scratch buffer */
+/* Running sums over the threads: cells of the row, those in renewed blocks; the same of earlier rows. */
+shared uvec4 sums[SDFGI_GROUP_LINEAR];
+
+void sum_up(uvec4 value)
+{
+    const uint i = gl_LocalInvocationIndex;
+    sums[i] = value;
+    barrier();
+    for (uint step = 1u; step < SDFGI_GROUP_LINEAR; step *= 2u) {
+        const uvec4 before = i >= step ? sums[i - step] : uvec4(0u);
+        barrier();
+        sums[i] += before;
+        barrier();
+    }
+}
+
+/* This thread's share of the cells in earlier rows. */
+uvec2 count_before(uint row)
+{
+    uvec2 sum = uvec2(0u);
+    for (uint r = gl_LocalInvocationIndex; r < row; r += SDFGI_GROUP_LINEAR)
+        sum += uvec2(sdfgi_scratch[light_row_slot(r)], sdfgi_scratch[light_row_slot(r) + 1u]);
+    return sum;
+}
+
+void write_groups(uint record, uint threads)
+{
+    sdfgi_indirect[4u * record] = (threads + SDFGI_GROUP_LINEAR - 1u) / SDFGI_GROUP_LINEAR;
+    sdfgi_indirect[4u * record + 1u] = 1u;
+    sdfgi_indirect[4u * record + 2u] = 1u;
+}
+
+void write_totals(uvec2 total)
+{
+    sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + args.cascade] = total.x;
+    sdfgi_counters[SDFGI_COUNTER_LIGHT_RENEWED + args.cascade] = total.y;
+    const uint renewed = min(total.y, sdfgi_frame.light.y);
+    write_groups(args.cascade, renewed);
+    write_groups(args.cascade + uint(SDFGI_MAX_CASCADES), 8u * renewed);
+}
 
 /* First block of the row whose running sum exceeds `n`. */
 uint block_of(uint n)
 {
     uint block = 0u;
     for (uint step = SDFGI_GROUP_LINEAR / 2u; step > 0u; step /= 2u)
-        if (light_sums[block + step - 1u].x <= n)
+        if (sums[block + step - 1u].x <= n)
             block += step;
     return block;
 }
@@ -87,18 +128,19 @@ void main()
     const uint slot = light_block_slot(row * SDFGI_GROUP_LINEAR + i);
     blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u], sdfgi_scratch[slot + 3u]);
     const uint own = bitCount(blocks[i].x) + bitCount(blocks[i].y);
-    light_running_sum(uvec2(own, own * blocks[i].z));
-    const uint start = sdfgi_scratch[light_row_slot(row)], start_renewed = sdfgi_scratch[light_row_slot(row) + 1u];
-    const uint count = light_sums[SDFGI_GROUP_LINEAR - 1].x;
-    for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count; n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
+    sum_up(uvec4(own, own * blocks[i].z, count_before(row)));
+    const uvec2 start = sums[SDFGI_GROUP_LINEAR - 1].zw, count = sums[SDFGI_GROUP_LINEAR - 1].xy;
+    if (i == 0u && gl_WorkGroupID.y == 0u && row + 1u == light_row_count())
+        write_totals(start + count);
+    for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count.x; n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
         const uint block = block_of(n);
-        const uvec2 before = block > 0u ? light_sums[block - 1u] : uvec2(0u);
+        const uvec2 before = block > 0u ? sums[block - 1u].xy : uvec2(0u);
         const uint rank = n - before.x, bit = bit_of(blocks[block].xy, rank);
         const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
         const uvec3 texel = 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside;
         if (blocks[block].z != 0u)
-            renew_cell(start + n, start_renewed + before.y + rank, texel);
+            renew_cell(start.x + n, start.y + before.y + rank, texel);
         else
-            keep_cell(start + n, blocks[block].w + rank, texel);
+            keep_cell(start.x + n, blocks[block].w + rank, texel);
     }
 }
