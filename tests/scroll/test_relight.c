@@ -211,6 +211,57 @@ static void changes_in_every_frame_keep_nobody_waiting(void **state)
     gi_test_close(&t);
 }
 
+static sdfgi_instance add_box(struct gi_test *t, double x, double y, double z, double size)
+{
+    const double low[3] = { x, y, z }, high[3] = { x + size, y + 1, z + size };
+    return light_add_box(t, low, high, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+}
+
+/* Cells at the same place among the first `end` of `list` that have other direct light than in `before`. */
+static uint32_t lit_otherwise(const struct entry *list, uint32_t end, const struct entry *before,
+                              uint32_t count)
+{
+    uint32_t others = 0;
+    for (uint32_t i = 0; i < end; i++)
+        for (uint32_t k = 0; k < count; k++)
+            others += before[k].place == list[i].place && !same_direct(&before[k], &list[i]);
+    return others;
+}
+
+/* A roof goes while cells under it have been lit again for another reason: they are lit once more. */
+static void a_change_while_cells_are_lit_again_starts_that_over(void **state)
+{
+    (void)state;
+    static struct gi_test t, fresh;
+    const struct sdfgi_settings settings = relight_settings(32, 1);
+    open_at(&t, &settings, home, 0);
+    const sdfgi_instance roof = add_box(&t, -2, 5, -3, 5);
+    scroll_settle(&t);
+    t.gi->relight_budget = 250;
+    add_box(&t, -7, 5, -7, 1);
+    uint32_t count, end;
+    do
+        gi_test_update(&t, 1);
+    while (t.gi->cascades[0].change.active || t.gi->cascades[0].relight_next < 1500);
+    struct entry *before = read_list(&t, &count);
+    REQUIRE_CMP(sdfgi_instance_destroy(t.gi, roof), ==, SDFGI_OK);
+    scroll_settle(&t);
+    struct entry *list = read_list(&t, &end);
+    const uint32_t others = lit_otherwise(list, 1500, before, count);
+    printf("%u of the first 1500 of %u cells lit otherwise without the roof\n", others, end);
+    REQUIRE_CMP(others, >, 20u);
+
+    open_at(&fresh, &settings, home, 0);
+    add_box(&fresh, -7, 5, -7, 1);
+    scroll_place_as(&fresh, &t);
+    scroll_settle(&fresh);
+    scroll_require_equal(&t, &fresh, "without the roof");
+    free(list);
+    free(before);
+    gi_test_close(&fresh);
+    gi_test_close(&t);
+}
+
 /* Which cells have room changes with every step. */
 static void without_room_for_all_the_first_are_those_of_a_fresh_start(void **state)
 {
@@ -244,6 +295,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_that_stay_keep_direct_light_and_new_ones_get_theirs_at_once),
         cmocka_unit_test(a_walk_lights_cells_again_within_the_budget),
+        cmocka_unit_test(a_change_while_cells_are_lit_again_starts_that_over),
         cmocka_unit_test(changes_in_every_frame_keep_nobody_waiting),
         cmocka_unit_test(without_room_for_all_the_first_are_those_of_a_fresh_start),
     };
