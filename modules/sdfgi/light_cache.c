@@ -119,7 +119,7 @@ static void record_list(struct frame *frame, const struct sdfgi_pass_args *args)
 {
     struct sdfgi *gi = frame->gi;
     const uint64_t blocks = gi->resources->extent.cells / 64, rows = blocks / SDFGI_GROUP_LINEAR;
-    pass_clear(frame, RESOURCE_SCRATCH, 16 * blocks, 8 * rows);
+    pass_clear(frame, RESOURCE_SCRATCH, 0, 16 * blocks + 8 * rows);
     pass_begin(frame, PASS_LIGHT_MARK);
     pass_dispatch_cells(frame, PASS_LIGHT_MARK, args);
     pass_end(frame);

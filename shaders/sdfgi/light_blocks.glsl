@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The scratch buffer while light cells are listed. Blocks are 4^3 texels, numbered by where they are stored, so that a
- * cascade that scrolled here lists what one built here lists; a block is *renewed* if something new touches its cage.
+ * cascade that scrolled here lists what one built here lists; a block is *renewed* if something new touches its cage. Zero at
+ * first, but for direct light and entries.
  *   per block  a bit per light cell, x + 4 y + 16 z, in two words; 1 if it is renewed; where its cells began in the list before
  *   per row    of SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks
  *   per entry  of the list before, its direct light

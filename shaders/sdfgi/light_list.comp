@@ -92,7 +92,7 @@ bool has_room(uint entry, uint cell)
 {
     const bool room = entry < sdfgi_frame.light.y;
     if (!room)
-        sdfgi_light[cell] = uvec2(0u, SDFGI_LIGHT_NO_ROOM); /* counted, but nobody lights it */
+        sdfgi_light[cell] = uvec2(0u); /* counted, but without room nobody lights it */
     return room;
 }
 
@@ -125,12 +125,15 @@ void keep_cell(uint entry, uint before, uvec3 texel)
 void main()
 {
     const uint i = gl_LocalInvocationIndex, row = gl_WorkGroupID.x;
+    const bool last = row + 1u == light_row_count();
+    if (sdfgi_scratch[light_row_slot(row)] == 0u && !last)
+        return;
     const uint slot = light_block_slot(row * SDFGI_GROUP_LINEAR + i);
     blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u], sdfgi_scratch[slot + 3u]);
     const uint own = bitCount(blocks[i].x) + bitCount(blocks[i].y);
     sum_up(uvec4(own, own * blocks[i].z, count_before(row)));
     const uvec2 start = sums[SDFGI_GROUP_LINEAR - 1].zw, count = sums[SDFGI_GROUP_LINEAR - 1].xy;
-    if (i == 0u && gl_WorkGroupID.y == 0u && row + 1u == light_row_count())
+    if (last && i == 0u && gl_WorkGroupID.y == 0u)
         write_totals(start + count);
     for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count.x; n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
         const uint block = block_of(n);

@@ -37,8 +37,6 @@
 
 /* Second word of a light cell: it is one. */
 #define SDFGI_LIGHT_VALID 0x40000000u
-/* It is one for which the list has no room: nothing lights it. */
-#define SDFGI_LIGHT_NO_ROOM 0x80000000u
 
 /* Longest contractive loop: HARD_CASES row 34. */
 #define SDFGI_MAX_BOUNCE_GAIN 0.95

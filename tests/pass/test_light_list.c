@@ -134,18 +134,15 @@ static void list_over(struct gi_test *t, const struct held light[static CELLS])
     gpu_test_submit(&t->gpu, record_list, t);
 }
 
-/* The first `room` cells of the list are lit or wait to be; the others are known as light cells, and dark. */
 static void require_light(struct gi_test *t, const struct held before[static CELLS], const uint32_t *list,
-                          uint32_t count, uint32_t room)
+                          uint32_t count)
 {
     struct held *after = gi_test_read(t, RESOURCE_LIGHT, NULL);
     struct held *wanted = test_array_alloc(CELLS, sizeof *wanted);
     memset(wanted, 0, sizeof *wanted * CELLS);
     for (uint32_t i = 0; i < count; i++)
-        wanted[list[i]] = i >= room ? (struct held){ 0, SDFGI_LIGHT_NO_ROOM }
-                          : before[list[i]].weights & SDFGI_LIGHT_VALID
-                              ? before[list[i]]
-                              : (struct held){ 0, SDFGI_LIGHT_VALID };
+        wanted[list[i]] = before[list[i]].weights & SDFGI_LIGHT_VALID ? before[list[i]]
+                                                                      : (struct held){ 0, SDFGI_LIGHT_VALID };
     REQUIRE_BYTES(after, wanted, sizeof *wanted * CELLS);
     free(wanted);
     free(after);
@@ -161,7 +158,7 @@ static void cells_that_stay_keep_their_light_and_others_forget_it(void **state)
     const uint32_t count = expected_list(&t, expected);
     fill_light(light);
     list_over(&t, light);
-    require_light(&t, light, expected, count, count);
+    require_light(&t, light, expected, count);
     require_list(&t, expected, count);
     gi_test_close(&t);
 }
@@ -179,7 +176,7 @@ static void without_room_the_first_cells_are_lit_and_the_others_are_dark(void **
     require_list(&t, expected, ROOM);
     fill_light(light);
     list_over(&t, light);
-    require_light(&t, light, expected, count, ROOM);
+    require_light(&t, light, expected, ROOM);
     gi_test_update(&t, 6);
     REQUIRE_CMP(pass_health_count(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, count - ROOM);
     REQUIRE_CMP(t.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
