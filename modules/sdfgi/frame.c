@@ -80,7 +80,7 @@ static void restart_ring(struct sdfgi *gi)
 
 static void make_plan(struct sdfgi *gi)
 {
-    light_cache_call(gi);
+    light_cache_plan(gi);
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         if (gi->cascades[c].fresh && gi->schedule.from_nothing)
             gi->cascades[c].published = false;

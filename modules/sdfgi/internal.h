@@ -402,7 +402,7 @@ void probe_place_record(struct frame *frame, uint32_t cascade);
 /* Makes room where the newest counters known say that the list was too short. */
 void light_cache_make_room(struct sdfgi *gi);
 /* Decides whose direct light is to be made again, from what this frame completes. */
-void light_cache_call(struct sdfgi *gi);
+void light_cache_plan(struct sdfgi *gi);
 /* True if cells that stay wait for direct light. */
 bool light_cache_relights(const struct sdfgi *gi);
 /* True if all light cells of a cascade are listed as new in this frame. */

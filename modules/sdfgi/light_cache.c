@@ -78,7 +78,7 @@ bool light_cache_relights(const struct sdfgi *gi)
 
 /* Where the list changes while a pass over it is under way, the pass goes on at the same entry until it has
  * come round once more: it may have passed by cells that have moved to entries before it. */
-void light_cache_call(struct sdfgi *gi)
+void light_cache_plan(struct sdfgi *gi)
 {
     const uint32_t room = (uint32_t)gi->resources->extent.light_cells;
     uint32_t dirty = 0;
