@@ -13,12 +13,12 @@ static uint64_t count_library_commands(const struct sdfgi_report *report)
 }
 
 /* Every cascade that has become complete, after it moved or something in it changed, has its list of light
- * cells measured once. */
+ * cells written once. */
 static uint64_t count_cascades_generated(const struct sdfgi_report *report)
 {
     for (uint32_t i = 0; i < report->pass_count; i++)
-        if (strcmp(report->passes[i].name, "light_args") == 0)
-            return report->passes[i].ran ? report->passes[i].work : 0;
+        if (strcmp(report->passes[i].name, "light_list") == 0)
+            return report->passes[i].ran ? report->passes[i].dispatches : 0;
     return 0;
 }
 

@@ -33,6 +33,7 @@ static void forget_everything(struct sdfgi *gi)
     gi->known_change = gi->known_brightest = 0;
     gi->converged = gi->active = false;
     gi->materials_changed = gi->lights_changed = gi->params_changed = true;
+    gi->relight_budget = SDFGI_RELIGHT_CELLS;
     gi->update_count = 0;
 }
 

@@ -78,30 +78,9 @@ static void restart_ring(struct sdfgi *gi)
     gi->disturbed_ring = gi->ring - 1;
 }
 
-/* Light that falls directly is new where a cascade is complete, and in all finer ones, into which its
- * geometry throws shadows. */
-static void mark_relights(struct sdfgi *gi)
-{
-    uint32_t dirty = gi->lights_changed || any_relisted(gi) ? gi->settings.cascades : 0;
-    for (uint32_t i = 0; i < gi->schedule.step_count; i++)
-        if (gi->schedule.steps[i].kind == STEP_COMPLETE && gi->schedule.steps[i].cascade >= dirty)
-            dirty = gi->schedule.steps[i].cascade + 1;
-    const bool lit = gi->scene.lights.count > 0 || gi->lights_changed;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        gi->cascades[c].relight = lit && (gi->cascades[c].relight || c < dirty);
-}
-
-static bool any_relights(const struct sdfgi *gi)
-{
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].relight)
-            return true;
-    return false;
-}
-
 static void make_plan(struct sdfgi *gi)
 {
-    mark_relights(gi);
+    light_cache_plan(gi);
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         if (gi->cascades[c].fresh && gi->schedule.from_nothing)
             gi->cascades[c].published = false;
@@ -112,7 +91,7 @@ static void make_plan(struct sdfgi *gi)
         .measures = schedule_has(gi, STEP_DISTANCE),
         .completes = schedule_has(gi, STEP_COMPLETE),
         .fresh = gi->schedule.from_nothing,
-        .relights = any_relights(gi),
+        .relights = light_cache_relights(gi),
         .list_grew = any_relisted(gi),
         .has_geometry = gi->scene.instances.count > 0,
         .has_lights = gi->scene.lights.count > 0,
@@ -169,44 +148,32 @@ static void complete(struct frame *frame)
 /* Rays of a cascade go on into coarser ones, never into finer. */
 static void forget_rays(struct frame *frame)
 {
-    struct sdfgi *gi = frame->gi;
-    bool changed = false;
-    for (uint32_t c = gi->settings.cascades; c-- > 0;) {
-        changed = changed || schedule_completes(gi, c);
-        if (changed && !restarts(gi))
-            ray_forget_record(frame, c);
-    }
+    const struct sdfgi *gi = frame->gi;
+    uint32_t cascades = 0;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (schedule_completes(gi, c))
+            cascades = c + 1;
+    if (cascades > 0 && !restarts(gi))
+        ray_forget_record(frame, cascades);
 }
 
-/* Surfaces, or the light on them, are not what they were in the frame before. */
-static bool light_is_new(const struct sdfgi *gi, uint32_t c)
-{
-    return schedule_completes(gi, c) || gi->cascades[c].relist || gi->lights_changed ||
-           gi->schedule.from_nothing;
-}
-
-/* Direct light: at once where a cascade has become complete or a light changed, else one cascade a frame in
- * others. */
+/* Direct light of cells that were there before: at once where lights changed, else some a frame. */
 static void light_directly(struct frame *frame)
 {
-    struct sdfgi *gi = frame->gi;
-    bool waited = schedule_has(gi, STEP_COMPLETE); /* such a frame has enough to do */
+    const struct sdfgi *gi = frame->gi;
+    if (!gi->lights_changed) {
+        light_cache_relight_record(frame);
+        return;
+    }
+    bool any = false;
     for (uint32_t c = 0; c < gi->settings.cascades; c++) {
-        struct cascade *cascade = &gi->cascades[c];
-        const bool now = light_is_new(gi, c);
-        if (!cascade->relight || (!now && waited))
+        if (light_cache_is_new(gi, c))
             continue;
         light_cache_direct_record(frame, c);
-        cascade->relight = false;
-        waited = waited || !now;
+        any = true;
     }
-}
-
-static void light_surfaces(struct frame *frame, bool new_alone)
-{
-    for (uint32_t c = 0; c < frame->gi->settings.cascades; c++)
-        if (!new_alone || light_is_new(frame->gi, c))
-            light_cache_bounce_record(frame, c);
+    if (any)
+        light_cache_bounce_record(frame);
 }
 
 /* Sends this frame's rays, and publishes what the probes have gathered. */
@@ -270,12 +237,10 @@ static void record_work(struct frame *frame)
     }
     if (gi->plan[PASS_LIGHT_DIRECT].run)
         light_directly(frame);
-    if (gi->plan[PASS_LIGHT_DIRECT].run || gi->plan[PASS_LIGHT_LIST].run)
-        light_surfaces(frame, true);
     if (gi->plan[PASS_PROBE_TRACE].run)
         light_probes(frame);
     if (gi->plan[PASS_PROBE_BLEND].run)
-        light_surfaces(frame, false);
+        light_cache_bounce_record(frame);
     readback_record(frame);
 }
 

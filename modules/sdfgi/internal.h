@@ -20,6 +20,7 @@ enum {
     SDFGI_MAX_MATERIALS = 4096,
     SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
     SDFGI_MAX_GATHERS = 8, /* per update */
+    SDFGI_RELIGHT_CELLS = 32768, /* light cells a frame that are lit again since others changed */
 };
 
 /* A ring has settled when no probe texel changes by more than this share of its value from one ring to the
@@ -159,7 +160,8 @@ struct cascade {
     bool fresh;     /* no ring has been completed since nothing was there */
     bool published; /* its probes hold light */
     bool waits;     /* the camera is too fast for it to step */
-    bool relight;   /* direct light is to be brought up to date */
+    uint32_t relight_next, relight_left; /* entries of its list: next to be lit again, still to be lit again */
+    uint64_t listed_at;                  /* frame in which its light cells were listed last */
     struct cell_box window;  /* complete cells, which shaders may read */
     double share_low[3], share_high[3]; /* the part of it that lookups read, see schedule.c */
     bool share_moves;        /* it still widens */
@@ -293,6 +295,8 @@ struct sdfgi {
     struct cascade cascades[SDFGI_MAX_CASCADES];
     struct schedule schedule;
     bool materials_changed, lights_changed, params_changed;
+    uint32_t relight_budget, relight_cascade; /* cells a frame; the cascade whose turn it is */
+    bool relight_waits;                       /* put off in this frame */
     float emission_unit; /* radiance of the brightest material */
     struct sdfgi_frame_params params;
     double origin[3];
@@ -372,7 +376,8 @@ void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi
 /* One thread per `per_thread` cells of args' box. */
 void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
                        uint32_t per_thread);
-void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
+/* Over the light cells in the blocks of a cascade that were renewed last. */
+void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
 /* Zeroes a part of a buffer. */
 void pass_clear(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes);
 uint64_t pass_reads(enum pass pass);
@@ -398,13 +403,24 @@ void occlusion_record(struct frame *frame, uint32_t cascade);
 void probe_place_record(struct frame *frame, uint32_t cascade);
 /* Makes room where the newest counters known say that the list was too short. */
 void light_cache_make_room(struct sdfgi *gi);
+/* Decides whose direct light is to be made again, from what this frame completes. */
+void light_cache_plan(struct sdfgi *gi);
+/* True if cells that stay wait for direct light. */
+bool light_cache_relights(const struct sdfgi *gi);
+/* True if all light cells of a cascade are listed as new in this frame. */
+bool light_cache_is_new(const struct sdfgi *gi, uint32_t cascade);
+/* Lists the light cells of a cascade; those in renewed blocks get masks and light. */
 void light_cache_list_record(struct frame *frame, uint32_t cascade);
+/* Direct light of all cells of a cascade; of as many of those that wait for it as one frame may make. */
 void light_cache_direct_record(struct frame *frame, uint32_t cascade);
-void light_cache_bounce_record(struct frame *frame, uint32_t cascade);
+void light_cache_relight_record(struct frame *frame);
+/* What leaves the surfaces, in all cascades. */
+void light_cache_bounce_record(struct frame *frame);
 /* Empties the sums of this ring, the one before and the ray cache. */
 void probe_reset_record(struct frame *frame, uint32_t cascade);
 void probe_seed_record(struct frame *frame, uint32_t cascade);
-void ray_forget_record(struct frame *frame, uint32_t cascade);
+/* In the finest `cascades` of them. */
+void ray_forget_record(struct frame *frame, uint32_t cascades);
 void probe_trace_record(struct frame *frame, uint32_t cascade);
 void probe_blend_record(struct frame *frame, uint32_t cascade, bool ring_ends);
 

@@ -5,6 +5,8 @@
 
 /* Room beyond what is needed, so that a scene that grows a little does not grow the list each time. */
 #define SPARE_SHARE 8
+/* Workgroups that share a row of 64 blocks: along the ground it holds a thousand cells. */
+#define LIST_SHARES 4
 
 static uint64_t most_light_cells(const struct sdfgi *gi)
 {
@@ -34,51 +36,170 @@ void light_cache_make_room(struct sdfgi *gi)
     r->light_cells_refused = needed;
 }
 
-/* Blocks of 4^3 cells get a mask of two words, rows of blocks a count: see light_blocks.glsl. */
+/* ---- Which direct light is to be made
+ *
+ * A cell that is listed as new is lit in the same frame. Those that stay keep their direct light; but
+ * surfaces that came or went may throw shadows on them, or throw them no more. They are lit again over the
+ * following frames, so many a frame. */
+
+bool light_cache_is_new(const struct sdfgi *gi, uint32_t c)
+{
+    const struct cascade *cascade = &gi->cascades[c];
+    return cascade->relist || (schedule_completes(gi, c) && cell_box_empty(&cascade->change.kept));
+}
+
+/* Cells in a list: as counted once the count of this list has come back, till then all it has room for. */
+static uint32_t listed_cells(const struct sdfgi *gi, uint32_t c)
+{
+    const uint32_t room = (uint32_t)gi->resources->extent.light_cells;
+    const uint32_t count = gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
+    return gi->frame >= gi->cascades[c].listed_at + gi->frames_in_flight && count < room ? count : room;
+}
+
+/* Goes on to the next entry that there is. */
+static void skip_room(struct sdfgi *gi, uint32_t c)
+{
+    struct cascade *cascade = &gi->cascades[c];
+    const uint32_t room = (uint32_t)gi->resources->extent.light_cells, cells = listed_cells(gi, c);
+    while (cascade->relight_left > 0 && cascade->relight_next >= cells) {
+        const uint32_t gap = room - cascade->relight_next;
+        cascade->relight_left -= gap < cascade->relight_left ? gap : cascade->relight_left;
+        cascade->relight_next = 0;
+    }
+}
+
+bool light_cache_relights(const struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (gi->cascades[c].relight_left > 0)
+            return true;
+    return false;
+}
+
+/* Where the list changes while a pass over it is under way, the pass goes on at the same entry until it has
+ * come round once more: it may have passed by cells that have moved to entries before it. */
+void light_cache_plan(struct sdfgi *gi)
+{
+    const uint32_t room = (uint32_t)gi->resources->extent.light_cells;
+    uint32_t dirty = 0;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        if (schedule_completes(gi, c))
+            dirty = c + 1;
+        if (schedule_completes(gi, c) || gi->cascades[c].relist)
+            gi->cascades[c].listed_at = gi->frame;
+    }
+    if (!light_cache_relights(gi))
+        gi->relight_cascade = 0;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        struct cascade *cascade = &gi->cascades[c];
+        if (c < dirty)
+            cascade->relight_left = room;
+        if (light_cache_is_new(gi, c) || gi->lights_changed || gi->scene.lights.count == 0)
+            cascade->relight_left = 0;
+        skip_room(gi, c);
+    }
+}
+
+/* ---- Recording */
+
+static void record_range(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
+{
+    const struct sdfgi_pass_args args = { .low.x = (int32_t)first,
+                                          .high.x = (int32_t)(first + count),
+                                          .cascade = c };
+    const uint32_t groups = (count + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR;
+    pass_begin(frame, PASS_LIGHT_DIRECT);
+    pass_dispatch(frame, PASS_LIGHT_DIRECT, &args, groups, 1, 1);
+    frame->gi->passes[PASS_LIGHT_DIRECT].work += count;
+    pass_end(frame);
+}
+
+/* Blocks of 4^3 cells get four words, rows of blocks two: see light_blocks.glsl. */
 static void record_list(struct frame *frame, const struct sdfgi_pass_args *args)
 {
     struct sdfgi *gi = frame->gi;
     const uint64_t blocks = gi->resources->extent.cells / 64, rows = blocks / SDFGI_GROUP_LINEAR;
-    pass_clear(frame, RESOURCE_SCRATCH, 8 * blocks, 4 * rows);
+    pass_clear(frame, RESOURCE_SCRATCH, 0, 16 * blocks + 8 * rows);
     pass_begin(frame, PASS_LIGHT_MARK);
     pass_dispatch_cells(frame, PASS_LIGHT_MARK, args);
     pass_end(frame);
-    pass_begin(frame, PASS_LIGHT_ARGS);
-    pass_dispatch(frame, PASS_LIGHT_ARGS, args, 1, 1, 1);
-    gi->passes[PASS_LIGHT_ARGS].work++;
-    pass_end(frame);
     pass_begin(frame, PASS_LIGHT_LIST);
-    pass_dispatch(frame, PASS_LIGHT_LIST, args, (uint32_t)rows, 1, 1);
+    pass_dispatch(frame, PASS_LIGHT_LIST, args, (uint32_t)rows, LIST_SHARES, 1);
     gi->passes[PASS_LIGHT_LIST].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];
+    pass_end(frame);
+}
+
+/* A pass over the cells in renewed blocks. */
+static void record_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+{
+    if (!frame->gi->plan[pass].run)
+        return;
+    pass_begin(frame, pass);
+    pass_dispatch_renewed(frame, pass, args);
     pass_end(frame);
 }
 
 void light_cache_list_record(struct frame *frame, uint32_t c)
 {
-    const struct sdfgi_pass_args args = { .cascade = c, .fresh = frame->gi->cascades[c].relist };
+    const struct sdfgi *gi = frame->gi;
+    const struct sdfgi_pass_args args = { .cascade = c, .fresh = light_cache_is_new(gi, c) };
     record_list(frame, &args);
-    if (!frame->gi->plan[PASS_CELL_MASK].run)
-        return;
-    pass_begin(frame, PASS_CELL_MASK);
-    pass_dispatch_light_cells(frame, PASS_CELL_MASK, &args);
-    pass_end(frame);
+    struct sdfgi_pass_args renewed = { .cascade = c, .step = 1 };
+    record_renewed(frame, PASS_CELL_MASK, &renewed);
+    record_renewed(frame, PASS_LIGHT_DIRECT, &renewed);
+    renewed.fresh = (uint32_t)!gi->cascades[c].published << c;
+    record_renewed(frame, PASS_LIGHT_BOUNCE, &renewed);
 }
 
-static void record_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+/* Goes on with a cascade, at most to the end of its list; returns how many cells that was. */
+static uint32_t relight_part(struct frame *frame, uint32_t c, uint32_t most)
 {
-    pass_begin(frame, pass);
-    pass_dispatch_light_cells(frame, pass, args);
-    pass_end(frame);
+    struct cascade *cascade = &frame->gi->cascades[c];
+    if (cascade->relight_left == 0)
+        return 0;
+    uint32_t count = listed_cells(frame->gi, c) - cascade->relight_next;
+    count = count < cascade->relight_left ? count : cascade->relight_left;
+    count = count < most ? count : most;
+    record_range(frame, c, cascade->relight_next, count);
+    cascade->relight_next += count;
+    cascade->relight_left -= count;
+    skip_room(frame->gi, c);
+    return count;
+}
+
+void light_cache_relight_record(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    /* A frame in which a cascade becomes complete has enough to do, but not several in a row. */
+    gi->relight_waits = schedule_has(gi, STEP_COMPLETE) && !gi->relight_waits;
+    if (gi->relight_waits || !light_cache_relights(gi))
+        return;
+    light_disturb(gi);
+    uint32_t left = gi->relight_budget;
+    for (uint32_t i = 0; i < gi->settings.cascades && left > 0; i++) {
+        left -= relight_part(frame, gi->relight_cascade, left);
+        /* In turn, so that changes frame after frame do not keep coarse cascades waiting for ever. */
+        if (left > 0)
+            gi->relight_cascade = (gi->relight_cascade + 1) % gi->settings.cascades;
+    }
 }
 
 void light_cache_direct_record(struct frame *frame, uint32_t c)
 {
-    record_light_cells(frame, PASS_LIGHT_DIRECT, &(struct sdfgi_pass_args){ .cascade = c });
+    record_range(frame, c, 0, (uint32_t)frame->gi->resources->extent.light_cells);
 }
 
-void light_cache_bounce_record(struct frame *frame, uint32_t c)
+void light_cache_bounce_record(struct frame *frame)
 {
-    const bool no_probes = !frame->gi->cascades[c].published;
-    record_light_cells(frame, PASS_LIGHT_BOUNCE,
-                       &(struct sdfgi_pass_args){ .cascade = c, .fresh = no_probes });
+    struct sdfgi *gi = frame->gi;
+    const uint32_t room = (uint32_t)gi->resources->extent.light_cells;
+    struct sdfgi_pass_args args = { .high.x = (int32_t)room };
+    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
+        args.fresh |= (uint32_t)!gi->cascades[c].published << c;
+        gi->passes[PASS_LIGHT_BOUNCE].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
+    }
+    pass_begin(frame, PASS_LIGHT_BOUNCE);
+    pass_dispatch(frame, PASS_LIGHT_BOUNCE, &args, (room + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR,
+                  gi->settings.cascades, 1);
+    pass_end(frame);
 }

@@ -51,15 +51,15 @@ void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_p
     frame->gi->passes[pass].work += threads;
 }
 
-void pass_dispatch_light_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
 {
-    /* light_args leaves two records per cascade: a thread for each cell, and eight. */
+    /* light_list leaves two records per cascade: a thread for each cell, and eight. */
     const uint32_t record = args->cascade + (pass == PASS_CELL_MASK ? SDFGI_MAX_CASCADES : 0);
     gpu_use(&frame->rec, GPU_USAGE_INDIRECT, pass_reads(pass) | RESOURCE_BIT(INDIRECT), pass_writes(pass));
     pass_prepare(frame, pass, args);
     gpu_dispatch_indirect(&frame->rec, &frame->gi->resources->buffers[RESOURCE_INDIRECT], 16 * record);
-    /* How many cells that is was read back from the frame that listed them. */
-    frame->gi->passes[pass].work += frame->gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];
+    /* How many cells that is comes back frames later: these are those of the list before. */
+    frame->gi->passes[pass].work += frame->gi->counters[SDFGI_COUNTER_LIGHT_RENEWED + args->cascade];
 }
 
 void pass_clear(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes)

@@ -21,7 +21,6 @@
 #include "probe_seed.comp.h"
 #include "occlusion_trace.comp.h"
 #include "light_mark.comp.h"
-#include "light_args.comp.h"
 #include "light_list.comp.h"
 #include "cell_mask.comp.h"
 #include "light_direct.comp.h"

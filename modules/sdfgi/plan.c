@@ -61,12 +61,12 @@ static bool needs_masks(const struct situation *s)
 
 static bool needs_direct(const struct situation *s)
 {
-    return (s->relights && s->has_lights) || s->lights_changed;
+    return ((s->relights || needs_list(s)) && s->has_lights) || s->lights_changed;
 }
 
 static bool needs_light(const struct situation *s)
 {
-    return !s->converged && (s->publish || needs_list(s) || s->relights || s->lights_changed);
+    return !s->converged && (s->publish || needs_list(s) || s->lights_changed);
 }
 
 static bool needs_trace(const struct situation *s)

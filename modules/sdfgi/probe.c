@@ -40,10 +40,13 @@ void probe_seed_record(struct frame *frame, uint32_t c)
     record_probes(frame, PASS_PROBE_SEED, c, frame->gi->resources->extent.probes);
 }
 
-void ray_forget_record(struct frame *frame, uint32_t c)
+void ray_forget_record(struct frame *frame, uint32_t cascades)
 {
     const struct extent *e = &frame->gi->resources->extent;
-    record_probes(frame, PASS_RAY_FORGET, c, e->probes * e->ring_samples);
+    pass_begin(frame, PASS_RAY_FORGET);
+    pass_dispatch(frame, PASS_RAY_FORGET, &(struct sdfgi_pass_args){ 0 }, (uint32_t)e->probes, cascades, 1);
+    frame->gi->passes[PASS_RAY_FORGET].work += e->probes * e->ring_samples * cascades;
+    pass_end(frame);
 }
 
 void probe_trace_record(struct frame *frame, uint32_t c)

@@ -457,7 +457,7 @@ bool schedule_completes(const struct sdfgi *gi, uint32_t c)
 bool schedule_idle(const struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].change.active || gi->cascades[c].relight || gi->cascades[c].share_moves)
+        if (gi->cascades[c].change.active || gi->cascades[c].relight_left > 0 || gi->cascades[c].share_moves)
             return false;
     return true;
 }

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. Eight
- * threads per light cell; those whose cage nothing new touches keep theirs, unless all were lost (args.fresh = 1). */
+ * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. Eight threads per light
+ * cell in a renewed block: nothing new touches the cages of the others. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
-#include "changed.glsl"
-#include "light_cells.glsl"
+#include "light_blocks.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -25,27 +24,23 @@ bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, k = lane & 7u;
-    const uint entry = gl_WorkGroupID.x * CELLS + lane / 8u;
-    const bool listed = entry < light_cell_count(args.cascade);
+    uint entry;
+    const bool listed = light_entry(args, args.cascade, gl_WorkGroupID.x * CELLS + lane / 8u, entry);
     const uint slot = light_cell_slot(args.cascade, listed ? entry : 0u);
     const uint texel = sdfgi_light_cells[slot] & 0xffffffu;
     const ivec3 cell = light_cell_position(args.cascade, texel);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
     const uint index = cell_index(args.cascade, cell), shift = 8u * (index & 3u);
-    const bool again = args.fresh != 0u || changed_near(args.cascade, cage * SDFGI_PROBE_SPACING,
-                                                        (cage + 1) * SDFGI_PROBE_SPACING, 0);
     if (k == 0u)
-        masks[lane / 8u] = again ? 0u : sdfgi_masks[index >> 2u] >> shift & 0xffu;
+        masks[lane / 8u] = 0u;
     barrier();
-    if (listed && again && sees(cell, cage, ivec3(k & 1u, k >> 1u & 1u, k >> 2u)))
+    if (listed && sees(cell, cage, ivec3(k & 1u, k >> 1u & 1u, k >> 2u)))
         atomicOr(masks[lane / 8u], 1u << k);
     barrier();
     if (!listed || k > 0u)
         return;
     const uint mask = masks[lane / 8u];
     sdfgi_light_cells[slot] = texel | mask << 24u;
-    if (again) {
-        atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << shift));
-        atomicOr(sdfgi_masks[index >> 2u], mask << shift);
-    }
+    atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << shift));
+    atomicOr(sdfgi_masks[index >> 2u], mask << shift);
 }

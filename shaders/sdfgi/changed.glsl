@@ -20,6 +20,18 @@ bool changed_near(uint cascade, ivec3 low, ivec3 high, int margin)
     return false;
 }
 
+/* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing is new. */
+float changed_distance(uint cascade, vec3 pos, float margin)
+{
+    float nearest = 1e10;
+    for (int i = 0; i < changed_count(cascade); i++) {
+        const vec3 low = vec3(sdfgi_frame.cascades[cascade].changed[2 * i].xyz) - margin;
+        const vec3 high = vec3(sdfgi_frame.cascades[cascade].changed[2 * i + 1].xyz) + margin;
+        nearest = min(nearest, length(metric_from_cells(pos - clamp(pos, low, high))));
+    }
+    return nearest;
+}
+
 /* True if a ray from `pos` along `dir` (both in cell space) passes anything new, by less than `margin` cells, before
  * parameter `end`. */
 bool changed_crosses(uint cascade, vec3 pos, vec3 dir, float end, float margin)

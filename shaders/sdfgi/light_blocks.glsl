@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * The scratch buffer while light cells are listed: per block of 4^3 texels a bit per light cell, x + 4 y + 16 z, then per
- * row of SDFGI_GROUP_LINEAR blocks how many cells it has, from light_args on where they begin in the list. Blocks are
- * numbered by where they are stored, so that a cascade that scrolled here lists what one built here lists. */
+ * The scratch buffer while light cells are listed. Blocks are 4^3 texels, numbered by where they are stored, so that a
+ * cascade that scrolled here lists what one built here lists; a block is *renewed* if something new touches its cage. Zero at
+ * first, but for direct light and entries.
+ *   per block  a bit per light cell, x + 4 y + 16 z, in two words; 1 if it is renewed; where its cells began in the list before
+ *   per row    of SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks
+ *   per entry  of the list before, its direct light
+ *   per cell   in a renewed block, in the order of the list, its entry */
 #ifndef SDFGI_LIGHT_BLOCKS_GLSL
 #define SDFGI_LIGHT_BLOCKS_GLSL
 
 #include "light_cells.glsl"
-
-shared uint light_sums[SDFGI_GROUP_LINEAR];
 
 uint light_block_bits()
 {
@@ -26,10 +28,10 @@ uvec3 light_block_coords(uint block)
     return uvec3(block & mask, block >> bits & mask, block >> (2u * bits));
 }
 
-/* First word of a block's mask. */
+/* First of a block's four words. */
 uint light_block_slot(uint block)
 {
-    return 2u * block;
+    return 4u * block;
 }
 
 uint light_row_count()
@@ -37,24 +39,35 @@ uint light_row_count()
     return (1u << (3u * light_block_bits())) / SDFGI_GROUP_LINEAR;
 }
 
+/* First of a row's two words. */
 uint light_row_slot(uint row)
 {
-    return light_block_slot(SDFGI_GROUP_LINEAR * light_row_count()) + row;
+    return light_block_slot(SDFGI_GROUP_LINEAR * light_row_count()) + 2u * row;
 }
 
-/* Sum of `value` over this thread and those before it in the workgroup, left in light_sums too. */
-uint light_running_sum(uint value)
+/* First of the two words of direct light that an entry of the list before had. */
+uint light_before_slot(uint entry)
 {
-    const uint i = gl_LocalInvocationIndex;
-    light_sums[i] = value;
-    barrier();
-    for (uint step = 1u; step < SDFGI_GROUP_LINEAR; step *= 2u) {
-        const uint before = i >= step ? light_sums[i - step] : 0u;
-        barrier();
-        light_sums[i] += before;
-        barrier();
-    }
-    return light_sums[i];
+    return light_row_slot(light_row_count()) + 2u * entry;
+}
+
+/* The entry of the n-th cell in renewed blocks. */
+uint light_renewed_slot(uint n)
+{
+    return light_before_slot(sdfgi_frame.light.y) + n;
+}
+
+/* The entry that is a pass's n-th: of the cells in renewed blocks where args.step = 1, else of those from args.low.x up to
+ * args.high.x. False if there is none. */
+bool light_entry(sdfgi_pass_args args, uint cascade, uint n, out uint entry)
+{
+    const bool renewed = args.step != 0u;
+    const uint end = renewed ? min(sdfgi_counters[SDFGI_COUNTER_LIGHT_RENEWED + cascade], sdfgi_frame.light.y)
+                             : uint(args.high.x - args.low.x);
+    entry = n;
+    if (n < end)
+        entry = renewed ? sdfgi_scratch[light_renewed_slot(n)] : uint(args.low.x) + n;
+    return n < end && entry < light_cell_count(cascade);
 }
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Outgoing radiance of each light cell: direct light, emission, and what the probes bring from everywhere else. One
- * thread per light cell. */
+ * thread per light cell of those that args name, in the cascade gl_WorkGroupID.y above args.cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
-#include "light_cells.glsl"
+#include "light_blocks.glsl"
 #include "../include/sdfgi_lookup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -21,15 +21,16 @@ vec3 bounce_gain(vec3 albedo)
 
 void main()
 {
-    const uint entry = gl_GlobalInvocationID.x;
-    if (entry >= light_cell_count(args.cascade))
+    const uint cascade = args.cascade + gl_WorkGroupID.y;
+    uint entry;
+    if (!light_entry(args, cascade, gl_GlobalInvocationID.x, entry))
         return;
-    const uint slot = light_cell_slot(args.cascade, entry);
+    const uint slot = light_cell_slot(cascade, entry);
     const uint packed = sdfgi_light_cells[slot];
-    const ivec3 cell = light_cell_position(args.cascade, packed);
-    if (!cell_served(args.cascade, cell))
+    const ivec3 cell = light_cell_position(cascade, packed);
+    if (!cell_served(cascade, cell))
         return;
-    const uint facing = light_cell_facing(args.cascade, cell);
+    const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
 
     vec3 axes[6];
@@ -37,16 +38,16 @@ void main()
         axes[a] = vec3(0.0);
         if ((facing >> a & 1u) == 0u)
             continue;
-        const uint block = surface_block(args.cascade, cell - surface_axis_step(a));
+        const uint block = surface_block(cascade, cell - surface_axis_step(a));
         axes[a] = light_unpack_axis(direct, a) + surface_emission(block, a);
-        /* args.fresh: no probe has a value yet. */
-        if (args.fresh == 0u) {
-            const vec4 sum = lookup_light_cell(args.cascade, cell, surface_normal(block, a), packed >> 24u);
+        /* args.fresh: no probe of these cascades has a value yet. */
+        if ((args.fresh >> cascade & 1u) == 0u) {
+            const vec4 sum = lookup_light_cell(cascade, cell, surface_normal(block, a), packed >> 24u);
             axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
         }
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
     }
     light_fill_axes(facing, axes);
-    sdfgi_light[cell_index(args.cascade, cell)] = light_pack(axes, light_cell_hash(args.cascade, cell));
+    sdfgi_light[cell_index(cascade, cell)] = light_pack(axes, light_cell_hash(cascade, cell));
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows, reflected by the
- * surface's albedo, one value per axis along which a surface faces. One thread per light cell. */
+ * surface's albedo, one value per axis along which a surface faces. One thread per light cell of those that args name. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "light_cells.glsl"
+#include "light_blocks.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -47,8 +47,8 @@ bool light_reaches(vec3 pos, vec3 to_light, float range_m)
 
 void main()
 {
-    const uint entry = gl_GlobalInvocationID.x;
-    if (entry >= light_cell_count(args.cascade))
+    uint entry;
+    if (!light_entry(args, args.cascade, gl_GlobalInvocationID.x, entry))
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Writes the list of light cells in the order of blocks and of bits in them. Cells that were light cells before keep their
- * light, new ones begin dark. One workgroup per row of blocks; a thread takes every SDFGI_GROUP_LINEAR-th cell of it. */
+ * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks; their
+ * numbers, and the indirect arguments of passes over the latter, with a thread or with eight for each. Cells that were light
+ * cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A row of
+ * blocks is shared by the workgroups of a column, a cell to a thread in turn. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -8,15 +10,56 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
 
-shared uvec2 masks[SDFGI_GROUP_LINEAR];
+shared uvec4 blocks[SDFGI_GROUP_LINEAR]; /* as in the scratch buffer */
+/* Running sums over the threads: cells of the row, those in renewed blocks; the same of earlier rows. */
+shared uvec4 sums[SDFGI_GROUP_LINEAR];
+
+void sum_up(uvec4 value)
+{
+    const uint i = gl_LocalInvocationIndex;
+    sums[i] = value;
+    barrier();
+    for (uint step = 1u; step < SDFGI_GROUP_LINEAR; step *= 2u) {
+        const uvec4 before = i >= step ? sums[i - step] : uvec4(0u);
+        barrier();
+        sums[i] += before;
+        barrier();
+    }
+}
+
+/* This thread's share of the cells in earlier rows. */
+uvec2 count_before(uint row)
+{
+    uvec2 sum = uvec2(0u);
+    for (uint r = gl_LocalInvocationIndex; r < row; r += SDFGI_GROUP_LINEAR)
+        sum += uvec2(sdfgi_scratch[light_row_slot(r)], sdfgi_scratch[light_row_slot(r) + 1u]);
+    return sum;
+}
+
+void write_groups(uint record, uint threads)
+{
+    sdfgi_indirect[4u * record] = (threads + SDFGI_GROUP_LINEAR - 1u) / SDFGI_GROUP_LINEAR;
+    sdfgi_indirect[4u * record + 1u] = 1u;
+    sdfgi_indirect[4u * record + 2u] = 1u;
+}
+
+void write_totals(uvec2 total)
+{
+    sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + args.cascade] = total.x;
+    sdfgi_counters[SDFGI_COUNTER_LIGHT_RENEWED + args.cascade] = total.y;
+    const uint renewed = min(total.y, sdfgi_frame.light.y);
+    write_groups(args.cascade, renewed);
+    write_groups(args.cascade + uint(SDFGI_MAX_CASCADES), 8u * renewed);
+}
 
 /* First block of the row whose running sum exceeds `n`. */
 uint block_of(uint n)
 {
     uint block = 0u;
     for (uint step = SDFGI_GROUP_LINEAR / 2u; step > 0u; step /= 2u)
-        if (light_sums[block + step - 1u] <= n)
+        if (sums[block + step - 1u].x <= n)
             block += step;
     return block;
 }
@@ -38,31 +81,69 @@ uint bit_of(uvec2 mask, uint n)
     return high ? bit + 32u : bit;
 }
 
-void write_cell(uint entry, uvec3 texel)
+/* Index of a cell in its cascade, then in all. */
+uvec2 cell_at(uvec3 texel)
 {
-    const uint index = texel_index(texel), cell = index | args.cascade << (3u * sdfgi_frame.size.y);
-    if (entry >= sdfgi_frame.light.y) {
+    const uint index = texel_index(texel);
+    return uvec2(index, index | args.cascade << (3u * sdfgi_frame.size.y));
+}
+
+bool has_room(uint entry, uint cell)
+{
+    const bool room = entry < sdfgi_frame.light.y;
+    if (!room)
         sdfgi_light[cell] = uvec2(0u); /* counted, but without room nobody lights it */
+    return room;
+}
+
+/* A cell in a renewed block, the n-th of those. */
+void renew_cell(uint entry, uint n, uvec3 texel)
+{
+    const uvec2 at = cell_at(texel);
+    if (n < sdfgi_frame.light.y)
+        sdfgi_scratch[light_renewed_slot(n)] = entry;
+    if (!has_room(entry, at.y))
         return;
-    }
     const uint slot = light_cell_slot(args.cascade, entry);
-    sdfgi_light_cells[slot] = index;
+    sdfgi_light_cells[slot] = at.x;
     light_cell_store_direct(slot, uvec2(0u, SDFGI_LIGHT_VALID));
-    if ((sdfgi_light[cell].y & SDFGI_LIGHT_VALID) == 0u)
-        sdfgi_light[cell] = uvec2(0u, SDFGI_LIGHT_VALID);
+    if ((sdfgi_light[at.y].y & SDFGI_LIGHT_VALID) == 0u)
+        sdfgi_light[at.y] = uvec2(0u, SDFGI_LIGHT_VALID);
+}
+
+/* A cell that was entry `before` of the list before. */
+void keep_cell(uint entry, uint before, uvec3 texel)
+{
+    const uvec2 at = cell_at(texel);
+    if (!has_room(entry, at.y))
+        return;
+    const uint slot = light_cell_slot(args.cascade, entry), from = light_before_slot(before);
+    sdfgi_light_cells[slot] = at.x | (sdfgi_masks[at.y >> 2u] >> (8u * (at.y & 3u)) & 0xffu) << 24u;
+    light_cell_store_direct(slot, uvec2(sdfgi_scratch[from], sdfgi_scratch[from + 1u]));
 }
 
 void main()
 {
     const uint i = gl_LocalInvocationIndex, row = gl_WorkGroupID.x;
+    const bool last = row + 1u == light_row_count();
+    if (sdfgi_scratch[light_row_slot(row)] == 0u && !last)
+        return;
     const uint slot = light_block_slot(row * SDFGI_GROUP_LINEAR + i);
-    masks[i] = uvec2(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u]);
-    light_running_sum(bitCount(masks[i].x) + bitCount(masks[i].y));
-    const uint start = sdfgi_scratch[light_row_slot(row)], count = light_sums[SDFGI_GROUP_LINEAR - 1];
-    for (uint n = i; n < count; n += SDFGI_GROUP_LINEAR) {
-        const uint block = block_of(n), before = block > 0u ? light_sums[block - 1u] : 0u;
-        const uint bit = bit_of(masks[block], n - before);
+    blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u], sdfgi_scratch[slot + 3u]);
+    const uint own = bitCount(blocks[i].x) + bitCount(blocks[i].y);
+    sum_up(uvec4(own, own * blocks[i].z, count_before(row)));
+    const uvec2 start = sums[SDFGI_GROUP_LINEAR - 1].zw, count = sums[SDFGI_GROUP_LINEAR - 1].xy;
+    if (last && i == 0u && gl_WorkGroupID.y == 0u)
+        write_totals(start + count);
+    for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count.x; n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
+        const uint block = block_of(n);
+        const uvec2 before = block > 0u ? sums[block - 1u].xy : uvec2(0u);
+        const uint rank = n - before.x, bit = bit_of(blocks[block].xy, rank);
         const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
-        write_cell(start + n, 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside);
+        const uvec3 texel = 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside;
+        if (blocks[block].z != 0u)
+            renew_cell(start.x + n, start.y + before.y + rank, texel);
+        else
+            keep_cell(start.x + n, blocks[block].w + rank, texel);
     }
 }

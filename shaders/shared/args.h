@@ -47,12 +47,14 @@ SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
 
 /* Passes over cells, probes and light cells. */
 struct sdfgi_pass_args {
-    ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high) */
+    ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high); x: the light cells, likewise */
     ivec4 before;         /* xyz: low corner of the cells whose storage the box takes; w: axis of content.glsl's strips, -1: none */
     uint cascade;
-    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring */
+    uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring; light cells: 1 for those in
+                             renewed blocks */
     uint source;          /* flood: which of the two pointer halves is read */
-    uint fresh;           /* 1: probe passes, no earlier ring counts; cell_mask, no earlier mask counts */
+    uint fresh;           /* 1: probe passes, no earlier ring counts; light_mark, no earlier list counts;
+                             light_bounce: bit per cascade without probes */
 };
 SDFGI_ASSERT_SIZE(sdfgi_pass_args, 64);
 

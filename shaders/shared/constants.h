@@ -78,6 +78,7 @@
 #define SDFGI_COUNTER_VOXELS 9         /* sub-voxel samples that the voxeliser accepted */
 #define SDFGI_COUNTER_DISTANCE_CELLS 10 /* cells whose distances the exact search made anew */
 #define SDFGI_COUNTER_LIGHT_CELLS 16   /* per cascade, unclamped */
+#define SDFGI_COUNTER_LIGHT_RENEWED 24 /* per cascade, unclamped: those in renewed blocks when they were listed */
 #define SDFGI_COUNTER_COUNT 32
 
 /* Lights. */

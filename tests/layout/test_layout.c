@@ -12,7 +12,6 @@
 #include "flood_seed.comp.h"
 #include "flood_step.comp.h"
 #include "gather.comp.h"
-#include "light_args.comp.h"
 #include "light_bounce.comp.h"
 #include "light_direct.comp.h"
 #include "light_list.comp.h"
@@ -52,7 +51,6 @@ static const struct {
     MODULE(flood_seed_comp),
     MODULE(flood_step_comp),
     MODULE(gather_comp),
-    MODULE(light_args_comp),
     MODULE(light_bounce_comp),
     MODULE(light_direct_comp),
     MODULE(light_list_comp),

@@ -5,7 +5,7 @@
 
 #define P(id) (UINT64_C(1) << PASS_##id)
 
-static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_ARGS) | P(LIGHT_LIST),
+static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_LIST),
                       generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
                       seeding = P(PROBE_SEED) | P(RAY_FORGET),
                       exact = P(OCCUPANCY) | P(DISTANCE_STALE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),

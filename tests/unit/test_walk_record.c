@@ -31,11 +31,12 @@ static struct sdfgi_report report_of(uint32_t index)
                                                    .reason = index < FRAMES - 10 ? "light" : "settled",
                                                    .work = index < FRAMES - 10 ? 1000 + index : 7,
                                                    .work_unit = "rays" };
-    report.passes[1] = (struct sdfgi_pass_report){ .name = "light_args",
+    report.passes[1] = (struct sdfgi_pass_report){ .name = "light_list",
                                                    .ran = index % 10 == 3,
                                                    .reason = index % 10 == 3 ? "moved" : "still",
-                                                   .work = index % 10 == 3 ? 2 : 0,
-                                                   .work_unit = "cascades" };
+                                                   .dispatches = index % 10 == 3 ? 2 : 0,
+                                                   .work = index % 10 == 3 ? 700 : 0,
+                                                   .work_unit = "light cells" };
     return report;
 }
 
@@ -192,7 +193,7 @@ static void the_plot_has_every_series(void **state)
         fail_msg("%s", error);
     files_take_text("walk.svg", text, sizeof text);
     static const char *const expected[] = {
-        "<svg", "</svg>", "probe_trace, rays", "light_args, cascades", "GI", "at (1, 2, 3)"
+        "<svg", "</svg>", "probe_trace, rays", "light_list, light cells", "GI", "at (1, 2, 3)"
     };
     for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++)
         if (!strstr(text, expected[i]))
