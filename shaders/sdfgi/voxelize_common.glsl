@@ -129,11 +129,12 @@ void triangle_setup(inout triangle t, vec3 v[3])
     for (int i = 0; i < 3; i++)
         t.v[i] = permute(v[i], t.axis);
     for (int i = 0; i < 3; i++) {
-        const vec2 a = t.v[i].xy;
-        const vec2 along = t.v[(i + 1) % 3].xy - a;
-        vec2 inward = vec2(-along.y, along.x) * sign(n.z);
-        inward /= max(length(inward), 1e-20);
-        t.edges[i] = vec3(inward, -dot(inward, a));
+        /* From the same end for both triangles that share the edge: what is rounded, is rounded alike, and leaves no seam. */
+        const vec2 a = t.v[i].xy, b = t.v[(i + 1) % 3].xy;
+        const bool turned = b.x < a.x || (b.x == a.x && b.y < a.y);
+        const vec2 from = turned ? b : a, along = turned ? a - b : b - a;
+        const vec2 inward = vec2(-along.y, along.x) / max(length(along), 1e-20);
+        t.edges[i] = (turned ? -sign(n.z) : sign(n.z)) * vec3(inward, -dot(inward, from));
     }
     const vec2 a = t.v[0].xy, ab = t.v[1].xy - a, ac = t.v[2].xy - a;
     const float det = ab.x * ac.y - ab.y * ac.x;
