@@ -235,7 +235,7 @@ struct step {
     enum step_kind kind;
     uint32_t cascade;
     struct cell_box box;   /* voxels */
-    uint32_t first, count; /* distances: layers of 4^3 blocks along z */
+    uint32_t first, count; /* distances: layers of 4^3 blocks along x */
 };
 
 enum { SDFGI_MAX_STEPS = 64 };
@@ -387,7 +387,7 @@ const char *pass_unit(enum pass pass);
 
 void voxelize_record(struct frame *frame, uint32_t cascade, const struct cell_box *box);
 
-/* Layers of blocks of 4^3 cells along z whose distances to make. Where anything is known of how bits changed, cells outside
+/* Layers of blocks of 4^3 cells along x whose distances to make. Where anything is known of how bits changed, cells outside
  * `changed` have the bits that their stored distances were made from, and hold those distances; inside, the bits are new and
  * the distances are not looked at. The same boxes go with all parts of a change. */
 struct distance_part {

@@ -19,7 +19,7 @@ void probe_place_record(struct frame *frame, uint32_t c)
     record_probes(frame, PASS_PROBE_PLACE, c, probes);
     pass_begin(frame, PASS_PROBE_LINK);
     pass_dispatch(frame, PASS_PROBE_LINK, &(struct sdfgi_pass_args){ .cascade = c },
-                  (probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1, 1);
+                  (3 * probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1, 1);
     gi->passes[PASS_PROBE_LINK].work += probes;
     pass_end(frame);
 }

@@ -2,7 +2,7 @@
  * Distance from each cell's centre to the nearest set sub-voxel's centre, exact and rounded down: the nearest over all layers
  * of sub-voxels along y (lines.glsl) of what distance_plane found in each. Depends on nothing but the bits. Only stale blocks
  * are written; args.step and args.source as there.
- * One workgroup per two cells along x and four along z: eight lines along y. */
+ * One workgroup per four cells along x and two along z: eight lines along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_DISTANCE
@@ -23,12 +23,12 @@ uvec4 line_values(ivec4 way, uint brought)
 
 uint first_x()
 {
-    return 2u * gl_WorkGroupID.x;
+    return args.step + 4u * gl_WorkGroupID.y;
 }
 
 uint first_z()
 {
-    return args.step + 4u * gl_WorkGroupID.y;
+    return 2u * gl_WorkGroupID.x;
 }
 
 uvec2 stale_blocks()
@@ -67,7 +67,7 @@ void put_planes(uint count)
     for (uint k = 0u; k < PER_THREAD; k++) {
         const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
         const uint place = line_batch[i / LINES];
-        const uint slot = plane_slot(place, first_x(), first_z() - args.step) + (i & (LINES - 1u));
+        const uint slot = plane_slot(place, first_x() - args.step, first_z()) + (i & (LINES - 1u));
         entries[k] = sdfgi_scratch[slot] << PLACE_BITS | place;
     }
     for (uint k = 0u; k < PER_THREAD; k++)
@@ -85,10 +85,10 @@ uint encoded(uint y, uint own)
 void store_lines(uvec2 stale)
 {
     for (uint i = gl_LocalInvocationIndex; i < 4u * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
-        const uint y = i >> 2u, z = i & 3u;
+        const uint y = i >> 2u, x = 2u * (i & 1u), z = i >> 1u & 1u, own = 4u * z + x;
         if (block_is_stale(stale, y))
-            sdfgi_distances[cell_index(args.cascade, ivec3(first_x(), y, first_z() + z)) >> 1u] =
-                encoded(y, z) | encoded(y, 4u + z) << 16u;
+            sdfgi_distances[cell_index(args.cascade, ivec3(first_x() + x, y, first_z() + z)) >> 1u] =
+                encoded(y, own) | encoded(y, own + 1u) << 16u;
     }
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along z by
- * scanning the bits, then along x (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8, their sums as
+ * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along x by
+ * scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8, their sums as
  * (d^2 + e^2 - 2) / 8, which fits above a place. Cells of the stale blocks, where their columns hold any, from args.step to
- * before args.source along z.
- * One workgroup per layer and run of eight cells along z: eight lines along x. */
+ * before args.source along x.
+ * One workgroup per layer and run of eight cells along x: eight lines along z. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -23,52 +23,48 @@ uint layer()
     return gl_WorkGroupID.y;
 }
 
-uint first_z()
+uint first_x()
 {
     return (args.step & ~7u) + LINES * gl_WorkGroupID.x;
 }
 
 /* Which of the four rows of a column lie in this layer and hold bits. */
-uint rows_of(uint x)
+uint rows_of(uint z)
 {
-    return sdfgi_scratch[rows_slot(x, layer() >> 2u)] >> 4u * (layer() & 3u) & 15u;
+    return sdfgi_scratch[rows_slot(layer() >> 2u, z)] >> 4u * (layer() & 3u) & 15u;
 }
 
-bool column_is_stale(uint block_x, uint z)
+bool column_is_stale(uint x, uint block_z)
 {
-    const uint slot = stale_slot(block_x, z >> 2u);
-    return z >= args.step && z < args.source && (sdfgi_scratch[slot] | sdfgi_scratch[slot + 1u]) != 0u;
+    const uint slot = stale_slot(x >> 2u, block_z);
+    return x >= args.step && x < args.source && (sdfgi_scratch[slot] | sdfgi_scratch[slot + 1u]) != 0u;
 }
 
 void mark_rows()
 {
-    for (uint x = gl_LocalInvocationIndex; x < sdfgi_frame.size.x; x += SDFGI_GROUP_LINES)
-        line_mark(x, rows_of(x));
+    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x; z += SDFGI_GROUP_LINES)
+        line_mark(z, rows_of(z));
 }
 
 void mark_wanted()
 {
-    for (uint x = gl_LocalInvocationIndex; x < sdfgi_frame.size.x >> 2u; x += SDFGI_GROUP_LINES)
-        if (column_is_stale(x, first_z()) || column_is_stale(x, first_z() + 4u))
+    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x >> 2u; z += SDFGI_GROUP_LINES)
+        if (column_is_stale(first_x(), z) || column_is_stale(first_x() + 4u, z))
             for (uint i = 0u; i < 4u; i++)
-                atomicOr(line_wanted, 1u << (4u * x + i) / line_cells_per_slot());
+                atomicOr(line_wanted, 1u << (4u * z + i) / line_cells_per_slot());
 }
 
-/* ---- Along z: rows are named by their place along x */
-
-/* Four bits: those of a row in one cell. */
-uint row_of_cell(uint place, uint z)
-{
-    const uvec2 bits = cell_bits(args.cascade, ivec3(place >> 2u, layer() >> 2u, z)) >> ((place & 3u) | 4u * (layer() & 3u));
-    return (bits.x & 1u) | (bits.x >> 15u & 2u) | (bits.y & 1u) << 2u | (bits.y >> 15u & 2u) << 2u;
-}
+/* ---- Along x: rows are named by their place along z */
 
 /* The sub-voxels of a row in a run. */
 uint row_of_run(uint place, uint run)
 {
+    const uint shift = 4u * (layer() & 3u) | 16u * (place & 1u);
     uint row = 0u;
-    for (uint i = 0u; i < 8u; i++)
-        row |= row_of_cell(place, 8u * run + i) << 4u * i;
+    for (uint i = 0u; i < 8u; i++) {
+        const uvec2 bits = cell_bits(args.cascade, ivec3(8u * run + i, layer() >> 2u, place >> 2u));
+        row |= (((place & 2u) != 0u ? bits.y : bits.x) >> shift & 15u) << 4u * i;
+    }
     return row;
 }
 
@@ -78,7 +74,7 @@ uint runs_of_row(uint place)
     const uint shift = (place & 3u) | 4u * (layer() & 3u);
     uint runs = 0u;
     for (uint run = 0u; run < sdfgi_frame.size.x >> 3u; run += 2u) {
-        const uint two = sdfgi_scratch[runs_slot(place >> 2u, layer() >> 2u, run)] >> shift;
+        const uint two = sdfgi_scratch[runs_slot(layer() >> 2u, place >> 2u, run)] >> shift;
         runs |= ((two & 1u) | (two >> 15u & 2u)) << run;
     }
     return runs;
@@ -114,7 +110,7 @@ uint steps_along_row(uint bits, uint cell, int below, int above)
 /* What the rows of a batch bring along. Threads start at different lines, which are in different banks. */
 void put_rows(uint count)
 {
-    const uint run = first_z() >> 3u;
+    const uint run = first_x() >> 3u;
     for (uint at = gl_LocalInvocationIndex; at < count; at += SDFGI_GROUP_LINES) {
         /* Nothing here asks before it reads: all three runs are waited for once. */
         const uint place = line_batch[at], runs = runs_of_row(place), bits = row_of_run(place, run);
@@ -129,11 +125,11 @@ void put_rows(uint count)
 
 void store_lines()
 {
-    const uint count = line_cells_per_slot(), z = first_z() + line_own();
-    if (!line_slots_wanted(line_slot(), 1u) || z < args.step || z >= args.source)
+    const uint count = line_cells_per_slot(), x = first_x() + line_own();
+    if (!line_slots_wanted(line_slot(), 1u) || x < args.step || x >= args.source)
         return;
-    for (uint x = line_slot() * count; x < (line_slot() + 1u) * count; x++)
-        sdfgi_scratch[plane_slot(layer(), x, z - args.step)] = line_least[x * LINES + line_own()];
+    for (uint z = line_slot() * count; z < (line_slot() + 1u) * count; z++)
+        sdfgi_scratch[plane_slot(layer(), x - args.step, z)] = line_least[z * LINES + line_own()];
 }
 
 void main()

@@ -81,13 +81,13 @@ void main()
         stale[lane] = 0u;
     fetch_content();
     for (uint y = lane / 4u; y < side; y += BLOCKS) {
-        const ivec3 block = ivec3(gl_WorkGroupID.x, y, args.first + gl_WorkGroupID.y);
+        const ivec3 block = ivec3(args.first + gl_WorkGroupID.y, y, gl_WorkGroupID.x);
         if (args.box_count == 0u || block_changed(block) || layer_is_stale(4 * block + ivec3(0, 0, lane & 3u)))
             atomicOr(stale[y >> 5u], 1u << (y & 31u));
     }
     barrier();
     if (lane < 2u)
-        sdfgi_scratch[stale_slot(gl_WorkGroupID.x, args.first + gl_WorkGroupID.y) + lane] = stale[lane];
+        sdfgi_scratch[stale_slot(args.first + gl_WorkGroupID.y, gl_WorkGroupID.x) + lane] = stale[lane];
     if (lane == 0u)
         counter_add(SDFGI_COUNTER_DISTANCE_CELLS, 64u * uint(bitCount(stale[0]) + bitCount(stale[1])));
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Which rows of sub-voxels along z hold bits, see occupancy.glsl. Four threads per column of cells along z. */
+ * Which rows of sub-voxels along x hold bits, see occupancy.glsl. Bits lie side by side along x: a thread reads pairs of runs. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "occupancy.glsl"
@@ -11,31 +11,37 @@ const uint COLUMNS = 32u;
 
 shared uint rows[COLUMNS];
 
-/* Rows set in the eight cells of a run. */
-uint rows_of_run(uint x, uint y, uint run)
+/* A bit per four sub-voxels along x, at the place of the first. */
+uint any_of_fours(uint bits)
+{
+    bits |= bits >> 1u;
+    return (bits | bits >> 2u) & 0x11111111u;
+}
+
+/* Rows set in the eight cells of a run: z + 4 y. */
+uint rows_of_run(uint y, uint z, uint run)
 {
     uvec2 bits = uvec2(0u);
     for (uint i = 0u; i < 8u; i++)
-        bits |= cell_bits(args.cascade, ivec3(x, y, 8u * run + i));
-    const uint any_half = bits.x | bits.y;
-    return (any_half | any_half >> 16u) & 0xffffu;
+        bits |= cell_bits(args.cascade, ivec3(8u * run + i, y, z));
+    const uint low = any_of_fours(bits.x), high = any_of_fours(bits.y);
+    return (low & 0xffffu) | (low >> 16u) << 1u | (high & 0xffffu) << 2u | (high >> 16u) << 3u;
 }
 
 void main()
 {
-    const uint own = gl_LocalInvocationIndex % COLUMNS, part = gl_LocalInvocationIndex / COLUMNS;
-    const uint x = COLUMNS * gl_WorkGroupID.x + own, y = gl_WorkGroupID.y;
-    if (part == 0u)
-        rows[own] = 0u;
+    const uint pairs = sdfgi_frame.size.x >> 4u;
+    const uint y = gl_WorkGroupID.y, first_z = COLUMNS * gl_WorkGroupID.x;
+    if (gl_LocalInvocationIndex < COLUMNS)
+        rows[gl_LocalInvocationIndex] = 0u;
     barrier();
-    uint found = 0u;
-    for (uint run = 2u * part; run < sdfgi_frame.size.x >> 3u; run += 2u * SDFGI_GROUP_LINES / COLUMNS) {
-        const uint two = rows_of_run(x, y, run) | rows_of_run(x, y, run + 1u) << 16u;
-        sdfgi_scratch[runs_slot(x, y, run)] = two;
-        found |= two;
+    for (uint i = gl_LocalInvocationIndex; i < COLUMNS * pairs; i += SDFGI_GROUP_LINES) {
+        const uint own = i / pairs, run = 2u * (i % pairs);
+        const uint two = rows_of_run(y, first_z + own, run) | rows_of_run(y, first_z + own, run + 1u) << 16u;
+        sdfgi_scratch[runs_slot(y, first_z + own, run)] = two;
+        atomicOr(rows[own], (two | two >> 16u) & 0xffffu);
     }
-    atomicOr(rows[own], (found | found >> 16u) & 0xffffu);
     barrier();
-    if (part == 0u)
-        sdfgi_scratch[rows_slot(x, y)] = rows[own];
+    if (gl_LocalInvocationIndex < COLUMNS)
+        sdfgi_scratch[rows_slot(y, first_z + gl_LocalInvocationIndex)] = rows[gl_LocalInvocationIndex];
 }

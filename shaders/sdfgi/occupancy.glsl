@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * What the exact distance search keeps in the scratch buffer, N cells a side, in words:
- *   planes    2 N^3   distance within a layer of sub-voxels, for half of the layers of cells along z at a time
- *   runs      N^3/16  per eight cells along z a bit per row of sub-voxels along z that is set anywhere in them: x + 4 y;
+ *   planes    2 N^3   distance within a layer of sub-voxels, for half of the layers of cells along x at a time
+ *   runs      N^3/16  per eight cells along x a bit per row of sub-voxels along x that is set anywhere in them: z + 4 y;
  *                     two to a word
- *   rows      N^2     the same per column of cells along z
+ *   rows      N^2     the same per column of cells along x
  *   layers    4 N     per layer of sub-voxels along y whether it holds a bit
  *   stale     N^2/8   a bit per block of 4^3 cells to search, along y: two words each
  * Coordinates are local, and lengths odd numbers of half a sub-voxel, so that all arithmetic is in integers and no order of
@@ -18,28 +18,30 @@ uint occupancy_side_bits()
     return sdfgi_frame.size.y;
 }
 
-/* Two cells along x times four along z lie side by side: what one workgroup of distance_exact reads of a layer. */
+/* Four cells along x times two along z lie side by side: what one workgroup of distance_exact reads of a layer. */
 uint plane_slot(uint layer, uint x, uint z)
 {
     const uint bits = occupancy_side_bits();
-    const uint tile = ((layer << (bits - 1u) | x >> 1u) << (bits - 3u)) | z >> 2u;
-    return tile << 3u | (x & 1u) << 2u | (z & 3u);
+    const uint tile = ((layer << (bits - 1u) | z >> 1u) << (bits - 3u)) | x >> 2u;
+    return tile << 3u | (z & 1u) << 2u | (x & 3u);
 }
 
-uint runs_slot(uint x, uint y, uint run)
+/* All runs of a column lie side by side. */
+uint runs_slot(uint y, uint z, uint run)
 {
     const uint bits = occupancy_side_bits();
-    return (2u << (3u * bits)) + (((run >> 1u) << bits | y) << bits | x);
+    return (2u << (3u * bits)) + ((z << bits | y) << (bits - 4u) | run >> 1u);
 }
 
-uint rows_slot(uint x, uint y)
+uint rows_slot(uint y, uint z)
 {
-    return runs_slot(x, y, sdfgi_frame.size.x >> 3u);
+    const uint bits = occupancy_side_bits();
+    return runs_slot(0u, sdfgi_frame.size.x, 0u) + (y << bits | z);
 }
 
 uint layers_slot(uint layer)
 {
-    return rows_slot(0u, sdfgi_frame.size.x) + layer;
+    return rows_slot(sdfgi_frame.size.x, 0u) + layer;
 }
 
 uint stale_slot(uint block_x, uint block_z)

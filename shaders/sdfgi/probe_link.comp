@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Which of the next probes along the axes each probe sees: lookups extrapolate along such links. Only near something new.
- * One thread per probe. */
+ * One thread per probe and axis. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_PROBES
@@ -27,20 +27,17 @@ bool sees(ivec3 probe, uint state, int axis)
 
 void main()
 {
-    const uint side = sdfgi_frame.size.z;
-    if (gl_GlobalInvocationID.x >= side * side * side)
+    const uint side = sdfgi_frame.size.z, index = gl_GlobalInvocationID.x / 3u, axis = gl_GlobalInvocationID.x % 3u;
+    if (index >= side * side * side)
         return;
-    const ivec3 probe = probe_from_linear(gl_GlobalInvocationID.x);
-    const ivec3 corner = probe * SDFGI_PROBE_SPACING;
+    const ivec3 probe = probe_from_linear(index), corner = probe * SDFGI_PROBE_SPACING;
     if (!changed_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR))
         return;
-    const uint slot = probe_index(args.cascade, probe);
+    const uint slot = probe_index(args.cascade, probe), link = 1u << SDFGI_PROBE_LINK_SHIFT + axis;
     const uint state = sdfgi_probes[slot];
-    uint links = 0u;
-    if (!probe_is_dead(state))
-        for (int axis = 0; axis < 3; axis++)
-            links |= uint(sees(probe, state, axis)) << uint(axis);
     /* Others read where this probe stands meanwhile: those bits are left alone. */
-    atomicAnd(sdfgi_probes[slot], ~(7u << SDFGI_PROBE_LINK_SHIFT));
-    atomicOr(sdfgi_probes[slot], links << SDFGI_PROBE_LINK_SHIFT);
+    if (!probe_is_dead(state) && sees(probe, state, int(axis)))
+        atomicOr(sdfgi_probes[slot], link);
+    else
+        atomicAnd(sdfgi_probes[slot], ~link);
 }

@@ -62,7 +62,7 @@ SDFGI_ASSERT_SIZE(sdfgi_pass_args, 64);
 
 struct sdfgi_stale_args {
     uint cascade;
-    uint first;           /* block along z */
+    uint first;           /* block along x */
     uint box_count;       /* 0: everything changed */
     uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: first cell, and 16 bits above the one after the last */
 };
