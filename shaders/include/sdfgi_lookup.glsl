@@ -343,8 +343,27 @@ lookup_visibility lookup_probe_depth(uint cascade, ivec3 cage, vec3 pos)
     return v;
 }
 
-/* How far towards the viewer, in cells, a point is taken to be open space. */
+/* How far towards the viewer, in cells, a point is taken to be open space; further where that lies in a wall's sub-voxels, as it
+ * does for points in an edge that are seen along the wall. */
 #define LOOKUP_OPEN_CELLS 4.0
+
+bool lookup_is_solid(uint cascade, vec3 pos)
+{
+    const ivec3 cell = ivec3(floor(pos));
+    return cell_served(cascade, cell) && trace_bit(cell_bits(cascade, cell), ivec3(floor(pos * 4.0)) & 3);
+}
+
+/* A point in the open on the way to a viewer who is `range` cell widths away. */
+vec3 lookup_open(uint cascade, vec3 pos, vec3 normal, vec3 eye, float range)
+{
+    vec3 open;
+    float reach = LOOKUP_OPEN_CELLS;
+    do {
+        open = pos + cells_from_metric(eye * min(range, reach) + 0.25 * normal);
+        reach *= 2.0;
+    } while (lookup_is_solid(cascade, open) && reach < 2.0 * range);
+    return open;
+}
 
 /* Light at a surface point. The point is biased off the surface along its normal and, half as far, towards
  * the viewer, who is known to be on its open side (Majercik et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global
@@ -354,7 +373,7 @@ vec4 lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
     const float range = length(to_eye);
     const vec3 eye = to_eye / max(range, 1e-6);
     const vec3 biased = pos + cells_from_metric(normal + 0.5 * eye) * sdfgi_frame.bias.x;
-    const vec3 open = pos + cells_from_metric(eye * min(range, LOOKUP_OPEN_CELLS) + 0.25 * normal);
+    const vec3 open = lookup_open(cascade, pos, normal, eye, range);
     const ivec3 cage = lookup_cage(cascade, biased);
     const uint method = sdfgi_frame.light.z;
     lookup_visibility v;

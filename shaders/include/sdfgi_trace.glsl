@@ -74,26 +74,22 @@ bool trace_is_light_cell(uint cascade, ivec3 cell)
     return cell_served(cascade, cell) && (sdfgi_light[cell_index(cascade, cell)].y & SDFGI_LIGHT_VALID) != 0u;
 }
 
-/* The light cell before the surface that was hit: the last empty cell that the ray crossed, if it shares a face with the
- * cell that was hit; else, where it hit an edge or a corner, the nearest one back along the ray, which is on the ray's side
- * of however thin a wall, or the last empty one however far back; else the neighbour along the face. */
-bool trace_light_cell(uint cascade, ivec3 hit_cell, uint face, ivec3 last, vec3 at, vec3 dir, float t, out ivec3 cell)
+/* The light cell of a hit: from the cell that was hit back along the ray to the first empty one. That shares a face with an
+ * occupied one, and is on the ray's side of however thin a wall. Steps of the distance field may have passed over it. `first`
+ * is the parameter at which the ray began, below 0 if it did in a finer cascade. */
+bool trace_light_cell(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir, float first, inout ivec3 cell)
 {
-    cell = last;
-    const ivec3 gap = abs(last - hit_cell);
-    if (gap.x + gap.y + gap.z == 1)
-        return true;
-    for (float back = 0.25; back <= min(t, 2.0); back += 0.25) {
-        cell = ivec3(floor(at - dir * back));
-        if (trace_is_light_cell(cascade, cell))
+    const ivec3 backward = ivec3(lessThan(inv_dir, vec3(0.0))) * 2 - 1;
+    for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
+        float back;
+        const int axis = trace_exit(origin, -inv_dir, vec3(cell), 1.0, back);
+        cell[axis] += backward[axis];
+        if (-back < first || !cell_served(cascade, cell + base))
+            return false;
+        if (cell_bits(cascade, cell + base) == uvec2(0u))
             return true;
     }
-    cell = last;
-    if (trace_is_light_cell(cascade, cell))
-        return true;
-    cell = hit_cell;
-    cell[face >> 1u] += (face & 1u) == 0u ? 1 : -1;
-    return trace_is_light_cell(cascade, cell);
+    return false;
 }
 
 /* Parameter at which a ray leaves the cells of a cascade that may be read; below 0 if it starts beyond them. */
@@ -122,7 +118,6 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
     float leave = trace_leave(cascade, base, origin, inv_dir);
     bool left = false;
     ivec3 cell = ivec3(floor(origin));
-    ivec3 last_empty = ivec3(-8);
     int axis = 0;
 
     for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
@@ -143,7 +138,6 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             leave = trace_leave(cascade, base, origin, inv_dir);
             left = false;
             cell = ivec3(floor(origin));
-            last_empty = ivec3(-8);
             continue;
         }
 
@@ -161,7 +155,6 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
         /* Cells whose nearest sub-voxel is further than half their diagonal have none of their own. */
         const uvec2 bits = distance < 1.0 ? cell_bits(cascade, cell + base) : uvec2(0u);
         if (bits == uvec2(0u)) {
-            last_empty = cell;
             float t_exit;
             axis = trace_exit(origin, inv_dir, vec3(cell), 1.0, t_exit);
             t = max(t, t_exit);
@@ -172,8 +165,8 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             result.hit = true;
             result.cascade = cascade;
             result.axis = trace_face(axis, dir_cell);
-            result.has_cell = trace_light_cell(cascade, cell + base, result.axis, last_empty + base,
-                                               origin + vec3(base) + dir_cell * t, dir_cell, t, result.cell);
+            result.has_cell = trace_light_cell(cascade, base, origin, inv_dir, -travelled / scale, cell);
+            result.cell = cell + base;
             return result;
         }
         cell[axis] += dir_cell[axis] > 0.0 ? 1 : -1;

@@ -16,7 +16,7 @@ layout(local_size_x = SDFGI_GROUP_PROBE) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
 const uint MAX_RAYS = 128u;
-shared vec4 ray_dir[MAX_RAYS];   /* w: solid angle */
+shared vec4 ray_dir[MAX_RAYS];   /* w: solid angle, 0: light not known */
 shared vec3 ray_light[MAX_RAYS];
 shared uint group_traced;
 
@@ -29,14 +29,19 @@ uint cache_pack(trace_hit hit)
     return ray_pack(hit.cascade, hit.cell, hit.axis);
 }
 
-vec3 cache_light(uint code, vec3 dir)
+/* Light at the end of a ray; false where it is not known, since the list of light cells was too short for the cell and has
+ * not grown yet: the ring before then speaks for the ray, instead of black. */
+bool cache_light(uint code, vec3 dir, out vec3 light)
 {
+    light = vec3(0.0);
     if (code == SDFGI_RAY_SKY)
-        return sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
-    if (code == SDFGI_RAY_UNLIT)
-        return vec3(0.0);
+        light = sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
+    if (code >= SDFGI_RAY_UNLIT)
+        return true;
     uint axis;
-    return light_unpack_axis(sdfgi_light[ray_light_index(code, axis)], axis);
+    const uvec2 cell = sdfgi_light[ray_light_index(code, axis)];
+    light = light_unpack_axis(cell, axis);
+    return (cell.y & SDFGI_LIGHT_VALID) != 0u;
 }
 
 /* A hit whose cell has left the cascade is as good as unknown. */
@@ -84,8 +89,8 @@ void main()
         }
         if (code == SDFGI_RAY_UNLIT)
             counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
-        ray_dir[i] = vec4(dir, solid_angle);
-        ray_light[i] = cache_light(code, dir);
+        const bool known = cache_light(code, dir, ray_light[i]);
+        ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
     }
     barrier();
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The host's lookup at a list of points: three vec4 each, position, normal, result. The viewer is 0.1 m in front of each. */
+ * The host's lookup at a list of points: three vec4 each, position, normal, result; in their w the way to the viewer. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_SET 0
@@ -14,6 +14,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count)
         return;
-    const vec3 position = points[3u * i].xyz, normal = points[3u * i + 1u].xyz;
-    points[3u * i + 2u].xyz = sdfgi_irradiance(position, normal, 0.1 * normal);
+    const vec4 position = points[3u * i], normal = points[3u * i + 1u];
+    const vec3 to_eye = vec3(position.w, normal.w, points[3u * i + 2u].w);
+    points[3u * i + 2u].xyz = sdfgi_irradiance(position.xyz, normal.xyz, to_eye);
 }

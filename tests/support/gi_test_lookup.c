@@ -12,8 +12,8 @@
 
 enum { FLOATS_PER_POINT = 12 };
 
-void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, uint32_t count,
-                        float (*irradiance)[3])
+void gi_test_irradiance_from(struct gi_test *t, const float *viewer, const struct gi_test_point *points,
+                             uint32_t count, float (*irradiance)[3])
 {
     REQUIRE_TRUE(sdfgi_is_active(t->gi));
     float(*rows)[FLOATS_PER_POINT] = test_array_alloc(count, sizeof *rows);
@@ -21,6 +21,8 @@ void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, u
         memset(rows[i], 0, sizeof rows[i]);
         memcpy(&rows[i][0], points[i].position, sizeof points[i].position);
         memcpy(&rows[i][4], points[i].normal, sizeof points[i].normal);
+        for (int k = 0; k < 3; k++)
+            rows[i][3 + 4 * k] = viewer ? viewer[k] - points[i].position[k] : 0.1f * points[i].normal[k];
         /* What a shader that does not write would leave behind must not look like light. */
         rows[i][8] = rows[i][9] = rows[i][10] = NAN;
     }
@@ -31,4 +33,10 @@ void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, u
     for (uint32_t i = 0; i < count; i++)
         memcpy(irradiance[i], &rows[i][8], sizeof irradiance[i]);
     free(rows);
+}
+
+void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, uint32_t count,
+                        float (*irradiance)[3])
+{
+    gi_test_irradiance_from(t, NULL, points, count, irradiance);
 }

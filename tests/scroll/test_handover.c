@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT
+ * Points on walls while the camera walks past and the answer passes from one cascade to the next (HARD_CASES
+ * row 54): a furnace reads the same in all of them, also while one takes a step; a box with coloured walls
+ * does not jump in the blend. */
+#include "light_scene.h"
+#include "require.h"
+#include "scroll_scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* On each of the six walls of a room a grid of points, the outermost 5 cm from an edge: inside the sub-voxels
+ * of the neighbouring wall in all cascades but the first. */
+enum { GRID = 6, POINTS = 6 * GRID * GRID };
+
+struct walk {
+    struct gi_test t;
+    double camera[3];
+    struct gi_test_point points[POINTS];
+    uint32_t count;
+    float before[POINTS][3];
+    double worst_step; /* relative change from one step to the next */
+    double low[POINTS], high[POINTS];
+};
+
+static void walk_add_wall(struct walk *w, const double center[static 3], double half, int axis, int sign)
+{
+    for (int i = 0; i < GRID * GRID; i++) {
+        const int place[2] = { i % GRID, i / GRID };
+        struct gi_test_point point = { 0 };
+        point.position[axis] = (float)(center[axis] + sign * half);
+        point.normal[axis] = (float)-sign;
+        for (int k = 0; k < 2; k++) {
+            const int other = (axis + 1 + k) % 3;
+            point.position[other] =
+                (float)(center[other] + (half - 0.05) * (2.0 * place[k] / (GRID - 1) - 1));
+        }
+        w->points[w->count++] = point;
+    }
+}
+
+/* Light at all points as the camera sees it; E / pi of the green channel is kept apart. */
+static void walk_look(struct walk *w, bool first)
+{
+    float found[POINTS][3];
+    const float viewer[3] = { (float)w->camera[0], (float)w->camera[1], (float)w->camera[2] };
+    gi_test_irradiance_from(&w->t, viewer, w->points, w->count, found);
+    for (uint32_t i = 0; i < w->count; i++) {
+        const double light = (double)found[i][1] / PI;
+        REQUIRE_TRUE(isfinite(light) && light > 0);
+        w->low[i] = first ? light : fmin(w->low[i], light);
+        w->high[i] = first ? light : fmax(w->high[i], light);
+        for (int k = 0; k < 3 && !first; k++)
+            w->worst_step = fmax(w->worst_step, fabs((double)found[i][k] / (double)w->before[i][k] - 1));
+    }
+    memcpy(w->before, found, sizeof found);
+}
+
+static void walk_start(struct walk *w)
+{
+    scroll_stand(&w->t, w->camera);
+    gi_test_converge(&w->t, 400);
+    w->worst_step = 0;
+    walk_look(w, true);
+}
+
+static void walk_steps(struct walk *w, int count, double step_m)
+{
+    for (int i = 0; i < count; i++) {
+        w->camera[0] += step_m;
+        scroll_stand(&w->t, w->camera);
+        gi_test_update(&w->t, 1);
+        walk_look(w, false);
+    }
+}
+
+/* The largest change of a point over the whole walk. */
+static double walk_range(const struct walk *w)
+{
+    double range = 0;
+    for (uint32_t i = 0; i < w->count; i++)
+        range = fmax(range, w->high[i] / w->low[i] - 1);
+    return range;
+}
+
+/* Three cascades of cells of 0.2, 0.4 and 0.8 m, of which the first is 6.4 m wide. */
+static void walk_open(struct walk *w)
+{
+    memset(w, 0, sizeof *w);
+    struct sdfgi_settings settings = light_settings(32, 0.2f);
+    settings.cascades = 3;
+    gi_test_open(&w->t, &settings);
+}
+
+static void furnace_walk(double half, double wall)
+{
+    static struct walk w;
+    walk_open(&w);
+    const double center[3] = { 0.13, 0.27, -0.41 };
+    light_add(&w.t, test_mesh_room(center, (double[]){ half, half, half }, wall, test_rotation_none), 0.5f,
+              0.5f);
+    for (int axis = 0; axis < 3; axis++)
+        for (int sign = -1; sign <= 1; sign += 2)
+            walk_add_wall(&w, center, half, axis, sign);
+    memcpy(w.camera, (double[]){ -1.6, 0.4, -0.3 }, sizeof w.camera);
+    walk_start(&w);
+    walk_steps(&w, 34, 0.1);
+    walk_steps(&w, 20, 0.001);
+    printf("furnace of %.1f m, walls of %.2f m: at most %.2f %% a step, %.2f %% over the walk; light %.4f to "
+           "%.4f\n",
+           2 * half, wall, 100 * w.worst_step, 100 * walk_range(&w), w.low[0], w.high[0]);
+    REQUIRE_CMP(w.t.gi->schedule.steps_begun, >=, 1ul);
+    REQUIRE_CMP(w.worst_step, <=, 0.005);
+    REQUIRE_CMP(walk_range(&w), <=, 0.005);
+    for (uint32_t i = 0; i < w.count; i++)
+        REQUIRE_NEAR(w.low[i], 1, 0.005);
+    gi_test_close(&w.t);
+}
+
+static void hard_54_a_furnace_reads_the_same_in_all_cascades(void **state)
+{
+    (void)state;
+    furnace_walk(2.5, 0.3);
+}
+
+static void hard_54_thin_walls_too(void **state)
+{
+    (void)state;
+    furnace_walk(2.5, 0.1);
+}
+
+static void add_colored_box(struct gi_test *t, double half)
+{
+    const float red[3] = { 0.63f, 0.065f, 0.05f }, green[3] = { 0.14f, 0.45f, 0.09f },
+                white[3] = { 0.73f, 0.71f, 0.68f };
+    const double h = half, out = half + 0.3;
+    light_add_box(t, (double[]){ -out, -out, -h }, (double[]){ -h, out, h }, red, 0);
+    light_add_box(t, (double[]){ h, -out, -h }, (double[]){ out, out, h }, green, 0);
+    light_add_box(t, (double[]){ -h, -out, -h }, (double[]){ h, -h, h }, white, 0);
+    light_add_box(t, (double[]){ -h, h, -h }, (double[]){ h, out, h }, white, 0);
+    light_add_box(t, (double[]){ -out, -out, -out }, (double[]){ out, out, -h }, white, 0);
+    const struct sdfgi_light_desc lamp = light_point(0.2, 0.7 * half, -0.1, 20);
+    light_create(t, &lamp);
+}
+
+/* From settled light, while no cascade takes a step: the blend alone. */
+static void hard_54_a_colored_box_does_not_jump_in_the_blend(void **state)
+{
+    (void)state;
+    static struct walk w;
+    walk_open(&w);
+    const double center[3] = { 0, 0, 0 }, half = 2.5;
+    add_colored_box(&w.t, half);
+    for (int axis = 0; axis < 3; axis++)
+        for (int sign = -1; sign <= 1; sign += 2)
+            if (axis != 2 || sign < 0)
+                walk_add_wall(&w, center, half, axis, sign);
+    memcpy(w.camera, (double[]){ 0.15, 0.4, 1.3 }, sizeof w.camera);
+    walk_start(&w);
+    walk_steps(&w, 20, 0.001);
+    const double mm = w.worst_step;
+    walk_steps(&w, 40, 0.01);
+    printf("coloured box: at most %.2f %% a step of 1 mm, %.2f %% of 1 cm; %.1f %% over the walk\n", 100 * mm,
+           100 * w.worst_step, 100 * walk_range(&w));
+    REQUIRE_CMP(w.t.gi->schedule.steps_begun, ==, 0ul);
+    REQUIRE_CMP(w.worst_step, <=, 0.02);
+    gi_test_close(&w.t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_54_a_furnace_reads_the_same_in_all_cascades),
+        cmocka_unit_test(hard_54_thin_walls_too),
+        cmocka_unit_test(hard_54_a_colored_box_does_not_jump_in_the_blend),
+    };
+    return cmocka_run_group_tests_name("scroll_handover", tests, NULL, NULL);
+}
