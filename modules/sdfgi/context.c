@@ -31,6 +31,7 @@ static void forget_everything(struct sdfgi *gi)
     gi->ring_frame = 0;
     gi->disturbed_ring = gi->known_ring = 0;
     gi->known_change = gi->known_brightest = 0;
+    settle_reset(&gi->settling);
     gi->converged = gi->active = false;
     gi->materials_changed = gi->lights_changed = gi->params_changed = true;
     gi->relight_budget = SDFGI_RELIGHT_CELLS;

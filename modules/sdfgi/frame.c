@@ -76,6 +76,7 @@ static void restart_ring(struct sdfgi *gi)
     gi->ring_frame = 0;
     gi->converged = false;
     gi->disturbed_ring = gi->ring - 1;
+    settle_reset(&gi->settling);
 }
 
 static void make_plan(struct sdfgi *gi)
@@ -216,8 +217,7 @@ static void advance_ring(struct sdfgi *gi)
         gi->ring_frame++;
         return;
     }
-    if (schedule_idle(gi) && gi->known_ring > gi->disturbed_ring && gi->known_change < SDFGI_CONVERGED_CHANGE)
-        gi->converged = true;
+    gi->converged = gi->converged || (schedule_idle(gi) && settle_done(&gi->settling));
     gi->ring++;
     gi->ring_frame = 0;
 }

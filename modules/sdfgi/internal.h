@@ -260,6 +260,18 @@ bool schedule_has(const struct sdfgi *gi, enum step_kind kind);
 bool schedule_completes(const struct sdfgi *gi, uint32_t cascade);
 bool schedule_idle(const struct sdfgi *gi);
 
+/* ---- Convergence: settle.c */
+
+struct settling {
+    float change, least; /* of the newest ring since light was disturbed, and of all since then */
+    uint32_t rings_without_fall;
+};
+
+void settle_reset(struct settling *settling);
+/* Takes in the largest relative change of a probe texel over a ring. */
+void settle_ring(struct settling *settling, float change);
+bool settle_done(const struct settling *settling);
+
 /* ---- Context */
 
 /* One frame in flight. */
@@ -307,6 +319,7 @@ struct sdfgi {
     uint64_t ring, disturbed_ring, known_ring;
     uint32_t ring_frame; /* frame within the ring */
     float known_change, known_brightest;
+    struct settling settling;
     bool converged, active;
 
     struct frame_slot slots[SDFGI_MAX_FRAMES_IN_FLIGHT];

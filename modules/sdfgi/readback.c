@@ -16,6 +16,8 @@ static void read_counters(struct sdfgi *gi, const struct frame_slot *slot, uint3
         return;
     gi->known_ring = slot->ring;
     memcpy(&gi->known_change, &gi->counters[SDFGI_COUNTER_MAX_CHANGE], sizeof gi->known_change);
+    if (slot->ring > gi->disturbed_ring)
+        settle_ring(&gi->settling, gi->known_change);
     memcpy(&gi->known_brightest, &gi->counters[SDFGI_COUNTER_MAX_IRRADIANCE], sizeof gi->known_brightest);
 }
 

@@ -30,6 +30,7 @@ void light_disturb(struct sdfgi *gi)
 {
     gi->converged = false;
     gi->disturbed_ring = gi->ring;
+    settle_reset(&gi->settling);
 }
 
 static struct box box_around(const struct box *a, const struct box *b)
