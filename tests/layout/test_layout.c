@@ -131,6 +131,7 @@ static void visit_all(const struct spirv_visitor *visitor)
     X(sdfgi_material_params, flags)                                                                          \
     X(sdfgi_pass_args, low)                                                                                  \
     X(sdfgi_pass_args, high)                                                                                 \
+    X(sdfgi_pass_args, before)                                                                               \
     X(sdfgi_pass_args, cascade)                                                                              \
     X(sdfgi_pass_args, step)                                                                                 \
     X(sdfgi_pass_args, source)                                                                               \
