@@ -57,7 +57,7 @@ judge() {
 
 case $kind in
 picture)
-    render 320x180 48
+    render 320x180 28
     indirect=$(mean "$work/indirect.exr" "$folder/$name.reference.exr" mean)
     truth=$(awk -v color="$(mean "$work/color.exr" "$folder/$name.reference.exr" mean)" \
         -v direct="$(mean "$work/direct.exr" "$folder/$name.direct.exr" mean)" -v indirect="$indirect" \
@@ -76,7 +76,7 @@ diffuse)
     judge "$(mean "$work/indirect.exr" "$work/truth.exr" mean)" "$(mean "$work/indirect.exr" "$work/truth.exr" reference_mean)"
     ;;
 leak)
-    render 320x180 48
+    render 320x180 28
     awk -v color="$(mean "$work/color.exr" "$folder/$name.reference.exr" mean)" -v name="$name" -v most="$high" 'BEGIN {
         leak = color / 0.571
         printf "%s: leak %.2e of the lit room, allowed %g\n", name, leak, most
