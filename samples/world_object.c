@@ -10,25 +10,26 @@ static const struct material_row {
     float uv_per_m;
     float metallic, roughness;
     vec3s emission;
-    bool cutout;
+    bool cutout;    /* what the texture leaves out is not there */
+    bool two_sided; /* one card is seen from both sides */
 } rows[MATERIAL_COUNT] = {
-    [MATERIAL_GROUND] = { "ground", TEXTURE_GROUND, 0.25f, 0, 0.95f, { { 0 } }, false },
-    [MATERIAL_WATER] = { "water", TEXTURE_NONE, 1, 0, 0.06f, { { 0 } }, false },
-    [MATERIAL_PLASTER] = { "plaster", TEXTURE_PLASTER, 0.4f, 0, 0.9f, { { 0 } }, false },
-    [MATERIAL_STONE] = { "stone", TEXTURE_STONE, 0.5f, 0, 0.85f, { { 0 } }, false },
-    [MATERIAL_ROOF] = { "roof", TEXTURE_TILES, 0.5f, 0, 0.8f, { { 0 } }, false },
-    [MATERIAL_WOOD] = { "wood", TEXTURE_PLANKS, 0.9f, 0, 0.65f, { { 0 } }, false },
-    [MATERIAL_COBBLES] = { "wet cobbles", TEXTURE_COBBLES, 0.4f, 0, 0.18f, { { 0 } }, false },
-    [MATERIAL_COPPER] = { "copper", TEXTURE_NONE, 1, 1, 0.22f, { { 0 } }, false },
-    [MATERIAL_IRON] = { "iron", TEXTURE_NONE, 1, 1, 0.5f, { { 0 } }, false },
-    [MATERIAL_BARK] = { "bark", TEXTURE_BARK, 0.8f, 0, 0.9f, { { 0 } }, false },
-    [MATERIAL_LEAVES] = { "leaves", TEXTURE_LEAVES, 1, 0, 0.75f, { { 0 } }, true },
-    [MATERIAL_NEEDLES] = { "needles", TEXTURE_NEEDLES, 1, 0, 0.8f, { { 0 } }, true },
-    [MATERIAL_GRASS] = { "grass", TEXTURE_GRASS, 1, 0, 0.85f, { { 0 } }, true },
-    [MATERIAL_FABRIC] = { "fabric", TEXTURE_WOVEN, 1.5f, 0, 0.95f, { { 0 } }, false },
-    [MATERIAL_PAINT] = { "paint", TEXTURE_NONE, 1, 0, 0.5f, { { 0 } }, false },
+    [MATERIAL_GROUND] = { "ground", TEXTURE_GROUND, 0.25f, 0, 0.95f, { { 0 } }, false, false },
+    [MATERIAL_WATER] = { "water", TEXTURE_NONE, 1, 0, 0.06f, { { 0 } }, false, false },
+    [MATERIAL_PLASTER] = { "plaster", TEXTURE_PLASTER, 0.4f, 0, 0.9f, { { 0 } }, false, false },
+    [MATERIAL_STONE] = { "stone", TEXTURE_STONE, 0.5f, 0, 0.85f, { { 0 } }, false, false },
+    [MATERIAL_ROOF] = { "roof", TEXTURE_TILES, 0.5f, 0, 0.8f, { { 0 } }, false, false },
+    [MATERIAL_WOOD] = { "wood", TEXTURE_PLANKS, 0.9f, 0, 0.65f, { { 0 } }, false, false },
+    [MATERIAL_COBBLES] = { "wet cobbles", TEXTURE_COBBLES, 0.4f, 0, 0.18f, { { 0 } }, false, false },
+    [MATERIAL_COPPER] = { "copper", TEXTURE_NONE, 1, 1, 0.22f, { { 0 } }, false, false },
+    [MATERIAL_IRON] = { "iron", TEXTURE_NONE, 1, 1, 0.5f, { { 0 } }, false, false },
+    [MATERIAL_BARK] = { "bark", TEXTURE_BARK, 0.8f, 0, 0.9f, { { 0 } }, false, false },
+    [MATERIAL_LEAVES] = { "leaves", TEXTURE_LEAVES, 1, 0, 0.75f, { { 0 } }, true, true },
+    [MATERIAL_NEEDLES] = { "needles", TEXTURE_NEEDLES, 1, 0, 0.8f, { { 0 } }, true, true },
+    [MATERIAL_GRASS] = { "grass", TEXTURE_GRASS, 1, 0, 0.85f, { { 0 } }, true, false },
+    [MATERIAL_FABRIC] = { "fabric", TEXTURE_WOVEN, 1.5f, 0, 0.95f, { { 0 } }, false, false },
+    [MATERIAL_PAINT] = { "paint", TEXTURE_NONE, 1, 0, 0.5f, { { 0 } }, false, false },
     /* A flame behind glass looks bright but must not outshine the point light that stands for it. */
-    [MATERIAL_GLOW] = { "lamp glass", TEXTURE_NONE, 1, 0, 0.5f, { { 14, 8.4f, 3.6f } }, false },
+    [MATERIAL_GLOW] = { "lamp glass", TEXTURE_NONE, 1, 0, 0.5f, { { 14, 8.4f, 3.6f } }, false, false },
 };
 
 void world_materials_make(struct world *world)
@@ -41,7 +42,7 @@ void world_materials_make(struct world *world)
                                          .roughness = row->roughness,
                                          .emission = { row->emission.x, row->emission.y, row->emission.z },
                                          .alpha_cutoff = row->cutout ? 0.5f : 0,
-                                         .double_sided = row->cutout };
+                                         .double_sided = row->two_sided };
         if (row->texture != TEXTURE_NONE) {
             const struct texture_pair pair = texture_make(world->writer, row->texture, world->seed);
             material.base_color_texture = pair.color;

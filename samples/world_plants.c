@@ -92,6 +92,18 @@ static void conifer_build(struct object *object, struct random *random, float he
     }
 }
 
+/* A card for either side: both are lit like the ground around, from above, and none is seen from behind its
+ * normal. */
+static void blade_add(struct mesh *mesh, vec3s foot, float dx, float dz, float tall)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        const vec3s along = v3((float)side * dx, 0, (float)side * dz), up = v3(0, tall, 0);
+        const vec3s left = glms_vec3_sub(foot, along), right = glms_vec3_add(foot, along);
+        const vec3s normal = glms_vec3_normalize(v3(-along.z, 0.5f, along.x));
+        mesh_card(mesh, left, right, glms_vec3_add(right, up), glms_vec3_add(left, up), normal);
+    }
+}
+
 static void tuft_build(struct object *object, struct random *random, vec3s color)
 {
     for (int i = 0; i < 22; i++) {
@@ -101,8 +113,7 @@ static void tuft_build(struct object *object, struct random *random, vec3s color
                     dz = half * sinf(around);
         struct mesh *mesh =
             object_part(object, MATERIAL_GRASS, glms_vec3_scale(color, random_range(random, 0.8f, 1.2f)));
-        mesh_card(mesh, v3(x - dx, -0.03f, z - dz), v3(x + dx, -0.03f, z + dz), v3(x + dx, tall, z + dz),
-                  v3(x - dx, tall, z - dz), v3(0, 1, 0));
+        blade_add(mesh, v3(x, -0.03f, z), dx, dz, tall + 0.03f);
     }
 }
 
