@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "json_write.h"
 
+#include "output_file.h"
+
+#include <base/text.h>
 #include <math.h>
 
 cJSON *json_add_object(cJSON *parent, const char *name)
@@ -26,4 +29,18 @@ bool json_add_number(cJSON *object, const char *name, double value)
 bool json_add_text(cJSON *object, const char *name, const char *text)
 {
     return (text ? cJSON_AddStringToObject(object, name, text) : cJSON_AddNullToObject(object, name)) != NULL;
+}
+
+bool json_write_file(cJSON *json, const char *path, char *error, size_t error_size)
+{
+    char *text = json ? cJSON_Print(json) : NULL;
+    cJSON_Delete(json);
+    if (!text)
+        return base_text_error(error, error_size, "%s: out of memory", path);
+    struct output_file file;
+    const bool begun = output_file_begin(&file, path, error, error_size);
+    if (begun)
+        fprintf(file.stream, "%s\n", text);
+    cJSON_free(text);
+    return begun && output_file_commit(&file, error, error_size);
 }

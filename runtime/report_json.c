@@ -3,9 +3,7 @@
 #include "report.h"
 
 #include "json_write.h"
-#include "output_file.h"
 
-#include <base/text.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -146,15 +144,5 @@ cJSON *report_to_json(struct report *report, const struct report_summary *summar
 bool report_write(struct report *report, const struct report_summary *summary, const char *path, char *error,
                   size_t error_size)
 {
-    cJSON *json = report_to_json(report, summary);
-    char *text = json ? cJSON_Print(json) : NULL;
-    cJSON_Delete(json);
-    if (!text)
-        return base_text_error(error, error_size, "%s: out of memory", path);
-    struct output_file file;
-    const bool begun = output_file_begin(&file, path, error, error_size);
-    if (begun)
-        fprintf(file.stream, "%s\n", text);
-    cJSON_free(text);
-    return begun && output_file_commit(&file, error, error_size);
+    return json_write_file(report_to_json(report, summary), path, error, error_size);
 }

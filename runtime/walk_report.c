@@ -3,9 +3,7 @@
 #include "walk_report.h"
 
 #include "json_write.h"
-#include "output_file.h"
 
-#include <base/text.h>
 #include <stdlib.h>
 
 static bool add_vector(cJSON *object, const char *name, const double values[3])
@@ -209,15 +207,5 @@ cJSON *walk_report_to_json(const struct walk_record *record, const struct walk_s
 bool walk_report_write(const struct walk_record *record, const struct walk_summary *summary, const char *path,
                        char *error, size_t error_size)
 {
-    cJSON *json = walk_report_to_json(record, summary);
-    char *text = json ? cJSON_Print(json) : NULL;
-    cJSON_Delete(json);
-    if (!text)
-        return base_text_error(error, error_size, "%s: out of memory", path);
-    struct output_file file;
-    const bool begun = output_file_begin(&file, path, error, error_size);
-    if (begun)
-        fprintf(file.stream, "%s\n", text);
-    cJSON_free(text);
-    return begun && output_file_commit(&file, error, error_size);
+    return json_write_file(walk_report_to_json(record, summary), path, error, error_size);
 }

@@ -205,18 +205,26 @@ static void no_vulkan_failure_while_switching_on_is_fatal(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
-/* A change of resolution that fails leaves the old volumes in force. */
-static void a_failed_change_leaves_the_old_settings_in_force(void **state)
+/* A context that is switched on; nothing fails meanwhile. */
+static sdfgi *create_on(struct counting *counting)
 {
-    (void)state;
-    struct counting counting = { 0 };
-    struct sdfgi_desc desc = desc_on(&gpu, &counting);
+    struct sdfgi_desc desc = desc_on(&gpu, counting);
     const struct sdfgi_settings on = small_settings(true);
     desc.settings = &on;
     sdfgi *gi;
     failing_vulkan_reset(0, VK_SUCCESS);
     REQUIRE_CMP((int)sdfgi_create(&desc, &gi), ==, (int)SDFGI_OK);
+    return gi;
+}
+
+/* A change of resolution that fails leaves the old volumes in force. */
+static void a_failed_change_leaves_the_old_settings_in_force(void **state)
+{
+    (void)state;
+    struct counting counting = { 0 };
+    sdfgi *gi = create_on(&counting);
     const VkDescriptorSet set = sdfgi_get_descriptor_set(gi);
+    const struct sdfgi_settings on = small_settings(true);
     struct sdfgi_settings larger = on, in_force;
     larger.resolution = 64;
     failing_vulkan_reset(9, VK_ERROR_OUT_OF_DEVICE_MEMORY);
@@ -316,12 +324,7 @@ static void no_failure_while_the_light_list_grows_is_fatal(void **state)
 {
     (void)state;
     struct counting counting = { 0 };
-    struct sdfgi_desc desc = desc_on(&gpu, &counting);
-    const struct sdfgi_settings on = small_settings(true);
-    desc.settings = &on;
-    sdfgi *gi;
-    failing_vulkan_reset(0, VK_SUCCESS);
-    REQUIRE_CMP((int)sdfgi_create(&desc, &gi), ==, (int)SDFGI_OK);
+    sdfgi *gi = create_on(&counting);
     add_a_triangle(gi);
     gi->resources->extent.light_cells = 5;
     update_twice(gi);
