@@ -203,15 +203,17 @@ def measure(args, chosen):
             job.cancel()
         for job in done:
             job.result()
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        measures = list(pool.map(lambda scene: compare_all(bench, scene), chosen))
     results = {"options": {key: getattr(args, key) for key in OPTIONS}, "voxels": bench.voxels}
     results["scenes"] = []
-    for scene in chosen:
+    for scene, measured in zip(chosen, measures):
         report = rendered[scene["name"]].result()
         results["device"] = report["device"]["name"]
         row = {key: scene[key] for key in ("name", "shows", "exact", "wall_m", "lit")}
         row["run"] = frame_count(report)
         row["truth"] = {geometry: traced[scene["name"], geometry].result() for geometry in geometries}
-        row["measures"] = compare_all(bench, scene)
+        row["measures"] = measured
         results["scenes"].append(row)
     strip.shrink_all(bench, chosen)
     return results

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Small PNG files from the strips that `sdfgi compare` writes."""
+import concurrent.futures
 import struct
 import zlib
 
@@ -99,6 +100,7 @@ def shrink(source, target):
 def shrink_all(bench, chosen):
     folder = bench.args.docs / "accuracy"
     folder.mkdir(parents=True, exist_ok=True)
-    for scene in chosen:
-        source = bench.path(scene, "renderer.triangles.picture", ".png")
-        shrink(source, folder / f"{scene['name']}.png")
+    sources = [bench.path(scene, "renderer.triangles.picture", ".png") for scene in chosen]
+    targets = [folder / f"{scene['name']}.png" for scene in chosen]
+    with concurrent.futures.ProcessPoolExecutor() as pool:
+        list(pool.map(shrink, sources, targets))
