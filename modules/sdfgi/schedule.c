@@ -34,7 +34,7 @@ static uint64_t layer_cells(const struct sdfgi *gi)
     return (uint64_t)gi->settings.resolution * gi->settings.resolution * 4;
 }
 
-/* The thickest slice that voxels are made in: the least that a frame must be allowed to do. */
+/* The largest slice that voxels are made in. Settings allow a frame to do that, whatever the resolution. */
 static uint64_t slice_cells(const struct sdfgi *gi)
 {
     return (uint64_t)gi->settings.resolution * gi->settings.resolution * SDFGI_PROBE_SPACING;
@@ -407,19 +407,18 @@ static bool any_hurries(const struct sdfgi *gi)
     return false;
 }
 
-/* What all changes together do in this frame: as much as the camera's pace calls for in whole layers, so that
- * one frame costs as much as the next; never more than the setting allows, unless there is nothing to show.
- */
+/* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so
+ * that one frame costs as much as the next; a slice at least, and never more than the setting allows, unless
+ * there is nothing to show. */
 static uint64_t frame_budget(const struct sdfgi *gi)
 {
-    const uint64_t limit = gi->settings.max_scroll_cells, layer = layer_cells(gi), least = slice_cells(gi);
+    const double limit = (double)gi->settings.max_scroll_cells, layer = (double)layer_cells(gi);
     if (gi->schedule.from_nothing)
         return UINT64_MAX;
     if (any_hurries(gi))
-        return limit;
+        return gi->settings.max_scroll_cells;
     const double called_for = cells_per_step(gi) * steps_of_all(gi) * HEADROOM;
-    const uint64_t even = (uint64_t)ceil(called_for / (double)layer) * layer;
-    return even < least ? least : even < limit ? even : limit;
+    return (uint64_t)fmin(fmax(ceil(called_for / layer) * layer, (double)slice_cells(gi)), limit);
 }
 
 /* Fine cascades first, but before all the coarsest if it falls behind: behind that there is nothing. */
