@@ -62,7 +62,7 @@ static void follow_camera(struct sdfgi *gi, const double camera[3])
     const double lasting = fmin(longest, s->last_step);
     s->pace = fmax(lasting, s->pace + PACE_SHARE * (lasting - s->pace));
     for (int i = 0; i < 3; i++)
-        s->heading[i] += HEADING_SHARE * ((longest > 0 ? step[i] / longest : 0) - s->heading[i]);
+        s->heading[i] += HEADING_SHARE * ((isnormal(longest) ? step[i] / longest : 0) - s->heading[i]);
     s->last_step = longest;
     s->has_camera = true;
 }
@@ -285,8 +285,7 @@ static double steps_of_all(const struct sdfgi *gi)
     return steps;
 }
 
-/* A frame in which a cascade becomes complete has enough to do for others to wait, unless they do so all the
- * time. */
+/* One cascade a frame becomes complete, which is work of its own, unless they do so all the time. */
 static bool may_complete(const struct sdfgi *gi, uint32_t c)
 {
     return !schedule_has(gi, STEP_COMPLETE) || steps_of_all(gi) >= BUSY_STEPS ||
@@ -307,75 +306,6 @@ static void advance(struct sdfgi *gi, uint32_t c, uint64_t *budget)
     } while (done > 0);
     if (change->cells_left == 0 && may_complete(gi, c))
         add_step(gi, STEP_COMPLETE, c);
-}
-
-/* ---- What lookups read
- *
- * When a cascade steps, its window loses a slab on one side at once and gains one on the other later. Neither
- * may show. The border therefore recedes with the camera on the side that the next step takes away, so that
- * nothing of it is read any more when it goes; and it advances slowly into what was gained. On the side that
- * a camera leaves behind it recedes by half a spacing more, so that axes that are due one after the other can
- * step together, as often as the fastest alone. */
-
-/* Borders move hardly faster than the camera: by these shares of its step when they advance, and in addition
- * to it when they leave cells free; but by so many cells a frame at least, for they have to arrive. In a box
- * of 5 m whose light cascades see differently a border that moves by 0.05 cells changes light by 1.1 %. */
-#define SHARE_ADVANCE 1.25
-#define SHARE_SPARE   0.25
-#define SHARE_LEAST   0.03
-/* A border that lacks more than so many cells belongs to a cascade that was left behind: it makes up for the
- * rest of them in so many frames at its present speed. */
-#define SHARE_FAR    (1.5 * SDFGI_PROBE_SPACING)
-#define SHARE_FRAMES 32
-/* Share of the camera's pace along an axis from which on it leaves a side, and the part of a cascade's width
- * that is left free there: half a spacing at most, which is enough for all axes to step with the fastest. */
-#define LEAVING    0.125
-#define SPARE_PART 32.0
-
-/* Cells by which a border may move in this frame; `share` of the camera's step. */
-static double border_speed(const struct sdfgi *gi, uint32_t c, double share)
-{
-    return fmax(SHARE_LEAST, share * ldexp(gi->schedule.last_step, -(int)c) * SDFGI_PROBE_SPACING);
-}
-
-static double moved(double from, double to, double most)
-{
-    return from + fmin(fmax(to - from, -most), most);
-}
-
-/* Leaves cells free on the sides that the camera leaves. */
-static void move_spare(struct sdfgi *gi, uint32_t c)
-{
-    const double most = fmin(gi->settings.resolution / SPARE_PART, SDFGI_PROBE_SPACING / 2.0);
-    for (int i = 0; i < 3; i++) {
-        const double heading = gi->schedule.heading[i];
-        const double wanted = fabs(heading) > LEAVING ? copysign(most, heading) : 0;
-        gi->cascades[c].spare[i] = moved(gi->cascades[c].spare[i], wanted, border_speed(gi, c, SHARE_SPARE));
-    }
-}
-
-/* Moves a border outwards as fast as it may, inwards at once. `sign` is its outward direction. */
-static double border_moved(double border, double target, double sign, double most)
-{
-    const double outwards = (target - border) * sign;
-    return outwards > 0 ? moved(border, target, fmax(most, (outwards - SHARE_FAR) / SHARE_FRAMES)) : target;
-}
-
-static void move_share(struct sdfgi *gi, uint32_t c)
-{
-    struct cascade *cascade = &gi->cascades[c];
-    const double half = gi->settings.resolution / 2.0;
-    const double most = cascade->fresh ? INFINITY : border_speed(gi, c, SHARE_ADVANCE);
-    cascade->share_moves = false;
-    for (int i = 0; i < 3; i++) {
-        const double at = gi->schedule.camera[i] / cascade->cell_size[i] - (double)cascade->origin[i];
-        const double low = fmax(cascade->window.low[i], at - half + fmax(cascade->spare[i], 0)),
-                     high = fmin(cascade->window.high[i], at + half + fmin(cascade->spare[i], 0));
-        cascade->share_low[i] = border_moved(cascade->share_low[i], low, -1, most);
-        cascade->share_high[i] = border_moved(cascade->share_high[i], high, 1, most);
-        cascade->share_moves = cascade->share_moves || cascade->spare[i] != 0 ||
-                               cascade->share_low[i] != low || cascade->share_high[i] != high;
-    }
 }
 
 static bool any_complete(const struct sdfgi *gi)
@@ -439,8 +369,7 @@ void schedule_frame(struct sdfgi *gi, const double camera[3])
     s->step_count = 0;
     s->cells = 0;
     follow_camera(gi, camera);
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        move_spare(gi, c);
+    border_leave(gi);
     begin_all(gi, (double)gi->settings.max_scroll_cells);
     /* With nothing to show, there is nothing to wait for. */
     s->from_nothing = !any_complete(gi);
@@ -452,8 +381,7 @@ void schedule_frame(struct sdfgi *gi, const double camera[3])
     for (uint32_t i = 0; i < s->step_count; i++)
         if (s->steps[i].kind == STEP_COMPLETE)
             gi->cascades[s->steps[i].cascade].window = cell_box_whole(gi->settings.resolution);
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        move_share(gi, c);
+    border_move(gi);
 }
 
 void schedule_finish(struct sdfgi *gi)
@@ -483,14 +411,6 @@ bool schedule_idle(const struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         if (gi->cascades[c].change.active || gi->cascades[c].relight_left > 0)
-            return false;
-    return true;
-}
-
-bool schedule_borders_rest(const struct sdfgi *gi)
-{
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].share_moves)
             return false;
     return true;
 }

@@ -187,7 +187,7 @@ static void borders_come_to_rest(void **state)
             schedule_drive_frame(gi, camera);
         }
         uint32_t frames = 0;
-        for (; !schedule_borders_rest(gi) || !schedule_idle(gi); frames++)
+        for (; !border_rests(gi) || !schedule_idle(gi); frames++)
             schedule_drive_frame(gi, camera);
         longest = frames > longest ? frames : longest;
         REQUIRE_CMP(frames, <=, 400u + 200u * (trial >= 40));
