@@ -285,11 +285,18 @@ static double steps_of_all(const struct sdfgi *gi)
     return steps;
 }
 
-/* One cascade a frame becomes complete, which is work of its own, unless they do so all the time. */
-static bool may_complete(const struct sdfgi *gi, uint32_t c)
+static bool any_hurries(const struct sdfgi *gi)
 {
-    return !schedule_has(gi, STEP_COMPLETE) || steps_of_all(gi) >= BUSY_STEPS ||
-           hurries(gi, &gi->cascades[c]);
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (hurries(gi, &gi->cascades[c]))
+            return true;
+    return false;
+}
+
+/* One cascade a frame becomes complete, which is work of its own, unless they do so all the time or hurry. */
+static bool may_complete(const struct sdfgi *gi)
+{
+    return !schedule_has(gi, STEP_COMPLETE) || steps_of_all(gi) >= BUSY_STEPS || any_hurries(gi);
 }
 
 /* Does as much of a change as the budget allows. */
@@ -304,7 +311,7 @@ static void advance(struct sdfgi *gi, uint32_t c, uint64_t *budget)
         *budget -= done < *budget ? done : *budget;
         gi->schedule.cells += done;
     } while (done > 0);
-    if (change->cells_left == 0 && may_complete(gi, c))
+    if (change->cells_left == 0 && may_complete(gi))
         add_step(gi, STEP_COMPLETE, c);
 }
 
@@ -327,14 +334,6 @@ static void begin_all(struct sdfgi *gi, double budget)
         if (!cascade->change.active)
             begin(gi, cascade);
     }
-}
-
-static bool any_hurries(const struct sdfgi *gi)
-{
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (hurries(gi, &gi->cascades[c]))
-            return true;
-    return false;
 }
 
 /* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so

@@ -7,6 +7,9 @@
 #include "schedule_drive.h"
 #include "walk_path.h"
 
+#include <math.h>
+#include <stdio.h>
+
 enum { FRAMES_PER_SECOND = 60 };
 
 static const char *walk_file, *flight_file;
@@ -60,6 +63,42 @@ static void a_flight_over_the_world_costs_the_same_in_every_frame(void **state)
         REQUIRE_CMP(j.covered[c], ==, j.frames);
 }
 
+/* Cells that lookups read around the camera, along the axis where that is least. */
+static double cells_read(const struct cascade *cascade, const double camera[static 3])
+{
+    double least = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double at = camera[i] / cascade->cell_size[i] - (double)cascade->origin[i];
+        least = fmin(least, fmin(at - cascade->share_low[i], cascade->share_high[i] - at));
+    }
+    return least;
+}
+
+/* One frame a second, 32 cells: every frame is a jump of most of the finest cascade. Lookups still read all
+ * of them. */
+static void jumps_along_the_walk_read_all_cascades(void **state)
+{
+    (void)state;
+    struct walk_path path;
+    char error[256];
+    double camera[3], least[4] = { INFINITY, INFINITY, INFINITY, INFINITY };
+    REQUIRE_TRUE(walk_path_load(walk_file, &path, error, sizeof error));
+    struct sdfgi *gi = schedule_drive_begin(4194304);
+    gi->settings.resolution = 32;
+    for (uint32_t i = 0; i < (uint32_t)(path.length_m / 5); i++) {
+        along(&path, i * FRAMES_PER_SECOND, camera);
+        schedule_drive_frame(gi, camera);
+        for (uint32_t c = 0; c < 4; c++) {
+            least[c] = fmin(least[c], cells_read(&gi->cascades[c], camera));
+        }
+    }
+    printf("one frame a second, 32 cells: at least %.1f %.1f %.1f %.1f cells are read around the camera\n",
+           least[0], least[1], least[2], least[3]);
+    for (uint32_t c = 0; c < 4; c++)
+        REQUIRE_CMP(least[c], >=, 6.0);
+    walk_path_finish(&path);
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 3)
@@ -69,6 +108,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_walk_through_the_world_costs_the_same_in_every_frame),
         cmocka_unit_test(a_flight_over_the_world_costs_the_same_in_every_frame),
+        cmocka_unit_test(jumps_along_the_walk_read_all_cascades),
     };
     return cmocka_run_group_tests_name("scroll_paths", tests, NULL, NULL);
 }
