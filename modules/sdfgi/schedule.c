@@ -12,7 +12,6 @@
 #include "internal.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Share of a new direction in the running mean, of a slower pace in that of the pace: a path that winds keeps
