@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Frames without a step after which one may leave it at that. */
+#define CALM_FRAMES 3
+
 static const char *frame_problem(const struct sdfgi_frame_desc *d)
 {
     for (int i = 0; i < 3; i++)
@@ -64,6 +67,35 @@ static bool all_published(const struct sdfgi *gi)
     return true;
 }
 
+static bool any_steps(const struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (schedule_completes(gi, c) && !gi->cascades[c].edited)
+            return true;
+    return false;
+}
+
+/* A frame in which a step of a cascade becomes complete has enough to do: probes go on in the next one. Not
+ * where steps come thick and fast, nor for geometry, which may change in every frame: that would keep light
+ * waiting. */
+static void decide_wait(struct sdfgi *gi)
+{
+    gi->takes_step = any_steps(gi);
+    gi->light_waits = gi->takes_step && !restarts(gi) && all_published(gi) && gi->calm_frames >= CALM_FRAMES;
+    gi->calm_frames = gi->takes_step ? 0 : gi->calm_frames + 1;
+}
+
+/* Whatever changes may make remembered rays unknown, of any sample: after that the ring has to come round
+ * once. */
+static void count_missing_rays(struct sdfgi *gi)
+{
+    bool changes = restarts(gi);
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        changes = changes || gi->cascades[c].change.active;
+    if (changes)
+        gi->rays_missing = ring_frames(&gi->settings);
+}
+
 static bool ring_ends(const struct sdfgi *gi)
 {
     return gi->ring_frame + 1 == ring_frames(&gi->settings);
@@ -81,6 +113,8 @@ static void restart_ring(struct sdfgi *gi)
 
 static void make_plan(struct sdfgi *gi)
 {
+    decide_wait(gi);
+    count_missing_rays(gi);
     light_cache_plan(gi);
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         if (gi->cascades[c].fresh && gi->schedule.from_nothing)
@@ -98,6 +132,8 @@ static void make_plan(struct sdfgi *gi)
         .has_lights = gi->scene.lights.count > 0,
         .converged = gi->converged,
         .lights_changed = gi->lights_changed,
+        .light_waits = gi->light_waits,
+        .rays_missing = gi->rays_missing > 0,
         .publish = due || ring_ends(gi) || !all_published(gi),
         .raster = gi->settings.voxelizer == SDFGI_VOXELIZER_RASTER,
         .flood = gi->settings.sdf_method == SDFGI_SDF_FLOOD,
@@ -126,26 +162,6 @@ static void generate(struct frame *frame)
     }
 }
 
-/* Probes and light cells where voxels and distances are complete; coarse cascades first, from which new
- * probes of finer ones take their start. */
-static void complete(struct frame *frame)
-{
-    struct sdfgi *gi = frame->gi;
-    for (uint32_t c = gi->settings.cascades; c-- > 0;) {
-        const bool all = schedule_completes(gi, c);
-        if (all) {
-            probe_place_record(frame, c);
-            occlusion_record(frame, c);
-        }
-        if (restarts(gi))
-            probe_reset_record(frame, c);
-        else if (all)
-            probe_seed_record(frame, c);
-        if (all || gi->cascades[c].relist)
-            light_cache_list_record(frame, c);
-    }
-}
-
 /* Rays of a cascade go on into coarser ones, never into finer. */
 static void forget_rays(struct frame *frame)
 {
@@ -154,18 +170,67 @@ static void forget_rays(struct frame *frame)
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         if (schedule_completes(gi, c))
             cascades = c + 1;
-    if (cascades > 0 && !restarts(gi))
+    if (cascades > 0)
         ray_forget_record(frame, cascades);
 }
 
-/* Direct light of cells that were there before: at once where lights changed, else some a frame. */
+static bool last_to_complete(const struct sdfgi *gi, uint32_t c)
+{
+    for (uint32_t finer = 0; finer < c; finer++)
+        if (schedule_completes(gi, finer))
+            return false;
+    return schedule_completes(gi, c);
+}
+
+/* Probes and light cells of a cascade whose voxels and distances are complete. The order of passes is such
+ * that neighbours touch nothing in common: no barrier comes between them. */
+static void complete_cascade(struct frame *frame, uint32_t c)
+{
+    const struct sdfgi *gi = frame->gi;
+    const bool all = schedule_completes(gi, c), keeps = !restarts(gi);
+    light_cache_clear_record(frame);
+
+    pass_group_begin(frame);
+    light_cache_mark_record(frame, c);
+    if (all)
+        probe_place_record(frame, c);
+    pass_group_end(frame);
+
+    pass_group_begin(frame);
+    light_cache_list_record(frame, c);
+    if (all)
+        probe_link_record(frame, c);
+    pass_group_end(frame);
+
+    pass_group_begin(frame);
+    light_cache_renew_record(frame, c);
+    if (all)
+        occlusion_record(frame, c);
+    if (all && keeps)
+        probe_seed_record(frame, c);
+    if (last_to_complete(gi, c) && keeps)
+        forget_rays(frame);
+    pass_group_end(frame);
+
+    light_cache_renew_bounce_record(frame, c);
+}
+
+/* Coarse cascades first, from which new probes of finer ones take their start. */
+static void complete(struct frame *frame)
+{
+    struct sdfgi *gi = frame->gi;
+    for (uint32_t c = gi->settings.cascades; c-- > 0;) {
+        if (restarts(gi))
+            probe_reset_record(frame, c);
+        if (schedule_completes(gi, c) || gi->cascades[c].relist)
+            complete_cascade(frame, c);
+    }
+}
+
+/* Direct light of all cells that were there before. */
 static void light_directly(struct frame *frame)
 {
     const struct sdfgi *gi = frame->gi;
-    if (!gi->lights_changed) {
-        light_cache_relight_record(frame);
-        return;
-    }
     bool any = false;
     for (uint32_t c = 0; c < gi->settings.cascades; c++) {
         if (light_cache_is_new(gi, c))
@@ -177,16 +242,29 @@ static void light_directly(struct frame *frame)
         light_cache_bounce_record(frame);
 }
 
-/* Sends this frame's rays, and publishes what the probes have gathered. */
+/* Sends this frame's rays, and makes some direct light again, beside each other. */
+static void trace_rays(struct frame *frame)
+{
+    const struct sdfgi *gi = frame->gi;
+    if (gi->plan[PASS_RAY_LIST].run)
+        ray_list_record(frame);
+    pass_group_begin(frame);
+    if (gi->plan[PASS_PROBE_TRACE].run)
+        probe_trace_record(frame);
+    if (gi->plan[PASS_LIGHT_DIRECT].run && !gi->lights_changed)
+        light_cache_relight_record(frame);
+    pass_group_end(frame);
+}
+
+/* Adds up what this frame's rays find, and publishes what the probes have gathered. */
 static void light_probes(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        probe_trace_record(frame, c);
+    probe_sum_record(frame);
     if (!gi->plan[PASS_PROBE_BLEND].run)
         return;
+    probe_blend_record(frame, ring_ends(gi));
     for (uint32_t c = 0; c < gi->settings.cascades; c++) {
-        probe_blend_record(frame, c, ring_ends(gi));
         gi->cascades[c].published = true;
         gi->cascades[c].fresh = gi->cascades[c].fresh && !ring_ends(gi);
     }
@@ -213,6 +291,7 @@ static void advance_ring(struct sdfgi *gi)
     struct frame_slot *slot = &gi->slots[gi->frame % gi->frames_in_flight];
     slot->ring = gi->ring;
     slot->ring_ends = ring_ends(gi);
+    gi->rays_missing -= gi->rays_missing > 0;
     if (!ring_ends(gi)) {
         gi->ring_frame++;
         return;
@@ -231,13 +310,12 @@ static void record_work(struct frame *frame)
     else if (gi->ring_frame == 0)
         clear_counters(frame, SDFGI_COUNTER_VALUES_CLAMPED, SDFGI_COUNTER_MAX_IRRADIANCE);
     generate(frame);
-    if (gi->plan[PASS_LIGHT_LIST].run) {
+    if (gi->plan[PASS_LIGHT_LIST].run)
         complete(frame);
-        forget_rays(frame);
-    }
-    if (gi->plan[PASS_LIGHT_DIRECT].run)
+    if (gi->plan[PASS_LIGHT_DIRECT].run && gi->lights_changed)
         light_directly(frame);
-    if (gi->plan[PASS_PROBE_TRACE].run)
+    trace_rays(frame);
+    if (gi->plan[PASS_PROBE_SUM].run)
         light_probes(frame);
     if (gi->plan[PASS_PROBE_BLEND].run)
         light_cache_bounce_record(frame);
@@ -253,7 +331,8 @@ static void record_frame(struct sdfgi *gi, struct frame *frame)
     upload_record(gi, &frame->rec);
     if (!gi->converged) {
         record_work(frame);
-        advance_ring(gi);
+        if (!gi->light_waits)
+            advance_ring(gi);
     }
     gpu_recorder_end(&frame->rec);
     schedule_finish(gi);

@@ -20,7 +20,7 @@ enum {
     SDFGI_MAX_MATERIALS = 4096,
     SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
     SDFGI_MAX_GATHERS = 8, /* per update */
-    SDFGI_RELIGHT_CELLS = 32768, /* light cells a frame that are lit again since others changed */
+    SDFGI_RELIGHT_CELLS = 16384, /* light cells a frame that are lit again since others changed */
 };
 
 /* A ring has settled when no probe texel changes by more than this share of its value from one ring to the
@@ -207,6 +207,7 @@ enum need {
     NEED_DIRECT,
     NEED_LIGHT,
     NEED_TRACE,
+    NEED_RAYS,
     NEED_BLEND,
     NEED_GATHER,
     NEED_COUNT,
@@ -218,6 +219,8 @@ struct situation {
     bool generates, measures, completes; /* geometry, distances, cascades in this frame */
     bool fresh;                          /* nothing was there before */
     bool relights, list_grew;
+    bool light_waits;                    /* for the next frame */
+    bool rays_missing;                   /* some of this frame's are not remembered */
     bool raster, flood, occlusion, masks;
 };
 
@@ -320,7 +323,8 @@ struct sdfgi {
     struct schedule schedule;
     bool materials_changed, lights_changed, params_changed;
     uint32_t relight_budget, relight_cascade; /* cells a frame; the cascade whose turn it is */
-    bool relight_waits;                       /* put off in this frame */
+    uint32_t relight_waits;                   /* frames in a row that have put it off */
+    bool takes_step;                          /* a step of a cascade becomes complete in this frame */
     float emission_unit; /* radiance of the brightest material */
     struct sdfgi_frame_params params;
     double origin[3];
@@ -330,6 +334,9 @@ struct sdfgi {
     /* Convergence: rings are numbered from 1. */
     uint64_t ring, disturbed_ring, known_ring;
     uint32_t ring_frame; /* frame within the ring */
+    uint32_t rays_missing; /* frames of rays until all of a ring are remembered */
+    uint32_t calm_frames; /* in a row, in which no step became complete */
+    bool light_waits;    /* this frame sends none */
     float known_change, known_brightest;
     struct settling settling;
     bool converged, active;
@@ -390,10 +397,15 @@ struct frame {
     struct sdfgi *gi;
     struct gpu_recorder rec;
     uint32_t slot;
+    bool grouped, group_timed; /* between pass_group_begin and _end; the group's first pass has begun */
 };
 
 void pass_begin(struct frame *frame, enum pass pass);
 void pass_end(struct frame *frame);
+/* Passes that touch nothing in common run side by side. Timestamps between them would have each wait for the one before: a group
+ * has one time, that of its first pass. */
+void pass_group_begin(struct frame *frame);
+void pass_group_end(struct frame *frame);
 /* Barrier, push constants and dispatch of one step of a pass that has begun. */
 void pass_dispatch(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args, uint32_t x,
                    uint32_t y, uint32_t z);
@@ -401,6 +413,9 @@ void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi
 /* One thread per `per_thread` cells of args' box. */
 void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
                        uint32_t per_thread);
+/* With the workgroups of a record of indirect arguments. */
+void pass_dispatch_indirect(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+                            uint32_t record);
 /* Over the light cells in the blocks of a cascade that were renewed last. */
 void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
 /* Zeroes a part of a buffer. */
@@ -411,6 +426,8 @@ const char *pass_name(enum pass pass);
 const char *pass_unit(enum pass pass);
 
 void voxelize_record(struct frame *frame, uint32_t cascade, const struct cell_box *box);
+/* Axis across which boxes around what goes and comes lie in strips (content.glsl); -1: nobody asks for any. */
+int32_t voxelize_content_axis(const struct change *change);
 
 /* Layers of blocks of 4^3 cells along x whose distances to make. Where anything is known of how bits changed, cells outside
  * `changed` have the bits that their stored distances were made from, and hold those distances; inside, the bits are new and
@@ -426,6 +443,7 @@ struct distance_part {
 void distance_field_record(struct frame *frame, uint32_t cascade, const struct distance_part *part);
 void occlusion_record(struct frame *frame, uint32_t cascade);
 void probe_place_record(struct frame *frame, uint32_t cascade);
+void probe_link_record(struct frame *frame, uint32_t cascade);
 /* Makes room where the newest counters known say that the list was too short. */
 void light_cache_make_room(struct sdfgi *gi);
 /* Decides whose direct light is to be made again, from what this frame completes. */
@@ -434,8 +452,13 @@ void light_cache_plan(struct sdfgi *gi);
 bool light_cache_relights(const struct sdfgi *gi);
 /* True if all light cells of a cascade are listed as new in this frame. */
 bool light_cache_is_new(const struct sdfgi *gi, uint32_t cascade);
-/* Lists the light cells of a cascade; those in renewed blocks get masks and light. */
+/* Empties the scratch buffer for a list; marks a cascade's light cells there, lists them; gives those in renewed blocks masks and
+ * direct light, then light that bounces. */
+void light_cache_clear_record(struct frame *frame);
+void light_cache_mark_record(struct frame *frame, uint32_t cascade);
 void light_cache_list_record(struct frame *frame, uint32_t cascade);
+void light_cache_renew_record(struct frame *frame, uint32_t cascade);
+void light_cache_renew_bounce_record(struct frame *frame, uint32_t cascade);
 /* Direct light of all cells of a cascade; of as many of those that wait for it as one frame may make. */
 void light_cache_direct_record(struct frame *frame, uint32_t cascade);
 void light_cache_relight_record(struct frame *frame);
@@ -446,8 +469,11 @@ void probe_reset_record(struct frame *frame, uint32_t cascade);
 void probe_seed_record(struct frame *frame, uint32_t cascade);
 /* In the finest `cascades` of them. */
 void ray_forget_record(struct frame *frame, uint32_t cascades);
-void probe_trace_record(struct frame *frame, uint32_t cascade);
-void probe_blend_record(struct frame *frame, uint32_t cascade, bool ring_ends);
+/* Lists those rays of this frame that are not remembered, and traces them; adds up what light all of them find; publishes it. */
+void ray_list_record(struct frame *frame);
+void probe_trace_record(struct frame *frame);
+void probe_sum_record(struct frame *frame);
+void probe_blend_record(struct frame *frame, bool ring_ends);
 
 /* Takes in what a finished frame left in its slot. */
 void readback_read(struct sdfgi *gi, uint32_t slot);

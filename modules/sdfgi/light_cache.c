@@ -7,6 +7,8 @@
 #define SPARE_SHARE 8
 /* Workgroups that share a row of 64 blocks: along the ground it holds a thousand cells. */
 #define LIST_SHARES 4
+/* Of frames that all complete a step one in so many lights cells again that stay. */
+#define RELIGHT_PATIENCE 4
 
 static uint64_t most_light_cells(const struct sdfgi *gi)
 {
@@ -102,30 +104,90 @@ void light_cache_plan(struct sdfgi *gi)
 
 /* ---- Recording */
 
+/* log2 of the threads that share the lights of a cell: with eight or more of them, eight. */
+static uint32_t sharing_bits(const struct sdfgi *gi)
+{
+    uint32_t bits = 0;
+    while (bits < 3 && gi->scene.lights.count >> (bits + 1) > 0)
+        bits++;
+    return bits;
+}
+
+static uint32_t groups_for(uint64_t threads)
+{
+    return (uint32_t)((threads + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR);
+}
+
+static uint32_t one_row(uint32_t groups)
+{
+    return groups < SDFGI_MAX_GROUPS ? groups : SDFGI_MAX_GROUPS;
+}
+
 static void record_range(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
 {
     const struct sdfgi_pass_args args = { .low.x = (int32_t)first,
                                           .high.x = (int32_t)(first + count),
-                                          .cascade = c };
-    const uint32_t groups = (count + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR;
+                                          .cascade = c,
+                                          .source = sharing_bits(frame->gi) };
     pass_begin(frame, PASS_LIGHT_DIRECT);
-    pass_dispatch(frame, PASS_LIGHT_DIRECT, &args, groups, 1, 1);
+    const uint32_t groups = groups_for((uint64_t)count << args.source);
+    pass_dispatch(frame, PASS_LIGHT_DIRECT, &args, one_row(groups),
+                  (groups + SDFGI_MAX_GROUPS - 1) / SDFGI_MAX_GROUPS, 1);
     frame->gi->passes[PASS_LIGHT_DIRECT].work += count;
     pass_end(frame);
 }
 
+/* Cells of the blocks that a change renews, some of them more than once: those in cages that touch it. */
+static uint64_t renewed_cells(const struct sdfgi *gi, uint32_t c)
+{
+    if (light_cache_is_new(gi, c))
+        return gi->resources->extent.cells;
+    const struct change *change = &gi->cascades[c].change;
+    const struct cell_box whole = cell_box_whole(gi->settings.resolution);
+    uint64_t cells = 0;
+    for (uint32_t i = 0; i < change->count; i++) {
+        struct cell_box box = change->boxes[i];
+        for (int k = 0; k < 3; k++) {
+            box.low[k] -= SDFGI_PROBE_SPACING;
+            box.high[k] += SDFGI_PROBE_SPACING;
+        }
+        box = cell_box_common(&box, &whole);
+        cells += cell_box_cells(&box);
+    }
+    return cells;
+}
+
+static uint64_t list_blocks(const struct sdfgi *gi)
+{
+    return gi->resources->extent.cells / 64;
+}
+
 /* Blocks of 4^3 cells get four words, rows of blocks two: see light_blocks.glsl. */
-static void record_list(struct frame *frame, const struct sdfgi_pass_args *args)
+void light_cache_clear_record(struct frame *frame)
+{
+    const uint64_t blocks = list_blocks(frame->gi), rows = blocks / SDFGI_GROUP_LINEAR;
+    pass_clear(frame, RESOURCE_SCRATCH, 0, 16 * blocks + 8 * rows);
+}
+
+void light_cache_mark_record(struct frame *frame, uint32_t c)
 {
     struct sdfgi *gi = frame->gi;
-    const uint64_t blocks = gi->resources->extent.cells / 64, rows = blocks / SDFGI_GROUP_LINEAR;
-    pass_clear(frame, RESOURCE_SCRATCH, 0, 16 * blocks + 8 * rows);
+    const struct sdfgi_pass_args args = { .cascade = c, .fresh = light_cache_is_new(gi, c) };
+    const uint64_t cells = renewed_cells(gi, c), room = gi->resources->extent.light_cells;
     pass_begin(frame, PASS_LIGHT_MARK);
-    pass_dispatch_cells(frame, PASS_LIGHT_MARK, args);
+    pass_dispatch(frame, PASS_LIGHT_MARK, &args, one_row(groups_for(cells > room ? cells : room)), 1, 1);
+    gi->passes[PASS_LIGHT_MARK].work += cells;
     pass_end(frame);
+}
+
+void light_cache_list_record(struct frame *frame, uint32_t c)
+{
+    struct sdfgi *gi = frame->gi;
+    const struct sdfgi_pass_args args = { .cascade = c, .source = sharing_bits(gi) };
     pass_begin(frame, PASS_LIGHT_LIST);
-    pass_dispatch(frame, PASS_LIGHT_LIST, args, (uint32_t)rows, LIST_SHARES, 1);
-    gi->passes[PASS_LIGHT_LIST].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + args->cascade];
+    pass_dispatch(frame, PASS_LIGHT_LIST, &args, (uint32_t)(list_blocks(gi) / SDFGI_GROUP_LINEAR),
+                  LIST_SHARES, 1);
+    gi->passes[PASS_LIGHT_LIST].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
     pass_end(frame);
 }
 
@@ -139,16 +201,18 @@ static void record_renewed(struct frame *frame, enum pass pass, const struct sdf
     pass_end(frame);
 }
 
-void light_cache_list_record(struct frame *frame, uint32_t c)
+void light_cache_renew_record(struct frame *frame, uint32_t c)
 {
-    const struct sdfgi *gi = frame->gi;
-    const struct sdfgi_pass_args args = { .cascade = c, .fresh = light_cache_is_new(gi, c) };
-    record_list(frame, &args);
-    struct sdfgi_pass_args renewed = { .cascade = c, .step = 1 };
-    record_renewed(frame, PASS_CELL_MASK, &renewed);
-    record_renewed(frame, PASS_LIGHT_DIRECT, &renewed);
-    renewed.fresh = (uint32_t)!gi->cascades[c].published << c;
-    record_renewed(frame, PASS_LIGHT_BOUNCE, &renewed);
+    const struct sdfgi_pass_args args = { .cascade = c, .step = 1, .source = sharing_bits(frame->gi) };
+    record_renewed(frame, PASS_LIGHT_DIRECT, &args);
+    record_renewed(frame, PASS_CELL_MASK, &args);
+}
+
+void light_cache_renew_bounce_record(struct frame *frame, uint32_t c)
+{
+    const uint32_t fresh = (uint32_t)!frame->gi->cascades[c].published << c;
+    record_renewed(frame, PASS_LIGHT_BOUNCE,
+                   &(struct sdfgi_pass_args){ .cascade = c, .step = 1, .fresh = fresh });
 }
 
 /* Goes on with a cascade, at most to the end of its list; returns how many cells that was. */
@@ -170,9 +234,9 @@ static uint32_t relight_part(struct frame *frame, uint32_t c, uint32_t most)
 void light_cache_relight_record(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    /* A frame in which a cascade becomes complete has enough to do, but not several in a row. */
-    gi->relight_waits = schedule_has(gi, STEP_COMPLETE) && !gi->relight_waits;
-    if (gi->relight_waits || !light_cache_relights(gi))
+    /* A frame in which a step becomes complete has enough to do, but that may be so in every frame. */
+    gi->relight_waits = gi->takes_step ? (gi->relight_waits + 1) % RELIGHT_PATIENCE : 0;
+    if (gi->relight_waits > 0 || !light_cache_relights(gi))
         return;
     light_disturb(gi);
     uint32_t left = gi->relight_budget;
@@ -199,7 +263,6 @@ void light_cache_bounce_record(struct frame *frame)
         gi->passes[PASS_LIGHT_BOUNCE].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
     }
     pass_begin(frame, PASS_LIGHT_BOUNCE);
-    pass_dispatch(frame, PASS_LIGHT_BOUNCE, &args, (room + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR,
-                  gi->settings.cascades, 1);
+    pass_dispatch(frame, PASS_LIGHT_BOUNCE, &args, groups_for(room), gi->settings.cascades, 1);
     pass_end(frame);
 }

@@ -56,11 +56,13 @@ struct extent extent_from_settings(const struct sdfgi_settings *settings)
         .atlas_height = (uint32_t)(side * side) * SDFGI_IRRADIANCE_STRIDE,
     };
     const uint64_t pointers = 2 * 4 * e.cells, accumulators = (uint64_t)SDFGI_ACCUM_PLANES * 4 * e.blocks;
-    /* light_blocks.glsl: four words a block of 4^3 cells, two a row of blocks, three an entry. */
+    /* light_blocks.glsl: four words a block of 4^3 cells, two a row of blocks, four an entry. */
     const uint64_t listing =
-        4 * (4 * e.cells / 64 + 2 * e.cells / (64 * SDFGI_GROUP_LINEAR) + 3 * e.light_cells_max);
+        4 * (4 * e.cells / 64 + 2 * e.cells / (64 * SDFGI_GROUP_LINEAR) + 4 * e.light_cells_max);
     e.scratch = pointers > accumulators ? pointers : accumulators;
     e.scratch = listing > e.scratch ? listing : e.scratch;
+    const uint64_t rays = 4 * e.probes * e.cascades * settings->ray_count; /* ray_queue.glsl */
+    e.scratch = rays > e.scratch ? rays : e.scratch;
     if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
         e.occlusion = e.probes * e.cascades * SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE * 4;
     return e;

@@ -6,7 +6,9 @@ void pass_begin(struct frame *frame, enum pass pass)
 {
     struct sdfgi *gi = frame->gi;
     gpu_label_begin(&frame->rec, pass_name(pass));
-    gpu_timer_begin(&gi->resources->timer, &frame->rec, (uint32_t)pass);
+    if (!frame->grouped || !frame->group_timed)
+        gpu_timer_begin(&gi->resources->timer, &frame->rec, (uint32_t)pass);
+    frame->group_timed = frame->grouped;
     if (pass == PASS_VOXELIZE || pass == PASS_VOXELIZE_RASTER || pass == PASS_GATHER)
         return; /* they bind pipelines and sets of their own */
     gpu_bind_pipeline(&frame->rec, VK_PIPELINE_BIND_POINT_COMPUTE, gi->pipelines.passes[pass]);
@@ -15,8 +17,21 @@ void pass_begin(struct frame *frame, enum pass pass)
 
 void pass_end(struct frame *frame)
 {
-    gpu_timer_end(&frame->gi->resources->timer, &frame->rec);
+    if (!frame->grouped)
+        gpu_timer_end(&frame->gi->resources->timer, &frame->rec);
     gpu_label_end(&frame->rec);
+}
+
+void pass_group_begin(struct frame *frame)
+{
+    frame->grouped = true;
+}
+
+void pass_group_end(struct frame *frame)
+{
+    if (frame->group_timed)
+        gpu_timer_end(&frame->gi->resources->timer, &frame->rec);
+    frame->grouped = frame->group_timed = false;
 }
 
 static void pass_prepare(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
@@ -51,13 +66,20 @@ void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_p
     frame->gi->passes[pass].work += threads;
 }
 
-void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+void pass_dispatch_indirect(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+                            uint32_t record)
 {
-    /* light_list leaves two records per cascade: a thread for each cell, and eight. */
-    const uint32_t record = args->cascade + (pass == PASS_CELL_MASK ? SDFGI_MAX_CASCADES : 0);
     gpu_use(&frame->rec, GPU_USAGE_INDIRECT, pass_reads(pass) | RESOURCE_BIT(INDIRECT), pass_writes(pass));
     pass_prepare(frame, pass, args);
     gpu_dispatch_indirect(&frame->rec, &frame->gi->resources->buffers[RESOURCE_INDIRECT], 16 * record);
+}
+
+void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+{
+    const uint32_t first = pass == PASS_CELL_MASK      ? SDFGI_INDIRECT_MASKS
+                           : pass == PASS_LIGHT_DIRECT ? SDFGI_INDIRECT_DIRECT
+                                                       : SDFGI_INDIRECT_CELLS;
+    pass_dispatch_indirect(frame, pass, args, first + args->cascade);
     /* How many cells that is comes back frames later: these are those of the list before. */
     frame->gi->passes[pass].work += frame->gi->counters[SDFGI_COUNTER_LIGHT_RENEWED + args->cascade];
 }

@@ -28,13 +28,15 @@
     X(PROBE_LINK,      probe_link,      "probes",      R(BITS) | R(DISTANCE), R(PROBES), COMPLETE)                      \
     X(PROBE_SEED,      probe_seed,      "probes",      R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE), SEED) \
     X(OCCLUSION_TRACE, occlusion_trace, "rays",        R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION), OCCLUSION)   \
-    X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(COUNTERS), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \
-    X(LIGHT_LIST,      light_list,      "light cells", R(MASKS), R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST) \
-    X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(COUNTERS) | R(SCRATCH), R(LIGHT_CELLS) | R(MASKS), MASKS) \
-    X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES), R(RAYS), SEED)                                       \
+    X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \
+    X(LIGHT_LIST,      light_list,      "light cells", 0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST) \
+    X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH) | R(INDIRECT), R(MASKS), MASKS) \
+    X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES) | R(CONTENT), R(RAYS), SEED)                                     \
     X(LIGHT_DIRECT,    light_direct,    "light cells", R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS), DIRECT) \
     X(LIGHT_BOUNCE,    light_bounce,    "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS), LIGHT) \
-    X(PROBE_TRACE,     probe_trace,     "rays",        R(BITS) | R(DISTANCE) | R(PROBES) | R(LIGHT), R(RAYS) | R(SUMS) | R(COUNTERS), TRACE) \
+    X(RAY_LIST,        ray_list,        "rays",        R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT), RAYS) \
+    X(PROBE_TRACE,     probe_trace,     "rays",        R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS) | R(INDIRECT), RAYS) \
+    X(PROBE_SUM,       probe_sum,       "rays",        R(PROBES) | R(RAYS) | R(LIGHT) | R(INDIRECT), R(SUMS) | R(COUNTERS), TRACE) \
     X(PROBE_BLEND,     probe_blend,     "probes",      R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS), BLEND) \
     X(GATHER,          gather,          "pixels",      R(BITS) | R(DISTANCE) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(IRRADIANCE), 0, GATHER)
 /* clang-format on */

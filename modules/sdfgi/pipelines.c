@@ -25,8 +25,10 @@
 #include "cell_mask.comp.h"
 #include "light_direct.comp.h"
 #include "light_bounce.comp.h"
+#include "probe_sum.comp.h"
 #include "probe_trace.comp.h"
 #include "ray_forget.comp.h"
+#include "ray_list.comp.h"
 #include "probe_blend.comp.h"
 #include "gather.comp.h"
 

@@ -64,19 +64,24 @@ static bool needs_direct(const struct situation *s)
     return ((s->relights || needs_list(s)) && s->has_lights) || s->lights_changed;
 }
 
-static bool needs_light(const struct situation *s)
-{
-    return !s->converged && (s->publish || needs_list(s) || s->lights_changed);
-}
-
 static bool needs_trace(const struct situation *s)
 {
-    return !s->converged;
+    return !s->converged && !s->light_waits;
+}
+
+static bool needs_rays(const struct situation *s)
+{
+    return needs_trace(s) && s->rays_missing;
 }
 
 static bool needs_blend(const struct situation *s)
 {
-    return !s->converged && s->publish;
+    return !s->converged && s->publish && !s->light_waits;
+}
+
+static bool needs_light(const struct situation *s)
+{
+    return needs_blend(s) || (!s->converged && (needs_list(s) || s->lights_changed));
 }
 
 static bool needs_gather(const struct situation *s)
@@ -107,7 +112,10 @@ static const struct need_row needs[NEED_COUNT] = {
     [NEED_DIRECT] = { needs_direct, "lights or the surfaces they reach changed",
                       "no light and no surface changed" },
     [NEED_LIGHT] = { needs_light, "light has not settled", "light has settled, or is due in a later frame" },
-    [NEED_TRACE] = { needs_trace, "light has not settled", "light has settled" },
+    [NEED_TRACE] = { needs_trace, "light has not settled",
+                     "light has settled, or waits for the frame after a step" },
+    [NEED_RAYS] = { needs_rays, "rays of the ring are not remembered",
+                    "all rays are remembered, or light has settled or waits" },
     [NEED_BLEND] = { needs_blend, "light has not settled", "light has settled, or is due in a later frame" },
     [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
 };

@@ -14,9 +14,13 @@ static void record_probes(struct frame *frame, enum pass pass, uint32_t c, uint6
 
 void probe_place_record(struct frame *frame, uint32_t c)
 {
+    record_probes(frame, PASS_PROBE_PLACE, c, frame->gi->resources->extent.probes);
+}
+
+void probe_link_record(struct frame *frame, uint32_t c)
+{
     struct sdfgi *gi = frame->gi;
     const uint32_t probes = (uint32_t)gi->resources->extent.probes;
-    record_probes(frame, PASS_PROBE_PLACE, c, probes);
     pass_begin(frame, PASS_PROBE_LINK);
     pass_dispatch(frame, PASS_PROBE_LINK, &(struct sdfgi_pass_args){ .cascade = c },
                   (3 * probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1, 1);
@@ -49,22 +53,49 @@ void ray_forget_record(struct frame *frame, uint32_t cascades)
     pass_end(frame);
 }
 
-void probe_trace_record(struct frame *frame, uint32_t c)
+/* All cascades at once: rays of one do not wait for the longest of another. */
+static void record_cascades(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+                            uint32_t groups, uint64_t work)
 {
     struct sdfgi *gi = frame->gi;
-    const struct sdfgi_pass_args args = { .cascade = c, .fresh = gi->cascades[c].fresh };
-    pass_begin(frame, PASS_PROBE_TRACE);
-    pass_dispatch(frame, PASS_PROBE_TRACE, &args, (uint32_t)gi->resources->extent.probes, 1, 1);
-    gi->passes[PASS_PROBE_TRACE].work += gi->resources->extent.probes * gi->params.ring.x;
+    pass_begin(frame, pass);
+    pass_dispatch(frame, pass, args, groups, gi->settings.cascades, 1);
+    gi->passes[pass].work += work * gi->settings.cascades;
     pass_end(frame);
 }
 
-void probe_blend_record(struct frame *frame, uint32_t c, bool ring_ends)
+void ray_list_record(struct frame *frame)
+{
+    const struct sdfgi *gi = frame->gi;
+    const uint32_t rays = (uint32_t)gi->resources->extent.probes * gi->params.ring.x;
+    record_cascades(frame, PASS_RAY_LIST, &(struct sdfgi_pass_args){ 0 },
+                    (rays + SDFGI_GROUP_RAYS - 1) / SDFGI_GROUP_RAYS, rays);
+}
+
+void probe_trace_record(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    const struct sdfgi_pass_args args = { .cascade = c, .step = ring_ends, .fresh = gi->cascades[c].fresh };
-    pass_begin(frame, PASS_PROBE_BLEND);
-    pass_dispatch(frame, PASS_PROBE_BLEND, &args, (uint32_t)gi->resources->extent.probes, 1, 1);
-    gi->passes[PASS_PROBE_BLEND].work += gi->resources->extent.probes;
+    pass_begin(frame, PASS_PROBE_TRACE);
+    pass_dispatch_indirect(frame, PASS_PROBE_TRACE, &(struct sdfgi_pass_args){ 0 }, SDFGI_INDIRECT_RAYS);
+    /* Comes back frames later: as many as the newest frame known has traced. */
+    gi->passes[PASS_PROBE_TRACE].work += gi->counters[SDFGI_COUNTER_RAYS_TRACED];
     pass_end(frame);
+}
+
+void probe_sum_record(struct frame *frame)
+{
+    const struct sdfgi *gi = frame->gi;
+    const uint32_t probes = (uint32_t)gi->resources->extent.probes;
+    record_cascades(frame, PASS_PROBE_SUM, &(struct sdfgi_pass_args){ 0 }, probes,
+                    probes * gi->params.ring.x);
+}
+
+void probe_blend_record(struct frame *frame, bool ring_ends)
+{
+    const struct sdfgi *gi = frame->gi;
+    const uint32_t probes = (uint32_t)gi->resources->extent.probes;
+    struct sdfgi_pass_args args = { .step = ring_ends };
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        args.fresh |= (uint32_t)gi->cascades[c].fresh << c;
+    record_cascades(frame, PASS_PROBE_BLEND, &args, probes, probes);
 }

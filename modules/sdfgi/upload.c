@@ -33,7 +33,7 @@ static void fill_change(const struct sdfgi *gi, uint32_t c, struct sdfgi_cascade
         (vec4){ (float)cascade->share_low[0], (float)cascade->share_low[1], (float)cascade->share_low[2], 0 };
     p->share_high = (vec4){ (float)cascade->share_high[0], (float)cascade->share_high[1],
                             (float)cascade->share_high[2], 0 };
-    p->kept_low = corner(kept->low, 0);
+    p->kept_low = corner(kept->low, voxelize_content_axis(change));
     p->kept_high = corner(kept->high, 0);
     for (uint32_t i = 0; i < count; i++) {
         p->changed[2 * i] = corner(change->boxes[i].low, 0);
@@ -194,6 +194,12 @@ void upload_record(struct sdfgi *gi, struct gpu_recorder *rec)
     if (gi->params_changed) {
         gpu_use(rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(FRAME));
         gpu_update(rec, &gi->resources->buffers[RESOURCE_FRAME], 0, sizeof gi->params, &gi->params);
+    }
+    if (gi->plan[PASS_PROBE_SUM].run) {
+        const uint32_t no_rays[5] = { 0, 1, 1, 0, 0 };
+        gpu_use(rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(INDIRECT));
+        gpu_update(rec, &gi->resources->buffers[RESOURCE_INDIRECT], 16 * SDFGI_INDIRECT_RAYS, sizeof no_rays,
+                   no_rays);
     }
     if (gi->plan[PASS_LIGHT_DIRECT].run && gi->scene.lights.count > 0) {
         gpu_use(rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(LIGHTS));

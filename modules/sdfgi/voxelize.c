@@ -223,7 +223,7 @@ static void record_box(struct frame *frame, enum pass pass, const struct sdfgi_p
 
 /* Boxes around what goes and comes lie in strips along z, or where cells moved along z alone, along x: slabs
  * are cut across. Where nothing is kept, nobody asks. */
-static int32_t content_axis(const struct change *change)
+int32_t voxelize_content_axis(const struct change *change)
 {
     if (cell_box_empty(&change->kept))
         return -1;
@@ -234,7 +234,7 @@ static int32_t content_axis(const struct change *change)
 static void forget_content(struct frame *frame, uint32_t c)
 {
     struct change *change = &frame->gi->cascades[c].change;
-    if (!change->begun && content_axis(change) >= 0)
+    if (!change->begun && voxelize_content_axis(change) >= 0)
         pass_clear(frame, RESOURCE_CONTENT, (uint64_t)c * SDFGI_CONTENT_BYTES, SDFGI_CONTENT_BYTES);
     change->begun = true;
 }
@@ -246,7 +246,7 @@ void voxelize_record(struct frame *frame, uint32_t c, const struct cell_box *box
     const struct sdfgi_pass_args args = {
         .low = { box->low[0], box->low[1], box->low[2], 0 },
         .high = { box->high[0], box->high[1], box->high[2], 0 },
-        .before = { change->before[0], change->before[1], change->before[2], content_axis(change) },
+        .before = { change->before[0], change->before[1], change->before[2], voxelize_content_axis(change) },
         .cascade = c,
     };
     forget_content(frame, c);

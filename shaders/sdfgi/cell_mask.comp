@@ -9,6 +9,7 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
 
 const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
 shared uint masks[CELLS];
@@ -23,12 +24,10 @@ bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, k = lane & 7u;
-    uint entry;
-    const bool listed = light_entry(args, args.cascade, gl_WorkGroupID.x * CELLS + lane / 8u, entry);
-    const uint slot = light_cell_slot(args.cascade, listed ? entry : 0u);
-    const uint texel = sdfgi_light_cells[slot] & 0xffffffu;
-    const ivec3 cell = light_cell_position(args.cascade, texel);
+    const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = light_group() * CELLS + lane / 8u;
+    const bool listed = n < sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] &&
+                        sdfgi_scratch[light_renewed_slot(n)] < sdfgi_frame.light.y;
+    const ivec3 cell = light_cell_position(args.cascade, listed ? sdfgi_scratch[light_renewed_slot(n) + 1u] : 0u);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
     const uint index = cell_index(args.cascade, cell), shift = 8u * (index & 3u);
     if (k == 0u)
@@ -39,8 +38,6 @@ void main()
     barrier();
     if (!listed || k > 0u)
         return;
-    const uint mask = masks[lane / 8u];
-    sdfgi_light_cells[slot] = texel | mask << 24u;
     atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << shift));
-    atomicOr(sdfgi_masks[index >> 2u], mask << shift);
+    atomicOr(sdfgi_masks[index >> 2u], masks[lane / 8u] << shift);
 }

@@ -20,6 +20,16 @@ bool changed_near(uint cascade, ivec3 low, ivec3 high, int margin)
     return false;
 }
 
+/* True for cells that are new or left. */
+bool changed_holds(uint cascade, ivec3 cell)
+{
+    for (int i = 0; i < changed_count(cascade); i++)
+        if (all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].changed[2 * i].xyz)) &&
+            all(lessThan(cell, sdfgi_frame.cascades[cascade].changed[2 * i + 1].xyz)))
+            return true;
+    return false;
+}
+
 /* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing is new. */
 float changed_distance(uint cascade, vec3 pos, float margin)
 {

@@ -5,7 +5,7 @@
  *   per block  a bit per light cell, x + 4 y + 16 z, in two words; 1 if it is renewed; where its cells began in the list before
  *   per row    of SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks
  *   per entry  of the list before, its direct light
- *   per cell   in a renewed block, in the order of the list, its entry */
+ *   per cell   in a renewed block, in the order of the list, its entry and its texel index */
 #ifndef SDFGI_LIGHT_BLOCKS_GLSL
 #define SDFGI_LIGHT_BLOCKS_GLSL
 
@@ -34,9 +34,14 @@ uint light_block_slot(uint block)
     return 4u * block;
 }
 
+uint light_block_count()
+{
+    return 1u << (3u * light_block_bits());
+}
+
 uint light_row_count()
 {
-    return (1u << (3u * light_block_bits())) / SDFGI_GROUP_LINEAR;
+    return light_block_count() / SDFGI_GROUP_LINEAR;
 }
 
 /* First of a row's two words. */
@@ -51,10 +56,16 @@ uint light_before_slot(uint entry)
     return light_row_slot(light_row_count()) + 2u * entry;
 }
 
-/* The entry of the n-th cell in renewed blocks. */
+/* The entry of the n-th cell in renewed blocks, then its texel index. */
 uint light_renewed_slot(uint n)
 {
-    return light_before_slot(sdfgi_frame.light.y) + n;
+    return light_before_slot(sdfgi_frame.light.y) + 2u * n;
+}
+
+/* Where there are more workgroups than fit a row. */
+uint light_group()
+{
+    return gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
 }
 
 /* The entry that is a pass's n-th: of the cells in renewed blocks where args.step = 1, else of those from args.low.x up to

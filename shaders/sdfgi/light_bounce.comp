@@ -26,12 +26,12 @@ void main()
     if (!light_entry(args, cascade, gl_GlobalInvocationID.x, entry))
         return;
     const uint slot = light_cell_slot(cascade, entry);
-    const uint packed = sdfgi_light_cells[slot];
-    const ivec3 cell = light_cell_position(cascade, packed);
+    const ivec3 cell = light_cell_position(cascade, sdfgi_light_cells[slot]);
     if (!cell_served(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
+    const uint mask = cell_mask(cascade, cell);
 
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++) {
@@ -42,7 +42,7 @@ void main()
         axes[a] = light_unpack_axis(direct, a) + surface_emission(block, a);
         /* args.fresh: no probe of these cascades has a value yet. */
         if ((args.fresh >> cascade & 1u) == 0u) {
-            const vec4 sum = lookup_light_cell(cascade, cell, surface_normal(block, a), packed >> 24u);
+            const vec4 sum = lookup_light_cell(cascade, cell, surface_normal(block, a), mask);
             axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
         }
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))

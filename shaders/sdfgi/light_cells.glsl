@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The list of light cells: empty cells next to occupied ones. Three words each: where it is (texel index) and which of
- * its probes it sees, then the direct light packed as in lib/light_pack.glsl. */
+ * The list of light cells: empty cells next to occupied ones. Three words each: where it is (texel index), then the
+ * direct light packed as in lib/light_pack.glsl. */
 #ifndef SDFGI_LIGHT_CELLS_GLSL
 #define SDFGI_LIGHT_CELLS_GLSL
 
@@ -25,15 +25,15 @@ uint light_cell_hash(uint cascade, ivec3 cell)
     return random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
 }
 
-/* First word of an entry. Texel indices have at most 24 bits, masks 8. */
+/* First word of an entry. */
 uint light_cell_slot(uint cascade, uint entry)
 {
     return 3u * (cascade * sdfgi_frame.light.y + entry);
 }
 
-ivec3 light_cell_position(uint cascade, uint packed)
+ivec3 light_cell_position(uint cascade, uint index)
 {
-    return cell_from_texel(cascade, texel_from_index(packed & 0xffffffu));
+    return cell_from_texel(cascade, texel_from_index(index));
 }
 
 uvec2 light_cell_direct(uint slot)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows, reflected by the
- * surface's albedo, one value per axis along which a surface faces. One thread per light cell of those that args name. */
+ * surface's albedo, one value per axis along which a surface faces. For each light cell of those that args name 2^args.source
+ * threads, which share the lights. Shared memory: 6 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
@@ -14,6 +15,8 @@ layout(std430, set = 0, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_li
 };
 
 const float PI = 3.14159265;
+
+shared vec3 shares[SDFGI_GROUP_LINEAR][6]; /* per thread, what its lights bring */
 
 /* Irradiance that a light sends to `position` on a surface that faces it, and the way to it. Inside half a cell the
  * inverse square is cut off: a voxelised surface is no closer than that (HARD_CASES row 47). */
@@ -45,22 +48,14 @@ bool light_reaches(vec3 pos, vec3 to_light, float range_m)
     return !trace_ray(args.cascade, sdfgi_frame.size.w - 1u, pos, to_light, range_m / cell_m).hit;
 }
 
-void main()
+/* Adds what lights bring to the surfaces along each axis: of as many threads as share a cell, each takes its own. */
+void add_lights(ivec3 cell, uint facing, out vec3 axes[6])
 {
-    uint entry;
-    if (!light_entry(args, args.cascade, gl_GlobalInvocationID.x, entry))
-        return;
-    const uint slot = light_cell_slot(args.cascade, entry);
-    const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
-    if (!cell_served(args.cascade, cell))
-        return;
-    const vec3 pos = vec3(cell) + 0.5;
-    const vec3 position = position_from_cascade(args.cascade, pos);
-    const uint facing = light_cell_facing(args.cascade, cell);
-
     /* Shadows are traced from the cell's centre, which is in the open; light arrives at the surface before it. */
     const float depth = clamp(cell_distance(args.cascade, cell), 0.5, 1.0);
-    vec3 normals[6], surfaces[6], axes[6];
+    const vec3 pos = vec3(cell) + 0.5;
+    const vec3 position = position_from_cascade(args.cascade, pos);
+    vec3 normals[6], surfaces[6];
     for (uint a = 0u; a < 6u; a++) {
         axes[a] = vec3(0.0);
         normals[a] = (facing >> a & 1u) != 0u
@@ -68,7 +63,8 @@ void main()
                          : vec3(0.0);
         surfaces[a] = position_from_cascade(args.cascade, pos - vec3(surface_axis_step(a)) * depth);
     }
-    for (uint i = 0u; i < sdfgi_frame.light.x; i++) {
+    const uint sharing = 1u << args.source;
+    for (uint i = gl_LocalInvocationIndex & sharing - 1u; i < sdfgi_frame.light.x; i += sharing) {
         vec3 to_light, arriving[6];
         float range, most = 0.0;
         for (uint a = 0u; a < 6u; a++) {
@@ -88,9 +84,34 @@ void main()
         for (uint a = 0u; a < 6u; a++)
             axes[a] += arriving[a];
     }
-    for (uint a = 0u; a < 6u; a++)
-        if ((facing >> a & 1u) != 0u)
-            axes[a] *= surface_albedo(surface_block(args.cascade, cell - surface_axis_step(a))) / PI;
+}
+
+void main()
+{
+    const uint lane = gl_LocalInvocationIndex, sharing = 1u << args.source;
+    uint entry;
+    bool lit = light_entry(args, args.cascade, light_group() * SDFGI_GROUP_LINEAR + lane >> args.source, entry);
+    const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
+    const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
+    lit = lit && cell_served(args.cascade, cell);
+    uint facing = 0u;
+    vec3 axes[6];
+    if (lit) {
+        facing = light_cell_facing(args.cascade, cell);
+        add_lights(cell, facing, axes);
+        for (uint a = 0u; a < 6u; a++)
+            shares[lane][a] = axes[a];
+    }
+    barrier();
+    if (!lit || (lane & sharing - 1u) > 0u)
+        return;
+    for (uint a = 0u; a < 6u; a++) {
+        if ((facing >> a & 1u) == 0u)
+            continue;
+        for (uint other = 1u; other < sharing; other++)
+            axes[a] += shares[lane + other][a];
+        axes[a] *= surface_albedo(surface_block(args.cascade, cell - surface_axis_step(a))) / PI;
+    }
     light_fill_axes(facing, axes);
     for (uint a = 0u; a < 6u; a++)
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks; their
- * numbers, and the indirect arguments of passes over the latter, with a thread or with eight for each. Cells that were light
+ * numbers, and the indirect arguments of passes over the latter, with one thread or several for each. Cells that were light
  * cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A row of
  * blocks is shared by the workgroups of a column, a cell to a thread in turn. */
 #version 460
@@ -38,10 +38,12 @@ uvec2 count_before(uint row)
     return sum;
 }
 
+/* Rows of as many workgroups as every device takes. */
 void write_groups(uint record, uint threads)
 {
-    sdfgi_indirect[4u * record] = (threads + SDFGI_GROUP_LINEAR - 1u) / SDFGI_GROUP_LINEAR;
-    sdfgi_indirect[4u * record + 1u] = 1u;
+    const uint groups = (threads + SDFGI_GROUP_LINEAR - 1u) / SDFGI_GROUP_LINEAR, most = uint(SDFGI_MAX_GROUPS);
+    sdfgi_indirect[4u * record] = min(groups, most);
+    sdfgi_indirect[4u * record + 1u] = (groups + most - 1u) / most;
     sdfgi_indirect[4u * record + 2u] = 1u;
 }
 
@@ -50,8 +52,11 @@ void write_totals(uvec2 total)
     sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + args.cascade] = total.x;
     sdfgi_counters[SDFGI_COUNTER_LIGHT_RENEWED + args.cascade] = total.y;
     const uint renewed = min(total.y, sdfgi_frame.light.y);
-    write_groups(args.cascade, renewed);
-    write_groups(args.cascade + uint(SDFGI_MAX_CASCADES), 8u * renewed);
+    sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_CELLS) + args.cascade) + 3u] = total.x;
+    sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] = renewed;
+    write_groups(uint(SDFGI_INDIRECT_CELLS) + args.cascade, renewed);
+    write_groups(uint(SDFGI_INDIRECT_MASKS) + args.cascade, 8u * renewed);
+    write_groups(uint(SDFGI_INDIRECT_DIRECT) + args.cascade, renewed << args.source);
 }
 
 /* First block of the row whose running sum exceeds `n`. */
@@ -100,8 +105,10 @@ bool has_room(uint entry, uint cell)
 void renew_cell(uint entry, uint n, uvec3 texel)
 {
     const uvec2 at = cell_at(texel);
-    if (n < sdfgi_frame.light.y)
+    if (n < sdfgi_frame.light.y) {
         sdfgi_scratch[light_renewed_slot(n)] = entry;
+        sdfgi_scratch[light_renewed_slot(n) + 1u] = at.x;
+    }
     if (!has_room(entry, at.y))
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
@@ -118,7 +125,7 @@ void keep_cell(uint entry, uint before, uvec3 texel)
     if (!has_room(entry, at.y))
         return;
     const uint slot = light_cell_slot(args.cascade, entry), from = light_before_slot(before);
-    sdfgi_light_cells[slot] = at.x | (sdfgi_masks[at.y >> 2u] >> (8u * (at.y & 3u)) & 0xffu) << 24u;
+    sdfgi_light_cells[slot] = at.x;
     light_cell_store_direct(slot, uvec2(sdfgi_scratch[from], sdfgi_scratch[from + 1u]));
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Marks the light cells, empty ones with an occupied face neighbour. In renewed blocks they are looked for, and all others
- * forget their light; in other blocks they are those of the list before, whose direct light is taken out of it here. One
- * workgroup per block of 4^3 texels; a thread per cell, and per entry of the list before. */
+ * forget their light; in other blocks they are those of the list before, whose direct light is taken out of it here. A thread
+ * per entry of the list before; workgroups share the blocks of 4^3 texels that may be renewed, a thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -9,10 +9,18 @@
 #include "changed.glsl"
 #include "light_blocks.glsl"
 
-layout(local_size_x = SDFGI_GROUP_CELLS, local_size_y = SDFGI_GROUP_CELLS, local_size_z = SDFGI_GROUP_CELLS) in;
+layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
+layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
+
 shared uint mask[2];
+
+/* In the list before, unclamped. */
+uint count_before()
+{
+    return sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_CELLS) + args.cascade) + 3u];
+}
 
 bool is_light_cell(ivec3 cell)
 {
@@ -29,15 +37,15 @@ void forget(uint index)
 
 uint block_of_entry(uint entry)
 {
-    const uint packed = sdfgi_light_cells[light_cell_slot(args.cascade, entry)];
-    return light_block_from_coords(texel_from_index(packed & 0xffffffu) / SDFGI_GROUP_CELLS);
+    const uint index = sdfgi_light_cells[light_cell_slot(args.cascade, entry)];
+    return light_block_from_coords(texel_from_index(index) / SDFGI_GROUP_CELLS);
 }
 
 /* Where the list was too short, blocks from its last entry on may hold cells that have room this time. */
 bool lacked_room(uint block)
 {
     const uint room = sdfgi_frame.light.y;
-    return sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + args.cascade] > room && block >= block_of_entry(room - 1u);
+    return count_before() > room && block >= block_of_entry(room - 1u);
 }
 
 bool is_renewed(uint block)
@@ -55,7 +63,7 @@ uint row_of(uint block)
 
 void keep_entry(uint entry)
 {
-    const uint count = light_cell_count(args.cascade);
+    const uint count = min(count_before(), sdfgi_frame.light.y);
     if (args.fresh != 0u || entry >= count)
         return;
     const uint block = block_of_entry(entry);
@@ -64,7 +72,7 @@ void keep_entry(uint entry)
     const uint slot = light_cell_slot(args.cascade, entry), before = light_before_slot(entry);
     sdfgi_scratch[before] = sdfgi_light_cells[slot + 1u];
     sdfgi_scratch[before + 1u] = sdfgi_light_cells[slot + 2u];
-    const uvec3 inside = texel_from_index(sdfgi_light_cells[slot] & 0xffffffu) & 3u;
+    const uvec3 inside = texel_from_index(sdfgi_light_cells[slot]) & 3u;
     const uint bit = inside.x | inside.y << 2u | inside.z << 4u;
     atomicOr(sdfgi_scratch[light_block_slot(block) + (bit >> 5u)], 1u << (bit & 31u));
     /* Its block's cells are one after another: their number is the last one's place less the first one's. */
@@ -76,16 +84,64 @@ void keep_entry(uint entry)
         atomicAdd(sdfgi_scratch[row_of(block)], entry + 1u);
 }
 
-void main()
+/* Without a list before, or with one that was too short, any block may be renewed. */
+bool searches_all()
 {
-    const uint bit = gl_LocalInvocationIndex, block = light_block_from_coords(gl_WorkGroupID);
-    keep_entry(64u * block + bit);
-    if (!is_renewed(block))
-        return;
+    return args.fresh != 0u || count_before() > sdfgi_frame.light.y;
+}
+
+/* Cells whose cages touch a box that changed. */
+void renewed_cells(int box, out ivec3 low, out ivec3 high)
+{
+    const ivec3 end = ivec3(space_resolution());
+    low = clamp(sdfgi_frame.cascades[args.cascade].changed[2 * box].xyz - SDFGI_PROBE_SPACING, ivec3(0), end);
+    high = clamp(sdfgi_frame.cascades[args.cascade].changed[2 * box + 1].xyz + SDFGI_PROBE_SPACING, ivec3(0), end);
+}
+
+bool in_earlier_box(int box, ivec3 cell)
+{
+    for (int i = 0; i < box; i++) {
+        ivec3 low, high;
+        renewed_cells(i, low, high);
+        if (all(greaterThanEqual(cell, low)) && all(lessThan(cell, high)))
+            return true;
+    }
+    return false;
+}
+
+/* The n-th of the blocks in question: those that boxes which changed name, box by box. False if it is not renewed, or an earlier
+ * box has it; `more` is false beyond the last one. */
+bool renewed_block(uint n, out uint block, out bool more)
+{
+    block = n;
+    more = n < light_block_count();
+    if (searches_all())
+        return more && is_renewed(n);
+    for (int i = 0; i < changed_count(args.cascade); i++) {
+        ivec3 low, high;
+        renewed_cells(i, low, high);
+        const uvec3 size = uvec3(max(high - low, ivec3(0))) / 4u;
+        const uint blocks = size.x * size.y * size.z;
+        if (n < blocks) {
+            const ivec3 cell = low + 4 * ivec3(n % size.x, n / size.x % size.y, n / (size.x * size.y));
+            block = light_block_from_coords(cell_texel(args.cascade, cell) / 4u);
+            return !in_earlier_box(i, cell);
+        }
+        n -= blocks;
+    }
+    more = false;
+    return false;
+}
+
+/* Called by the whole workgroup. */
+void mark_block(uint block)
+{
+    const uint bit = gl_LocalInvocationIndex;
     if (bit < 2u)
         mask[bit] = 0u;
     barrier();
-    const ivec3 cell = cell_from_texel(args.cascade, gl_GlobalInvocationID);
+    const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
+    const ivec3 cell = cell_from_texel(args.cascade, 4u * light_block_coords(block) + inside);
     const uint index = cell_index(args.cascade, cell);
     if (is_light_cell(cell))
         atomicOr(mask[bit >> 5u], 1u << (bit & 31u));
@@ -101,4 +157,17 @@ void main()
     sdfgi_scratch[slot + 2u] = 1u;
     atomicAdd(sdfgi_scratch[row_of(block)], count);
     atomicAdd(sdfgi_scratch[row_of(block) + 1u], count);
+}
+
+void main()
+{
+    for (uint entry = gl_GlobalInvocationID.x; entry < sdfgi_frame.light.y; entry += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR)
+        keep_entry(entry);
+    bool more = true;
+    for (uint n = gl_WorkGroupID.x; more; n += gl_NumWorkGroups.x) {
+        uint block;
+        if (renewed_block(n, block, more))
+            mark_block(block);
+        barrier();
+    }
 }

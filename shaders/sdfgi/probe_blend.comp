@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Publishes irradiance: the sums of this ring so far, and for the rest of the ring the value of the one before. At the
  * end of a ring (args.step = 1) only the new sums count, the change against the ring before is measured, and the sums
- * start again: a static scene repeats a fixed ring and so converges exactly. One workgroup per probe. */
+ * start again: a static scene repeats a fixed ring and so converges exactly. args.fresh: bit per cascade whose earlier rings do
+ * not count. One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_store.glsl"
@@ -27,7 +28,7 @@ void measure_change(vec3 value, vec3 before, bool fresh)
     atomicMax(group_brightest, floatBitsToUint(max(value.r, max(value.g, value.b))));
 }
 
-vec3 blend_texel(uint at)
+vec3 blend_texel(uint at, bool fresh)
 {
     const vec4 sum = sdfgi_sums[at];
     const uvec2 packed = sdfgi_previous[at];
@@ -35,10 +36,10 @@ vec3 blend_texel(uint at)
     const bool ring_ends = args.step != 0u;
     /* A probe that was new in the middle of a ring has missed its beginning. */
     const bool whole = ring_ends && sum.w > COMPLETE * before.w;
-    const float rest = whole || args.fresh != 0u ? 0.0 : max(before.w - sum.w, 0.0);
+    const float rest = whole || fresh ? 0.0 : max(before.w - sum.w, 0.0);
     const vec3 value = min((sum.rgb + rest * before.rgb) / max(sum.w + rest, 1e-12), vec3(HALF_MAX));
     if (ring_ends) {
-        measure_change(value, before.rgb, args.fresh != 0u);
+        measure_change(value, before.rgb, fresh);
         probe_store_previous(at, value, sum.w + rest);
         sdfgi_sums[at] = vec4(0.0);
     }
@@ -47,9 +48,10 @@ vec3 blend_texel(uint at)
 
 void main()
 {
+    const uint cascade = gl_WorkGroupID.y;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const uint slot = probe_index(args.cascade, probe);
-    if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(args.cascade, probe))
+    const uint slot = probe_index(cascade, probe);
+    if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
         return;
     const uint i = gl_LocalInvocationIndex;
     if (i == 0u) {
@@ -58,9 +60,9 @@ void main()
     }
     barrier();
     if (i < uint(SDFGI_IRRADIANCE_COUNT))
-        texels[i] = blend_texel(slot * uint(SDFGI_IRRADIANCE_COUNT) + i);
+        texels[i] = blend_texel(slot * uint(SDFGI_IRRADIANCE_COUNT) + i, (args.fresh >> cascade & 1u) != 0u);
     barrier();
-    probe_store_texels(args.cascade, probe);
+    probe_store_texels(cascade, probe);
     if (i == 0u && args.step != 0u) {
         atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE], group_change);
         atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_IRRADIANCE], group_brightest);

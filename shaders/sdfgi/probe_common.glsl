@@ -17,6 +17,15 @@ ivec3 probe_from_linear(uint i)
     return ivec3(i % side, i / side % side, i / (side * side));
 }
 
+/* The probe that a probe_index stands for. */
+ivec3 probe_from_index(uint index, out uint cascade)
+{
+    const uint side = sdfgi_frame.size.z;
+    cascade = index / (side * side * side);
+    const ivec3 probe = probe_from_linear(index % (side * side * side)) - sdfgi_frame.cascades[cascade].probe_wrap.xyz;
+    return probe + int(side) * ivec3(lessThan(probe, ivec3(0)));
+}
+
 /* Direction of a sample (unit) and its solid angle up to a constant factor. One sequence over the whole map: with one of
  * 20 points in each of the 25 texels, edges of walls cost three times the error (docs/decisions.md). */
 vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_angle)

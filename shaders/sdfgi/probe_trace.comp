@@ -1,24 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * Traces this frame's rays of each probe, or takes their hits from the ray cache, reads the light there and adds it to
- * the running sums of the 25 texels: L max(0, n.w) weight, and the weights apart (each ray weighted by the solid angle
- * its jitter stands for), so that a constant field is exact. One workgroup per probe.
- * Shared memory: 128 rays of 32 bytes. */
+ * Traces the rays that ray_list has listed, and remembers where they end. One thread per ray. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
+#include "ray_queue.glsl"
 #include "../include/sdfgi_trace.glsl"
-#include "../lib/rgbe.glsl"
-#include "../lib/light_pack.glsl"
-#include "../lib/sky.glsl"
 
-layout(local_size_x = SDFGI_GROUP_PROBE) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
-
-const uint MAX_RAYS = 128u;
-shared vec4 ray_dir[MAX_RAYS];   /* w: solid angle, 0: light not known */
-shared vec3 ray_light[MAX_RAYS];
-shared uint group_traced;
+layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
 uint cache_pack(trace_hit hit)
 {
@@ -29,80 +18,23 @@ uint cache_pack(trace_hit hit)
     return ray_pack(hit.cascade, hit.cell, hit.axis);
 }
 
-/* Light at the end of a ray; false where it is not known, since the list of light cells was too short for the cell and has
- * not grown yet: the ring before then speaks for the ray, instead of black. */
-bool cache_light(uint code, vec3 dir, out vec3 light)
+void trace(uint ray)
 {
-    light = vec3(0.0);
-    if (code == SDFGI_RAY_SKY)
-        light = sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
-    if (code >= SDFGI_RAY_UNLIT)
-        return true;
-    uint axis;
-    const uvec2 cell = sdfgi_light[ray_light_index(code, axis)];
-    light = light_unpack_axis(cell, axis);
-    return (cell.y & SDFGI_LIGHT_VALID) != 0u;
-}
-
-/* A hit whose cell has left the cascade is as good as unknown. */
-bool cache_holds(uint code)
-{
-    if (code == SDFGI_RAY_UNKNOWN)
-        return false;
-    if (code >= SDFGI_RAY_UNLIT)
-        return true;
+    const uint slot = ray / sdfgi_frame.ring.z;
     uint cascade;
-    const ivec3 cell = ray_cell(code, cascade);
-    return cell_served(cascade, cell);
-}
-
-uint trace_sample(ivec3 probe, uint state, vec3 dir)
-{
-    const trace_hit hit = trace_ray(args.cascade, sdfgi_frame.size.w - 1u, probe_position(probe, state), dir, 1e9);
+    const ivec3 probe = probe_from_index(slot, cascade);
+    float solid_angle;
+    const vec3 dir = probe_sample_direction(cascade, probe, ray % sdfgi_frame.ring.z, solid_angle);
+    const vec3 pos = probe_position(probe, sdfgi_probes[slot]);
+    const trace_hit hit = trace_ray(cascade, sdfgi_frame.size.w - 1u, pos, dir, 1e9);
     if (hit.capped)
-        counter_add(SDFGI_COUNTER_TRACE_CAPS, 1u);
-    atomicAdd(group_traced, 1u);
-    return cache_pack(hit);
+        ray_queue_add_capped();
+    sdfgi_rays[ray] = cache_pack(hit);
 }
 
 void main()
 {
-    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const uint slot = probe_index(args.cascade, probe);
-    const uint state = sdfgi_probes[slot];
-    if (probe_is_dead(state) || !probe_is_served(args.cascade, probe))
-        return;
-    const uint rays = min(sdfgi_frame.ring.x, MAX_RAYS);
-    if (gl_LocalInvocationIndex == 0u)
-        group_traced = 0u;
-    barrier();
-
-    for (uint i = gl_LocalInvocationIndex; i < rays; i += uint(SDFGI_GROUP_PROBE)) {
-        const uint s = sdfgi_frame.ring.y + i;
-        float solid_angle;
-        const vec3 dir = probe_sample_direction(args.cascade, probe, s, solid_angle);
-        const uint at = slot * sdfgi_frame.ring.z + s;
-        uint code = sdfgi_rays[at];
-        if (!cache_holds(code)) {
-            code = trace_sample(probe, state, dir);
-            sdfgi_rays[at] = code;
-        }
-        if (code == SDFGI_RAY_UNLIT)
-            counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
-        const bool known = cache_light(code, dir, ray_light[i]);
-        ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
-    }
-    barrier();
-
-    if (gl_LocalInvocationIndex < uint(SDFGI_IRRADIANCE_COUNT)) {
-        const vec3 normal = probe_texel_direction(gl_LocalInvocationIndex);
-        vec4 sum = vec4(0.0);
-        for (uint i = 0u; i < rays; i++) {
-            const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
-            sum += vec4(ray_light[i], 1.0) * weight;
-        }
-        sdfgi_sums[slot * uint(SDFGI_IRRADIANCE_COUNT) + gl_LocalInvocationIndex] += sum;
-    }
-    if (gl_LocalInvocationIndex == 0u && group_traced > 0u)
-        counter_add(SDFGI_COUNTER_RAYS_TRACED, group_traced);
+    const uint count = ray_queue_count(), threads = gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR;
+    for (uint n = gl_GlobalInvocationID.x; n < count; n += threads)
+        trace(sdfgi_scratch[n]);
 }

@@ -1,88 +1,169 @@
 /* SPDX-License-Identifier: MIT
- * Forgets remembered rays that passed through what became new in this frame, in their own cascade or in one they go on
- * into: they may end elsewhere now. One workgroup per probe and cascade. */
+ * Forgets remembered rays that may end elsewhere since something became new in this frame, in their own cascade or in one they
+ * go on into: those that pass where sub-voxels went or came, and those that end in cells that are new or left. Where only air
+ * is new a ray ends as before. One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "changed.glsl"
+#include "content.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 
-layout(local_size_x = SDFGI_GROUP_PROBE) in;
+layout(local_size_x = SDFGI_GROUP_RAYS) in;
 
+/* Remembered rays that a thread reads together: their loads overlap. */
+const uint AT_ONCE = 4u;
 /* A light cell is up to two cells before its surface; besides, rounding. */
 const float MARGIN = 2.5;
 
-/* Of the probe, which is in the cascade gl_WorkGroupID.y. */
+const uint STRIPS = uint(SDFGI_CONTENT_STRIPS);
+
+/* Cells of a cascade, widened by MARGIN. Empty if low > high. */
+struct content_box {
+    vec3 low, high;
+};
+/* Around what went per strip, around what came, around all that went, around all that came. */
+shared content_box boxes[2u * STRIPS + 2u];
+
 uint own_cascade()
 {
     return gl_WorkGroupID.y;
 }
 
-/* How far a remembered ray reached from `pos`, in cells of its probe's cascade. */
-float reach(uint code, vec3 pos)
+vec3 cells_of(uint cascade, vec3 pos)
 {
-    if (code >= SDFGI_RAY_UNLIT)
-        return 1e9;
-    uint cascade;
-    const ivec3 cell = ray_cell(code, cascade);
-    const vec3 end = cascade_from_first(own_cascade(), first_from_cascade(cascade, vec3(cell) + 0.5));
-    return length(metric_from_cells(end - pos)) + MARGIN * exp2(float(cascade - own_cascade()));
+    return cascade_from_first(cascade, first_from_cascade(own_cascade(), pos));
 }
 
-/* Rays that end before this, in cells of the probe's cascade, reach nothing new. */
-float nearest_change(vec3 pos)
+/* Axis across which the boxes of a cascade lie in strips; below 0 where all of it is new. */
+int strip_axis(uint cascade)
 {
-    const vec3 first = first_from_cascade(own_cascade(), pos);
-    float nearest = 1e10;
-    for (uint c = own_cascade(); c < sdfgi_frame.size.w; c++) {
-        const float away = changed_distance(c, cascade_from_first(c, first), MARGIN);
-        nearest = min(nearest, away * exp2(float(c - own_cascade())));
+    return sdfgi_frame.cascades[cascade].kept_low.w;
+}
+
+/* Called by the whole workgroup. */
+void fetch_boxes(uint cascade)
+{
+    const uint lane = gl_LocalInvocationIndex;
+    barrier();
+    if (lane < 2u * STRIPS) {
+        const bool any_content = content_any(cascade, lane);
+        boxes[lane] = any_content ? content_box(vec3(content_low(cascade, lane)) - MARGIN,
+                                                vec3(content_high(cascade, lane)) + MARGIN)
+                                  : content_box(vec3(1e9), vec3(-1e9));
     }
-    return nearest;
+    barrier();
+    if (lane < 2u) {
+        content_box all = boxes[lane * STRIPS];
+        for (uint i = lane * STRIPS + 1u; i < (lane + 1u) * STRIPS; i++) {
+            all.low = min(all.low, boxes[i].low);
+            all.high = max(all.high, boxes[i].high);
+        }
+        boxes[2u * STRIPS + lane] = all;
+    }
+    barrier();
 }
 
-bool passes_changes(vec3 pos, vec3 dir, float end)
+/* Where a ray is in a box, up to parameter `end`: empty if x > y. */
+vec2 box_passage(content_box box, vec3 pos, vec3 inv_dir, float end)
 {
-    const vec3 first = first_from_cascade(own_cascade(), pos);
-    for (uint c = own_cascade(); c < sdfgi_frame.size.w; c++) {
-        const float scale = exp2(float(own_cascade()) - float(c));
-        if (changed_crosses(c, cascade_from_first(c, first), dir * scale, end, MARGIN))
+    if (box.low.x > box.high.x)
+        return vec2(1.0, 0.0);
+    const vec3 a = (box.low - pos) * inv_dir, b = (box.high - pos) * inv_dir;
+    const vec3 first = min(a, b), last = max(a, b);
+    return vec2(max(max(first.x, first.y), max(first.z, 0.0)), min(min(last.x, last.y), min(last.z, end)));
+}
+
+int strip_of(float at)
+{
+    return clamp(int(floor(at)) * int(STRIPS) >> int(sdfgi_frame.size.y), 0, int(STRIPS) - 1);
+}
+
+/* True if a ray passes what went (side = 0) or came (1). Only strips that it crosses meanwhile matter. */
+bool passes_content(uint side, content_box all, int axis, vec3 pos, vec3 dir, float end)
+{
+    const vec3 inv_dir = 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
+    const vec2 within = box_passage(all, pos, inv_dir, end);
+    if (within.x > within.y)
+        return false;
+    const vec2 way = pos[axis] + dir[axis] * within;
+    const int last = strip_of(max(way.x, way.y) + MARGIN + 1.0);
+    for (int strip = strip_of(min(way.x, way.y) - MARGIN - 1.0); strip <= last; strip++) {
+        const vec2 part = box_passage(boxes[side * STRIPS + uint(strip)], pos, inv_dir, end);
+        if (part.x <= part.y)
             return true;
     }
     return false;
 }
 
+/* Since `cascade` changed. A ray that hit something that was not lit may have done so beside the border. */
+bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 probe, vec3 pos, uint s, uint code)
+{
+    if (code == SDFGI_RAY_UNLIT)
+        return true;
+    const vec3 from = cells_of(cascade, pos);
+    const float scale = exp2(float(own_cascade()) - float(cascade));
+    float range = 1e9; /* in cells of the probe's cascade, as parameters along the ray are */
+    if (code != SDFGI_RAY_SKY) {
+        uint hit;
+        const ivec3 cell = ray_cell(code, hit);
+        const vec3 end = cascade_from_first(cascade, first_from_cascade(hit, vec3(cell) + 0.5));
+        const float margin = MARGIN * exp2(float(hit) - float(cascade));
+        if (changed_distance(cascade, end, MARGIN) <= margin)
+            return true;
+        range = (length(metric_from_cells(end - from)) + margin) / scale;
+    }
+    if (range * scale < changed_distance(cascade, from, MARGIN))
+        return false;
+    float solid_angle;
+    const vec3 dir = cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle)) * scale;
+    const int axis = strip_axis(cascade);
+    if (axis < 0)
+        return changed_crosses(cascade, from, dir, range, MARGIN);
+    return passes_content(0u, went, axis, from, dir, range) || passes_content(1u, came, axis, from, dir, range);
+}
+
 /* The texel that a code names holds another cell now. */
 bool names_new_cell(uint code)
 {
-    if (code >= SDFGI_RAY_UNLIT)
+    if (code == SDFGI_RAY_UNKNOWN || code >= SDFGI_RAY_UNLIT)
         return false;
     uint cascade;
     const ivec3 cell = ray_cell(code, cascade);
-    return changed_near(cascade, cell, cell, 0);
+    return changed_holds(cascade, cell);
 }
 
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = probe_index(own_cascade(), probe);
-    const uint state = sdfgi_probes[slot];
+    const uint state = sdfgi_probes[slot], first = slot * sdfgi_frame.ring.z;
     if (probe_is_dead(state))
         return;
-    const bool is_new = (state & SDFGI_PROBE_NEW) != 0u;
     const vec3 pos = probe_position(probe, state);
-    const float nearest = nearest_change(pos);
-    for (uint s = gl_LocalInvocationIndex; s < sdfgi_frame.ring.z; s += uint(SDFGI_GROUP_PROBE)) {
-        const uint at = slot * sdfgi_frame.ring.z + s;
-        const uint code = sdfgi_rays[at];
-        if (code == SDFGI_RAY_UNKNOWN)
-            continue;
-        const float end = reach(code, pos);
-        if (!is_new && end < nearest)
-            continue;
-        float solid_angle;
-        const vec3 dir = cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle));
-        if (is_new || names_new_cell(code) || passes_changes(pos, dir, end))
-            sdfgi_rays[at] = SDFGI_RAY_UNKNOWN;
+    /* On the border of what was complete, rays began beyond it. */
+    const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || changed_holds(own_cascade(), ivec3(floor(pos)));
+    for (uint start = 0u; start < sdfgi_frame.ring.z; start += AT_ONCE * uint(SDFGI_GROUP_RAYS)) {
+        uint codes[AT_ONCE], samples[AT_ONCE];
+        bool forget[AT_ONCE];
+        for (uint k = 0u; k < AT_ONCE; k++) {
+            samples[k] = start + k * uint(SDFGI_GROUP_RAYS) + gl_LocalInvocationIndex;
+            codes[k] = samples[k] < sdfgi_frame.ring.z ? sdfgi_rays[first + samples[k]] : SDFGI_RAY_UNKNOWN;
+        }
+        for (uint k = 0u; k < AT_ONCE; k++)
+            forget[k] = all_rays || names_new_cell(codes[k]);
+        for (uint c = own_cascade(); c < sdfgi_frame.size.w; c++) {
+            if (changed_count(c) == 0)
+                continue;
+            if (strip_axis(c) >= 0)
+                fetch_boxes(c);
+            const content_box went = boxes[2u * STRIPS], came = boxes[2u * STRIPS + 1u];
+            for (uint k = 0u; k < AT_ONCE; k++)
+                if (codes[k] != SDFGI_RAY_UNKNOWN && !forget[k])
+                    forget[k] = ends_elsewhere(c, went, came, probe, pos, samples[k], codes[k]);
+        }
+        for (uint k = 0u; k < AT_ONCE; k++)
+            if (codes[k] != SDFGI_RAY_UNKNOWN && forget[k])
+                sdfgi_rays[first + samples[k]] = SDFGI_RAY_UNKNOWN;
     }
 }

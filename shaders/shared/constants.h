@@ -45,6 +45,8 @@
 /* Longest contractive loop: HARD_CASES row 34. */
 #define SDFGI_MAX_BOUNCE_GAIN 0.95
 
+/* Workgroups along an axis that every device takes. */
+#define SDFGI_MAX_GROUPS 65535
 /* Workgroup sizes. */
 #define SDFGI_GROUP_CELLS 4        /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
@@ -52,6 +54,7 @@
 #define SDFGI_LINES 8              /* lines of a workgroup */
 #define SDFGI_GROUP_TRIANGLE 64    /* threads that share as many triangles */
 #define SDFGI_GROUP_PROBE 32       /* threads that share one probe */
+#define SDFGI_GROUP_RAYS 128       /* one thread per ray of a frame; threads that share a probe's remembered rays */
 #define SDFGI_GROUP_OCCLUSION 64   /* threads that share one probe's 256 depths */
 #define SDFGI_GROUP_PIXELS 8       /* 8x8: one thread per pixel */
 
@@ -80,6 +83,15 @@
 #define SDFGI_COUNTER_LIGHT_CELLS 16   /* per cascade, unclamped */
 #define SDFGI_COUNTER_LIGHT_RENEWED 24 /* per cascade, unclamped: those in renewed blocks when they were listed */
 #define SDFGI_COUNTER_COUNT 32
+
+/* Records of indirect arguments, of four words. Per cascade, for each renewed light cell: a thread, eight, as many as share its
+ * lights. Then the rays that a frame traces. The fourth word: of the first, how many cells are listed,
+ * unclamped; of masks and rays, their number. Passes that others run beside read these instead of counters. */
+#define SDFGI_INDIRECT_CELLS 0
+#define SDFGI_INDIRECT_MASKS SDFGI_MAX_CASCADES
+#define SDFGI_INDIRECT_DIRECT (2 * SDFGI_MAX_CASCADES)
+#define SDFGI_INDIRECT_RAYS (3 * SDFGI_MAX_CASCADES)
+#define SDFGI_INDIRECT_RECORDS (3 * SDFGI_MAX_CASCADES + 2)
 
 /* Lights. */
 #define SDFGI_LIGHT_KIND_DIRECTIONAL 0u

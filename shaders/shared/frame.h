@@ -17,7 +17,8 @@ struct sdfgi_cascade_params {
     ivec4 window_low, window_high; /* xyz: cells [low, high) are complete and may be read; empty if low = high.
                                       window_low.w: boxes in `changed` */
     vec4 share_low, share_high;    /* xyz: cells that lookups read, within the window; moves smoothly where that jumps */
-    ivec4 kept_low, kept_high;     /* xyz: cells that were complete before this frame */
+    ivec4 kept_low, kept_high;     /* xyz: cells that were complete before this frame; kept_low.w: axis of content.glsl's
+                                      strips, -1: none */
     ivec4 changed[2 * SDFGI_MAX_CHANGES]; /* low and high corner of each box that became new in this frame, cells
                                              that left the cascade included: those lie outside [0, resolution) */
 };

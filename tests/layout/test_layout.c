@@ -22,8 +22,10 @@
 #include "probe_link.comp.h"
 #include "probe_place.comp.h"
 #include "probe_seed.comp.h"
+#include "probe_sum.comp.h"
 #include "probe_trace.comp.h"
 #include "ray_forget.comp.h"
+#include "ray_list.comp.h"
 #include "region_clear.comp.h"
 #include "voxel_resolve.comp.h"
 #include "voxelize.comp.h"
@@ -61,8 +63,10 @@ static const struct {
     MODULE(probe_link_comp),
     MODULE(probe_place_comp),
     MODULE(probe_seed_comp),
+    MODULE(probe_sum_comp),
     MODULE(probe_trace_comp),
     MODULE(ray_forget_comp),
+    MODULE(ray_list_comp),
     MODULE(region_clear_comp),
     MODULE(voxel_resolve_comp),
     MODULE(voxelize_comp),

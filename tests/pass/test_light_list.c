@@ -110,7 +110,10 @@ static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
     gpu_recorder_begin(&frame.rec, &t->gi->device, cmd);
     gpu_timer_begin_frame(&t->gi->resources->timer, 0);
     t->gi->plan[PASS_LIGHT_BOUNCE].run = false;
+    light_cache_clear_record(&frame);
+    light_cache_mark_record(&frame, 0);
     light_cache_list_record(&frame, 0);
+    light_cache_renew_record(&frame, 0);
     gpu_recorder_end(&frame.rec);
 }
 

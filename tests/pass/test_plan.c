@@ -4,14 +4,16 @@
 #include "require.h"
 
 #define P(id) (UINT64_C(1) << PASS_##id)
+#define RAYS  (P(RAY_LIST) | P(PROBE_TRACE))
 
 static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_LIST),
-                      generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
+                      generation =
+                          P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
                       seeding = P(PROBE_SEED) | P(RAY_FORGET),
                       exact = P(OCCUPANCY) | P(DISTANCE_STALE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
                       flood = P(FLOOD_SEED) | P(FLOOD_STEP) | P(FLOOD_DISTANCE),
-                      light = P(LIGHT_BOUNCE) | P(PROBE_TRACE),
-                      publishing = P(LIGHT_BOUNCE) | P(PROBE_TRACE) | P(PROBE_BLEND);
+                      light = P(LIGHT_BOUNCE) | P(PROBE_SUM),
+                      publishing = P(LIGHT_BOUNCE) | P(PROBE_SUM) | P(PROBE_BLEND);
 
 /* Passes that run; fails if a decision lacks its reason, or gives the same one for running and for not
  * running. */
@@ -73,8 +75,14 @@ static void unsettled_light_is_traced(void **state)
 {
     (void)state;
     static const struct row rows[] = {
-        { "between publications", { .enabled = true, .has_geometry = true }, P(PROBE_TRACE) },
+        { "between publications", { .enabled = true, .has_geometry = true }, P(PROBE_SUM) },
+        { "rays missing",
+          { .enabled = true, .has_geometry = true, .rays_missing = true },
+          P(PROBE_SUM) | RAYS },
         { "a publication due", { .enabled = true, .has_geometry = true, .publish = true }, publishing },
+        { "a publication due, but light waits",
+          { .enabled = true, .has_geometry = true, .publish = true, .light_waits = true },
+          0 },
         { "light changed",
           { .enabled = true, .has_lights = true, .lights_changed = true },
           light | P(LIGHT_DIRECT) },
@@ -163,7 +171,7 @@ static void every_situation_has_reasons_and_one_plan(void **state)
 {
     (void)state;
     uint64_t ever = 0;
-    for (uint32_t i = 0; i < 1u << 17; i++) {
+    for (uint32_t i = 0; i < 1u << 19; i++) {
         const struct situation s = {
             .enabled = i & 1,
             .generates = i >> 1 & 1,
@@ -182,6 +190,8 @@ static void every_situation_has_reasons_and_one_plan(void **state)
             .occlusion = i >> 10 & 1,
             .masks = i >> 11 & 1,
             .list_grew = i >> 16 & 1,
+            .light_waits = i >> 17 & 1,
+            .rays_missing = i >> 18 & 1,
         };
         const uint64_t runs = planned(&s);
         REQUIRE_CMP(runs, ==, planned(&s));
@@ -189,7 +199,7 @@ static void every_situation_has_reasons_and_one_plan(void **state)
             REQUIRE_CMP(runs, ==, 0u);
         REQUIRE_TRUE(!(runs & P(VOXELIZE)) || !(runs & P(VOXELIZE_RASTER)));
         REQUIRE_TRUE(!(runs & exact) || !(runs & flood));
-        REQUIRE_TRUE(!(runs & P(PROBE_BLEND)) || (runs & P(PROBE_TRACE)));
+        REQUIRE_TRUE(!(runs & P(PROBE_BLEND)) || (runs & P(PROBE_SUM)));
         ever |= runs;
     }
     REQUIRE_CMP(ever, ==, (UINT64_C(1) << PASS_COUNT) - 1);

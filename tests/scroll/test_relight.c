@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Direct light while cascades scroll: cells that stay keep theirs, new ones are lit in the frame that
- * completes, those that stay are lit again within a budget, and in the end all is as after a fresh start. */
+ * completes, those that stay are lit again within a budget, probes wait for no more than such a frame, and in
+ * the end all is as after a fresh start. */
 #include "light_scene.h"
 #include "require.h"
 #include "scroll_scene.h"
@@ -148,6 +149,12 @@ static uint64_t renewed_work(const struct gi_test *t)
     return cells;
 }
 
+/* Probes wait where a step leaves a frame enough to do. */
+static bool sent_rays(const struct gi_test *t)
+{
+    return t->gi->passes[PASS_PROBE_SUM].dispatches > 0;
+}
+
 /* So small a budget that steps come while cells still wait for light. */
 static void a_walk_lights_cells_again_within_the_budget(void **state)
 {
@@ -159,7 +166,7 @@ static void a_walk_lights_cells_again_within_the_budget(void **state)
     open_at(&t, &settings, camera, 0);
     scroll_settle(&t);
     t.gi->relight_budget = BUDGET;
-    uint32_t busy = 0, completed_on_the_way = 0;
+    uint32_t busy = 0, completed_on_the_way = 0, waited = 0, since_waited = 3;
     for (uint32_t frame = 0; frame < 60; frame++) {
         const bool waiting = light_cache_relights(t.gi);
         camera[0] += 0.3;
@@ -167,11 +174,16 @@ static void a_walk_lights_cells_again_within_the_budget(void **state)
         gi_test_update(&t, 1);
         const uint64_t again = t.gi->passes[PASS_LIGHT_DIRECT].work - renewed_work(&t);
         REQUIRE_CMP(again, <=, (uint64_t)BUDGET);
+        REQUIRE_TRUE(sent_rays(&t) || schedule_has(t.gi, STEP_COMPLETE));
+        REQUIRE_TRUE(sent_rays(&t) || since_waited >= 3);
+        waited += !sent_rays(&t);
+        since_waited = sent_rays(&t) ? since_waited + 1 : 0;
         busy += again == BUDGET;
         completed_on_the_way += waiting && schedule_has(t.gi, STEP_COMPLETE);
     }
-    printf("%u of 60 frames lit as many cells as they may, %u completed a step meanwhile\n", busy,
-           completed_on_the_way);
+    printf("%u of 60 frames lit as many cells as they may, %u completed a step meanwhile, %u sent no rays\n",
+           busy, completed_on_the_way, waited);
+    REQUIRE_CMP(waited, >=, 2u);
     REQUIRE_CMP(busy, >, 30u);
     REQUIRE_CMP(completed_on_the_way, >=, 2u);
     scroll_settle(&t);
@@ -201,6 +213,7 @@ static void changes_in_every_frame_keep_nobody_waiting(void **state)
         for (uint32_t c = 0; c < 2; c++)
             before[c] = t.gi->cascades[c].relight_next;
         gi_test_update(&t, 1);
+        REQUIRE_TRUE(sent_rays(&t));
         completed += schedule_has(t.gi, STEP_COMPLETE);
         for (uint32_t c = 0; c < 2; c++)
             turns[c] += t.gi->cascades[c].relight_next < before[c];

@@ -327,7 +327,8 @@ struct sdfgi_pass_report {
     uint64_t work;               /* units of the pass's domain processed (cells, probes, rays, ...) in the last frame
                                     known; for passes with indirect size this is read back, frames_in_flight late */
     const char *work_unit;       /* static */
-    uint64_t gpu_ns;             /* of the last frame read back in which it ran; 0: not known */
+    uint64_t gpu_ns;             /* of the last frame read back in which it ran; 0: not known. Passes that run side by
+                                    side have one time, that of the first of them */
     bool gpu_ns_valid;           /* a new timing arrived with the last update */
 };
 

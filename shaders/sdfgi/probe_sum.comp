@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ * Reads the light where this frame's rays of each probe end and adds it to the running sums of the 25 texels:
+ * L max(0, n.w) weight, and the weights apart (each ray weighted by the solid angle its jitter stands for), so that a constant
+ * field is exact. One workgroup per probe and cascade. Shared memory: 128 rays of 32 bytes. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "probe_common.glsl"
+#include "ray_cache.glsl"
+#include "ray_queue.glsl"
+#include "../lib/rgbe.glsl"
+#include "../lib/light_pack.glsl"
+#include "../lib/sky.glsl"
+
+layout(local_size_x = SDFGI_GROUP_PROBE) in;
+
+const uint MAX_RAYS = 128u;
+shared vec4 ray_dir[MAX_RAYS];   /* w: solid angle, 0: light not known */
+shared vec3 ray_light[MAX_RAYS];
+
+/* Light at the end of a ray; false where it is not known, since the list of light cells was too short for the cell and has
+ * not grown yet: the ring before then speaks for the ray, instead of black. */
+bool cache_light(uint code, vec3 dir, out vec3 light)
+{
+    light = vec3(0.0);
+    if (code == SDFGI_RAY_SKY)
+        light = sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
+    if (code >= SDFGI_RAY_UNLIT)
+        return true;
+    uint axis;
+    const uvec2 cell = sdfgi_light[ray_light_index(code, axis)];
+    light = light_unpack_axis(cell, axis);
+    return (cell.y & SDFGI_LIGHT_VALID) != 0u;
+}
+
+void main()
+{
+    const uint cascade = gl_WorkGroupID.y;
+    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
+    const uint slot = probe_index(cascade, probe);
+    if (gl_GlobalInvocationID == uvec3(0u)) {
+        sdfgi_counters[SDFGI_COUNTER_RAYS_TRACED] = ray_queue_count();
+        counter_add(SDFGI_COUNTER_TRACE_CAPS, ray_queue_capped());
+    }
+    if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
+        return;
+    const uint rays = min(sdfgi_frame.ring.x, MAX_RAYS);
+    for (uint i = gl_LocalInvocationIndex; i < rays; i += uint(SDFGI_GROUP_PROBE)) {
+        const uint s = sdfgi_frame.ring.y + i, code = sdfgi_rays[slot * sdfgi_frame.ring.z + s];
+        float solid_angle;
+        const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
+        if (code == SDFGI_RAY_UNLIT)
+            counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
+        const bool known = cache_light(code, dir, ray_light[i]);
+        ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
+    }
+    barrier();
+
+    if (gl_LocalInvocationIndex >= uint(SDFGI_IRRADIANCE_COUNT))
+        return;
+    const vec3 normal = probe_texel_direction(gl_LocalInvocationIndex);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < rays; i++) {
+        const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
+        sum += vec4(ray_light[i], 1.0) * weight;
+    }
+    sdfgi_sums[slot * uint(SDFGI_IRRADIANCE_COUNT) + gl_LocalInvocationIndex] += sum;
+}
