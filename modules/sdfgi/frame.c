@@ -206,7 +206,7 @@ static void complete_cascade(struct frame *frame, uint32_t c)
     light_cache_renew_record(frame, c);
     if (all)
         occlusion_record(frame, c);
-    if (all && keeps)
+    if (all && !gi->schedule.from_nothing)
         probe_seed_record(frame, c);
     if (last_to_complete(gi, c) && keeps)
         forget_rays(frame);

@@ -10,7 +10,7 @@
 
 /* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades: with the defaults a
  * cascade then takes just under 64 MiB, scratch included. */
-#define LIGHT_CELL_SHARE (19.0 / 128)
+#define LIGHT_CELL_SHARE (37.0 / 256)
 
 double y_scale_factor(enum sdfgi_y_scale scale)
 {

@@ -32,11 +32,12 @@ void probe_reset_record(struct frame *frame, uint32_t c)
 {
     const struct extent *e = &frame->gi->resources->extent;
     const uint64_t rays = 4 * e->probes * e->ring_samples,
-                   sums = (uint64_t)16 * SDFGI_IRRADIANCE_COUNT * e->probes;
+                   sums = (uint64_t)16 * SDFGI_SUMS_STRIDE * e->probes,
+                   previous = (uint64_t)8 * SDFGI_IRRADIANCE_COUNT * e->probes;
     pass_clear(frame, RESOURCE_RAYS, c * rays, rays);
     pass_clear(frame, RESOURCE_SUMS, c * sums, sums);
     if (frame->gi->cascades[c].fresh)
-        pass_clear(frame, RESOURCE_PREVIOUS, c * sums / 2, sums / 2);
+        pass_clear(frame, RESOURCE_PREVIOUS, c * previous, previous);
 }
 
 void probe_seed_record(struct frame *frame, uint32_t c)

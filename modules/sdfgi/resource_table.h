@@ -26,7 +26,7 @@
     X(MASKS,       VOLUMES, s->cells * s->cascades,                               "as BITS")                               \
     X(PROBES,      PROBES,  4 * s->probes * s->cascades,                          "as BITS")                               \
     X(RAYS,        PROBES,  4 * s->probes * s->cascades * s->ring_samples,        "until any cascade it may reach changes") \
-    X(SUMS,        PROBES,  16 * 25 * s->probes * s->cascades,                    "one ring")                              \
+    X(SUMS,        PROBES,  16 * SDFGI_SUMS_STRIDE * s->probes * s->cascades,     "one ring")                              \
     X(PREVIOUS,    PROBES,  8 * 25 * s->probes * s->cascades,                     "until the ring after it ends")          \
     X(OCCLUSION,   PROBES,  s->occlusion,                                         "as BITS; 4 bytes unless probe_depth is chosen") \
     X(COUNTERS,    LISTS,   4 * SDFGI_COUNTER_COUNT,                              "one ring or one generation")            \

@@ -37,13 +37,29 @@ ivec3 lookup_cage(uint cascade, vec3 pos)
     return clamp(ivec3(floor(pos / float(SDFGI_PROBE_SPACING))), low, max(low, high));
 }
 
-vec3 lookup_probe_irradiance(uint cascade, ivec3 probe, vec3 normal)
+/* Irradiance as stored; a says more: up to 0, of a new probe, less how far it is to be trusted; above, what light cells read over
+ * what is shown. */
+vec4 lookup_stored(uint cascade, ivec3 probe, vec3 normal)
 {
     const ivec2 corner = probe_atlas_corner(cascade, probe);
     const vec2 uv = octahedral_encode(normal) * 0.5 + 0.5;
     const vec2 texel = vec2(corner) + 1.5 + uv * float(SDFGI_IRRADIANCE_TEXELS - 1);
     const vec2 size = vec2(textureSize(sdfgi_irradiance_atlas, 0).xy);
-    return textureLod(sdfgi_irradiance_atlas, vec3(texel / size, float(cascade)), 0.0).rgb;
+    return textureLod(sdfgi_irradiance_atlas, vec3(texel / size, float(cascade)), 0.0);
+}
+
+/* What is shown in rgb, a probe's share of its weight in a. */
+vec4 lookup_shown(uint cascade, ivec3 probe, vec3 normal)
+{
+    const vec4 light = lookup_stored(cascade, probe, normal);
+    return vec4(light.rgb, light.a > 0.0 ? 1.0 : -light.a);
+}
+
+/* The newest that is known, likewise. */
+vec4 lookup_newest(uint cascade, ivec3 probe, vec3 normal)
+{
+    const vec4 light = lookup_stored(cascade, probe, normal);
+    return light.a > 0.0 ? vec4(light.rgb * light.a, 1.0) : vec4(light.rgb, -light.a);
 }
 
 /* A probe's weight at a position, its visibility apart: trilinear, less where it is behind the surface. Those count little,
@@ -77,7 +93,8 @@ vec4 lookup_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, lookup_visibili
             continue;
         const vec3 way = metric_from_cells(probe_position(probe, state) - pos);
         const float weight = lookup_weight(mix(1.0 - f, f, vec3(corner)), way, normal) * visibility.of_probe[k];
-        sum += vec4(lookup_probe_irradiance(cascade, probe, normal), 1.0) * weight;
+        const vec4 light = lookup_newest(cascade, probe, normal);
+        sum += vec4(light.rgb, 1.0) * (weight * light.a);
     }
     return sum;
 }
@@ -113,9 +130,10 @@ void lookup_add_beyond(inout lookup_probes probes, uint cascade, ivec3 cage, int
         return;
     const uint other = sdfgi_probes[probe_index(cascade, beyond)];
     const uint lower = forward ? sdfgi_probes[probe_index(cascade, probe)] : other;
-    if (!probe_is_dead(other) && probe_is_linked(lower, axis))
-        lookup_add_pair(probes, k, axis, weight, metric_from_cells(probe_position(beyond, other) - pos),
-                        lookup_probe_irradiance(cascade, beyond, normal));
+    if (probe_is_dead(other) || !probe_is_linked(lower, axis))
+        return;
+    const vec4 light = lookup_shown(cascade, beyond, normal);
+    lookup_add_pair(probes, k, axis, weight * light.a, metric_from_cells(probe_position(beyond, other) - pos), light.rgb);
 }
 
 /* Across the surface pairs count only as far as both are in front of it, and nothing is extrapolated: what hides a probe there
@@ -178,8 +196,10 @@ vec4 lookup_sloped(uint cascade, ivec3 cage, vec3 pos, vec3 normal, float height
         if (visibility.of_probe[k] <= 0.0 || probe_is_dead(state))
             continue;
         probes.way[k] = metric_from_cells(probe_position(probe, state) - pos);
-        probes.weight[k] = lookup_weight(mix(1.0 - f, f, vec3(corner)), probes.way[k], normal) * visibility.of_probe[k];
-        probes.light[k] = lookup_probe_irradiance(cascade, probe, normal);
+        const vec4 light = lookup_shown(cascade, probe, normal);
+        probes.weight[k] =
+            lookup_weight(mix(1.0 - f, f, vec3(corner)), probes.way[k], normal) * (visibility.of_probe[k] * light.a);
+        probes.light[k] = light.rgb;
         total += probes.weight[k];
     }
     if (total <= 1e-6)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Gives probes that are new, or stand elsewhere than before, the light of the next coarser cascade at their place (of the
- * sky, where there is none), as if a ring had measured it, and empties their sums: they are never black, and what they
- * gather takes over sample by sample. One workgroup per probe. */
+ * Gives probes that are new, or stand elsewhere than before, a start: the light of those probes of the next coarser cascade
+ * that see their place. It counts for little, and for nothing where none does: light from behind a wall would stay in a
+ * room for rings. Empties their sums. One workgroup per probe. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
@@ -14,8 +14,7 @@ layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 shared lookup_visibility visible;
 shared uint seen_by;
 
-/* Which of the eight probes around `pos` see it; all of them where none does: light from behind a wall, for the length of a
- * ring, is better than none. */
+/* Which of the eight probes around `pos` see it. */
 void find_visible(uint cascade, ivec3 cage, vec3 pos)
 {
     const uint k = gl_LocalInvocationIndex;
@@ -27,20 +26,29 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
     }
     barrier();
     if (k == 0u)
-        visible = lookup_from_mask(seen_by != 0u ? seen_by : 0xffu);
+        visible = lookup_from_mask(seen_by);
     barrier();
 }
 
-vec3 seed_from_coarser(vec3 first, vec3 normal)
+/* Trilinear share of the probes that see a place. */
+float visible_share(ivec3 cage, vec3 pos)
 {
-    const vec3 sky = sky_irradiance(normal, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb,
-                                    sdfgi_frame.sky_ground.rgb);
-    if (args.cascade + 1u >= sdfgi_frame.size.w)
-        return sky;
-    const uint coarser = args.cascade + 1u;
-    const vec3 pos = cascade_from_first(coarser, first);
-    const vec4 sum = lookup_sum(coarser, lookup_cage(coarser, pos), pos, normal, visible);
-    return sum.a > 1e-6 ? sum.rgb / sum.a : sky;
+    const vec3 f = lookup_place(cage, pos);
+    float share = 0.0;
+    for (int k = 0; k < 8; k++) {
+        const vec3 t = mix(1.0 - f, f, vec3(lookup_corner(k)));
+        share += t.x * t.y * t.z * visible.of_probe[k];
+    }
+    return share;
+}
+
+/* Light in rgb, how much of a ring it counts for in a. */
+vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
+{
+    const vec4 sum = lookup_sum(coarser, cage, pos, normal, visible);
+    if (sum.a <= 1e-6)
+        return vec4(0.0);
+    return vec4(sum.rgb / sum.a, visible_share(cage, pos) * PROBE_SEED_SHARE * probe_ring_weight());
 }
 
 void main()
@@ -50,22 +58,27 @@ void main()
     const uint state = sdfgi_probes[slot];
     if (probe_is_dead(state) || (state & SDFGI_PROBE_NEW) == 0u)
         return;
-    const uint i = gl_LocalInvocationIndex;
+    const uint i = gl_LocalInvocationIndex, coarser = args.cascade + 1u;
+    const bool exists = coarser < sdfgi_frame.size.w;
     if (i == 0u)
         seen_by = 0u;
     barrier();
-    const vec3 first = first_from_cascade(args.cascade, probe_position(probe, state));
-    if (args.cascade + 1u < sdfgi_frame.size.w) {
-        const vec3 pos = cascade_from_first(args.cascade + 1u, first);
-        find_visible(args.cascade + 1u, lookup_cage(args.cascade + 1u, pos), pos);
+    ivec3 cage;
+    vec3 pos;
+    if (exists) {
+        pos = cascade_from_first(coarser, first_from_cascade(args.cascade, probe_position(probe, state)));
+        cage = lookup_cage(coarser, pos);
+        find_visible(coarser, cage, pos);
     }
     if (i < uint(SDFGI_IRRADIANCE_COUNT)) {
         const uint at = slot * uint(SDFGI_IRRADIANCE_COUNT) + i;
-        const vec3 value = seed_from_coarser(first, probe_texel_direction(i));
-        sdfgi_sums[at] = vec4(0.0);
-        probe_store_previous(at, value, probe_ring_weight());
-        texels[i] = value;
+        const vec4 seed = exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0);
+        sdfgi_sums[probe_sums(slot) + i] = vec4(0.0);
+        probe_store_previous(at, seed.rgb, seed.a);
+        texels[i] = vec4(seed.rgb, -probe_trust(seed.a));
     }
     barrier();
+    if (i == 0u)
+        sdfgi_sums[probe_memory(slot)] = vec4(0.0, 0.0, PROBE_BORN, 0.0);
     probe_store_texels(args.cascade, probe);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Reads the light where this frame's rays of each probe end and adds it to the running sums of the 25 texels:
  * L max(0, n.w) weight, and the weights apart (each ray weighted by the solid angle its jitter stands for), so that a constant
- * field is exact. One workgroup per probe and cascade. Shared memory: 128 rays of 32 bytes. */
+ * field is exact. Young probes read the rays of the frames before again. One workgroup per probe and cascade. Shared memory: 128 rays of 32 bytes. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
@@ -43,14 +43,20 @@ void main()
     }
     if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
         return;
-    const uint rays = min(sdfgi_frame.ring.x, MAX_RAYS);
+    const bool young = probe_is_young(sdfgi_sums[probe_memory(slot)]);
+    const uint sent = min(sdfgi_frame.ring.x, MAX_RAYS), samples = sdfgi_frame.ring.z;
+    const uint rays = young ? min(PROBE_YOUNG_FRAMES * sent, min(MAX_RAYS, samples)) : sent;
     for (uint i = gl_LocalInvocationIndex; i < rays; i += uint(SDFGI_GROUP_PROBE)) {
-        const uint s = sdfgi_frame.ring.y + i, code = sdfgi_rays[slot * sdfgi_frame.ring.z + s];
+        /* This frame's, then those of the frames before, backwards. */
+        const uint s = i < sent ? sdfgi_frame.ring.y + i : (sdfgi_frame.ring.y + samples + sent - 1u - i) % samples;
+        const uint code = sdfgi_rays[slot * samples + s];
         float solid_angle;
         const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
-        if (code == SDFGI_RAY_UNLIT)
+        if (code == SDFGI_RAY_UNLIT && i < sent)
             counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
-        const bool known = cache_light(code, dir, ray_light[i]);
+        vec3 light = vec3(0.0);
+        const bool known = (i < sent || ray_holds(code)) && cache_light(code, dir, light);
+        ray_light[i] = light;
         ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
     }
     barrier();
@@ -63,5 +69,5 @@ void main()
         const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
         sum += vec4(ray_light[i], 1.0) * weight;
     }
-    sdfgi_sums[slot * uint(SDFGI_IRRADIANCE_COUNT) + gl_LocalInvocationIndex] += sum;
+    sdfgi_sums[probe_sums(slot) + gl_LocalInvocationIndex] += sum;
 }

@@ -29,4 +29,16 @@ ivec3 ray_cell(uint code, out uint cascade)
     return cell_from_texel(cascade, texel_from_index(index));
 }
 
+/* A hit whose cell has left the cascade is as good as unknown. */
+bool ray_holds(uint code)
+{
+    if (code == SDFGI_RAY_UNKNOWN)
+        return false;
+    if (code >= SDFGI_RAY_UNLIT)
+        return true;
+    uint cascade;
+    const ivec3 cell = ray_cell(code, cascade);
+    return cell_served(cascade, cell);
+}
+
 #endif

@@ -12,18 +12,6 @@ layout(local_size_x = SDFGI_GROUP_RAYS) in;
 
 shared uint group_count, group_first;
 
-/* A hit whose cell has left the cascade is as good as unknown. */
-bool holds(uint code)
-{
-    if (code == SDFGI_RAY_UNKNOWN)
-        return false;
-    if (code >= SDFGI_RAY_UNLIT)
-        return true;
-    uint cascade;
-    const ivec3 cell = ray_cell(code, cascade);
-    return cell_served(cascade, cell);
-}
-
 bool is_missing(uint cascade, uint n, out uint ray)
 {
     const uint side = sdfgi_frame.size.z, rays = sdfgi_frame.ring.x, i = n / rays;
@@ -35,7 +23,7 @@ bool is_missing(uint cascade, uint n, out uint ray)
     if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
         return false;
     ray = slot * sdfgi_frame.ring.z + sdfgi_frame.ring.y + n % rays;
-    return !holds(sdfgi_rays[ray]);
+    return !ray_holds(sdfgi_rays[ray]);
 }
 
 void main()

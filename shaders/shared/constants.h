@@ -18,6 +18,7 @@
 #define SDFGI_IRRADIANCE_TEXELS 5
 #define SDFGI_IRRADIANCE_STRIDE 7
 #define SDFGI_IRRADIANCE_COUNT 25
+#define SDFGI_SUMS_STRIDE 26 /* vec4 per probe: the sums of its texels, and what probe_common.glsl calls its memory */
 #define SDFGI_OCCLUSION_TEXELS 16
 #define SDFGI_OCCLUSION_STRIDE 18
 /* A probe is read from within its cage, whose diagonal is 8 sqrt(3) = 13.9 cells; depths beyond tell nothing more. */

@@ -191,7 +191,7 @@ static double walk_behind_border(struct walk *w, double step_m)
     return w->worst_step;
 }
 
-/* Of the change while rings are not complete, the border has no more part than of that afterwards. */
+/* What rings find while they are not complete is no more to be seen than how the border moves. */
 static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state
            "walks, %.2f %% with one that rests\n",
            100 * step, 100 * walking, 100 * resting);
     REQUIRE_CMP(w.t.gi->schedule.steps_begun, ==, 1ul);
-    REQUIRE_CMP(step, <=, 0.05);
+    REQUIRE_CMP(step, <=, 0.02);
     REQUIRE_CMP(walking, <=, 0.02);
     REQUIRE_CMP(resting, <=, 0.01);
     gi_test_close(&w.t);
