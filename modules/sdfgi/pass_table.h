@@ -17,8 +17,7 @@
     X(VOXELIZE,        voxelize,        "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS)   \
     X(VOXELIZE_RASTER, voxelize_raster, "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS_RASTER) \
     X(VOXEL_RESOLVE,   voxel_resolve,   "blocks",      R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(CONTENT), GENERATE) \
-    X(OCCUPANCY,       occupancy,       "cells",       R(BITS), R(SCRATCH), EXACT)                                   \
-    X(DISTANCE_STALE,  distance_stale,  "cells",       R(DISTANCE) | R(CONTENT), R(SCRATCH) | R(COUNTERS), EXACT)                 \
+    X(DISTANCE_PREPARE, distance_prepare, "cells",     R(BITS) | R(DISTANCE) | R(CONTENT), R(SCRATCH) | R(COUNTERS), EXACT) \
     X(DISTANCE_PLANE,  distance_plane,  "cells",       R(BITS) | R(SCRATCH), R(SCRATCH), EXACT)                      \
     X(DISTANCE_EXACT,  distance_exact,  "cells",       R(SCRATCH), R(DISTANCE), EXACT)                               \
     X(FLOOD_SEED,      flood_seed,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \

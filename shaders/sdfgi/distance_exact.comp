@@ -5,20 +5,21 @@
  * One workgroup per four cells along x and two along z: eight lines along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_DISTANCE
 
-const uint BATCH = 128u; /* few, for many workgroups at once: 0.095 ms a cascade, with 192 it takes 0.110 */
+const uint BATCH = 196u; /* few, for many workgroups at once; a village's layers in one go */
 
 #include "lines.glsl"
 
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-const uint PER_THREAD = BATCH * LINES / SDFGI_GROUP_LINES;
+const uint PER_THREAD = (BATCH * LINES - 1u) / SDFGI_GROUP_LINES + 1u;
 
-/* 16 per square of half a sub-voxel, 128 per unit of what planes store. */
-uvec4 line_values(ivec4 way, uint brought)
+/* In eighths of distance_y_weight's unit; what planes store counts 16 times. */
+int line_weight()
 {
-    return distance_y_weight() * uvec4(way * way) + 128u * brought;
+    return int(distance_y_weight());
 }
 
 uint first_x()
@@ -63,32 +64,48 @@ void mark_all(uvec2 stale)
 /* What the planes hold of a batch; a workgroup's lines lie side by side there. All is read before any is written: one wait. */
 void put_planes(uint count)
 {
-    uint entries[PER_THREAD];
-    for (uint k = 0u; k < PER_THREAD; k++) {
+    int sums[PER_THREAD];
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
         const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
         const uint place = line_batch[i / LINES];
         const uint slot = plane_slot(place, first_x() - args.step, first_z()) + (i & (LINES - 1u));
-        entries[k] = sdfgi_scratch[slot] << PLACE_BITS | place;
+        sums[k] = line_sum(place, 16 * int(sdfgi_scratch[slot]));
     }
-    for (uint k = 0u; k < PER_THREAD; k++)
-        line_entries[gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES] = entries[k];
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
+        const uint i = gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES;
+        if (i < count * LINES)
+            line_sums[(i & (LINES - 1u)) * BATCH + i / LINES] = sums[k];
+    }
     barrier();
 }
 
-uint encoded(uint y, uint own)
+uint encoded(uint y, int least)
 {
-    const uint least = line_least[y * LINES + own];
-    return least == 0xffffffffu ? 0xffffu : distance_encode(least + 32u);
+    return least == WORST ? 0xffffu : distance_encode(uint(8 * (least + line_offset(y)) + line_weight()) + 32u);
 }
 
-/* Two cells share a word. */
+/* Two cells share a word: neighbours along x put theirs together where the sums were. */
+void gather_pairs()
+{
+    const uint own = line_own(), count = line_cells_per_slot();
+    [[unroll]] for (uint odd = 0u; odd < 2u; odd++) {
+        barrier();
+        [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) {
+            const uint y = line_slot() * count + k, at = 4u * y + (own >> 1u);
+            if (k < count && (own & 1u) == odd)
+                line_sums[at] = (odd == 0u ? 0 : line_sums[at]) | int(encoded(y, line_least[k]) << 16u * odd);
+        }
+    }
+    barrier();
+}
+
 void store_lines(uvec2 stale)
 {
+    gather_pairs();
     for (uint i = gl_LocalInvocationIndex; i < 4u * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
-        const uint y = i >> 2u, x = 2u * (i & 1u), z = i >> 1u & 1u, own = 4u * z + x;
+        const uint y = i >> 2u, x = 2u * (i & 1u), z = i >> 1u & 1u;
         if (block_is_stale(stale, y))
-            sdfgi_distances[cell_index(args.cascade, ivec3(first_x() + x, y, first_z() + z)) >> 1u] =
-                encoded(y, own) | encoded(y, own + 1u) << 16u;
+            sdfgi_distances[cell_index(args.cascade, ivec3(first_x() + x, y, first_z() + z)) >> 1u] = uint(line_sums[i]);
     }
 }
 
@@ -99,7 +116,6 @@ void main()
         return;
     line_begin();
     mark_all(stale);
-    line_clear();
     const uint count = line_candidates();
     for (uint first = 0u; first < count; first += BATCH) {
         line_put_batch(first);
@@ -107,6 +123,5 @@ void main()
         line_search(min(BATCH, count - first));
         barrier();
     }
-    barrier();
     store_lines(stale);
 }

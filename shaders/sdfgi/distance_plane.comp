@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: MIT
  * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along x by
  * scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8, their sums as
- * (d^2 + e^2 - 2) / 8, which fits above a place. Cells of the stale blocks, where their columns hold any, from args.step to
+ * (d^2 + e^2 - 2) / 8. Cells of the stale blocks, where their columns hold any, from args.step to
  * before args.source along x.
  * One workgroup per layer and run of eight cells along x: eight lines along z. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
-const uint BATCH = 184u; /* as many as shared memory has room for: 16 KiB are all that every device has */
+const uint BATCH = 324u; /* 12.9 KiB of shared memory, of the 16 that every device has: a layer of a village in one go */
 
 #include "lines.glsl"
 
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-uvec4 line_values(ivec4 way, uint brought)
+int line_weight()
 {
-    return (uvec4(way * way) >> 3u) + brought;
+    return 1;
 }
 
 uint layer()
@@ -28,10 +29,10 @@ uint first_x()
     return (args.step & ~7u) + LINES * gl_WorkGroupID.x;
 }
 
-/* Which of the four rows of a column lie in this layer and hold bits. */
-uint rows_of(uint z)
+/* The runs in which a row holds bits. */
+uint runs_of(uint place)
 {
-    return sdfgi_scratch[rows_slot(layer() >> 2u, z)] >> 4u * (layer() & 3u) & 15u;
+    return runs_of_row(layer(), place);
 }
 
 bool column_is_stale(uint x, uint block_z)
@@ -42,8 +43,12 @@ bool column_is_stale(uint x, uint block_z)
 
 void mark_rows()
 {
-    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x; z += SDFGI_GROUP_LINES)
-        line_mark(z, rows_of(z));
+    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x; z += SDFGI_GROUP_LINES) {
+        uint rows = 0u;
+        [[unroll]] for (uint i = 0u; i < 4u; i++)
+            rows |= uint(runs_of(4u * z + i) != 0u) << i;
+        line_mark(z, rows);
+    }
 }
 
 void mark_wanted()
@@ -56,28 +61,15 @@ void mark_wanted()
 
 /* ---- Along x: rows are named by their place along z */
 
-/* The sub-voxels of a row in a run. */
+/* The sub-voxels of a row in a run: cells that lie side by side, as cascades move by whole runs. */
 uint row_of_run(uint place, uint run)
 {
-    const uint shift = 4u * (layer() & 3u) | 16u * (place & 1u);
+    const uint first = cell_index(args.cascade, ivec3(8u * run, layer() >> 2u, place >> 2u));
+    const uint word = place >> 1u & 1u, shift = 4u * (layer() & 3u) | 16u * (place & 1u);
     uint row = 0u;
-    for (uint i = 0u; i < 8u; i++) {
-        const uvec2 bits = cell_bits(args.cascade, ivec3(8u * run + i, layer() >> 2u, place >> 2u));
-        row |= (((place & 2u) != 0u ? bits.y : bits.x) >> shift & 15u) << 4u * i;
-    }
+    [[unroll]] for (uint i = 0u; i < 8u; i++)
+        row |= (sdfgi_bits[first + i][word] >> shift & 15u) << 4u * i;
     return row;
-}
-
-/* A bit per run in which a row holds bits. All are read at once: one wait. */
-uint runs_of_row(uint place)
-{
-    const uint shift = (place & 3u) | 4u * (layer() & 3u);
-    uint runs = 0u;
-    for (uint run = 0u; run < sdfgi_frame.size.x >> 3u; run += 2u) {
-        const uint two = sdfgi_scratch[runs_slot(layer() >> 2u, place >> 2u, run)] >> shift;
-        runs |= ((two & 1u) | (two >> 15u & 2u)) << run;
-    }
-    return runs;
 }
 
 const int NOTHING = 1 << 16; /* sub-voxels: further than any */
@@ -99,25 +91,25 @@ int way_above(uint place, uint runs, uint run)
 }
 
 /* Steps of a sub-voxel from the one next to a cell's centre to the nearest set one of a row, on either side. */
-uint steps_along_row(uint bits, uint cell, int below, int above)
+int steps_along_row(uint bits, uint cell, int below, int above)
 {
     const uint centre = 4u * cell + 2u;
     const uint low = bits & ((1u << centre) - 1u), high = bits >> centre;
     const int down = int(centre) - 1 - (low != 0u ? findMSB(low) : -1 - below);
-    return uint(min(down, high != 0u ? findLSB(high) : 32 - int(centre) + above));
+    return min(down, high != 0u ? findLSB(high) : 32 - int(centre) + above);
 }
 
-/* What the rows of a batch bring along. Threads start at different lines, which are in different banks. */
+/* What the rows of a batch amount to. */
 void put_rows(uint count)
 {
     const uint run = first_x() >> 3u;
     for (uint at = gl_LocalInvocationIndex; at < count; at += SDFGI_GROUP_LINES) {
         /* Nothing here asks before it reads: all three runs are waited for once. */
-        const uint place = line_batch[at], runs = runs_of_row(place), bits = row_of_run(place, run);
+        const uint place = line_batch[at], runs = runs_of(place), bits = row_of_run(place, run);
         const int below = way_below(place, runs, run), above = way_above(place, runs, run);
-        for (uint i = 0u; i < LINES; i++) {
-            const uint own = i + (at >> 2u) & (LINES - 1u), steps = steps_along_row(bits, own, below, above);
-            line_entries[at * LINES + own] = (steps * (steps + 1u) / 2u) << PLACE_BITS | place;
+        [[unroll]] for (uint own = 0u; own < LINES; own++) {
+            const int steps = steps_along_row(bits, own, below, above);
+            line_sums[own * BATCH + at] = line_sum(place, steps * (steps + 1) / 2);
         }
     }
     barrier();
@@ -126,10 +118,13 @@ void put_rows(uint count)
 void store_lines()
 {
     const uint count = line_cells_per_slot(), x = first_x() + line_own();
-    if (!line_slots_wanted(line_slot(), 1u) || x < args.step || x >= args.source)
+    if (!line_slot_wanted() || x < args.step || x >= args.source)
         return;
-    for (uint z = line_slot() * count; z < (line_slot() + 1u) * count; z++)
-        sdfgi_scratch[plane_slot(layer(), x - args.step, z)] = line_least[z * LINES + line_own()];
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) {
+        const uint z = line_slot() * count + k;
+        if (k < count)
+            sdfgi_scratch[plane_slot(layer(), x - args.step, z)] = uint(line_least[k] + line_offset(z));
+    }
 }
 
 void main()
@@ -143,7 +138,6 @@ void main()
     if (line_any == 0u || line_wanted == 0u)
         return;
     line_count();
-    line_clear();
     const uint count = line_candidates();
     for (uint first = 0u; first < count; first += BATCH) {
         line_put_batch(first);

@@ -8,7 +8,7 @@
 static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_LIST),
                       generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
                       seeding = P(PROBE_SEED) | P(RAY_FORGET),
-                      exact = P(OCCUPANCY) | P(DISTANCE_STALE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
+                      exact = P(DISTANCE_PREPARE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
                       flood = P(FLOOD_SEED) | P(FLOOD_STEP) | P(FLOOD_DISTANCE),
                       light = P(LIGHT_BOUNCE) | P(PROBE_TRACE),
                       publishing = P(LIGHT_BOUNCE) | P(PROBE_TRACE) | P(PROBE_BLEND);

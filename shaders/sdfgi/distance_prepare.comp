@@ -1,14 +1,74 @@
 /* SPDX-License-Identifier: MIT
- * Which blocks of 4^3 cells to search: those that touch a changed box, and those with a cell whose nearest sub-voxel may have
- * gone, or may be one that came (content.glsl). Stored lengths are rounded down and rounding keeps order: a box whose nearest
- * sub-voxel would be stored as further away cannot matter. One workgroup per column of blocks along y, four threads per block. */
+ * What the exact search has to know before it begins (occupancy.glsl): which rows of sub-voxels hold bits, and which blocks of 4^3
+ * cells to search. Neither needs the other, so one dispatch finds both: workgroups share 32 columns along z, or a column of
+ * blocks along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "content.glsl"
 #include "occupancy.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINES) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_stale_args args; };
+
+/* ---- Rows: a thread reads eight cells that lie side by side */
+
+const uint COLUMNS = 32u;
+
+shared uint runs[16u * COLUMNS]; /* as in the scratch buffer; all of it where a row has 32 runs */
+
+uint runs_per_row()
+{
+    return sdfgi_frame.size.x >> RUN_BITS;
+}
+
+/* A bit per four sub-voxels along x, at the place of the first. */
+uint any_of_fours(uint bits)
+{
+    bits |= bits >> 1u;
+    return (bits | bits >> 2u) & 0x11111111u;
+}
+
+/* Rows set in the eight cells of a run: z + 4 y. Cascades move by whole runs. */
+uint rows_of_run(uint y, uint z, uint run)
+{
+    const uint first = cell_index(args.cascade, ivec3(8u * run, y, z));
+    uvec2 bits = uvec2(0u);
+    [[unroll]] for (uint i = 0u; i < 8u; i++)
+        bits |= sdfgi_bits[first + i];
+    const uint low = any_of_fours(bits.x), high = any_of_fours(bits.y);
+    return (low & 0xffffu) | (low >> 16u) << 1u | (high & 0xffffu) << 2u | (high >> 16u) << 3u;
+}
+
+void note_rows(uint rows, uint column, uint run)
+{
+    [[unroll]] for (uint row = 0u; row < 16u; row++)
+        if ((rows >> row & 1u) != 0u) {
+            const uint place = (row >> 2u) * 4u * COLUMNS + 4u * column + (row & 3u);
+            const uint bit = place * runs_per_row() + run;
+            atomicOr(runs[bit >> 5u], 1u << (bit & 31u));
+        }
+}
+
+void find_rows(uint group)
+{
+    const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(), groups = sdfgi_frame.size.x / COLUMNS;
+    const uint y = group / groups, first_z = COLUMNS * (group % groups), words = 4u * per_row;
+    for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
+        runs[i] = 0u;
+    barrier();
+    for (uint i = lane; i < COLUMNS * per_row; i += SDFGI_GROUP_LINES) {
+        const uint column = i / per_row, run = i % per_row;
+        note_rows(rows_of_run(y, first_z + column, run), column, run);
+    }
+    barrier();
+    for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
+        sdfgi_scratch[runs_slot(runs_bit(4u * y + i / words, 4u * first_z)) + i % words] = runs[i];
+}
+
+/* ---- Blocks: those that touch a changed box, and those with a cell whose nearest sub-voxel may have gone, or may be one that
+ * came (content.glsl). Stored lengths are rounded down and rounding keeps order: a box whose nearest sub-voxel would be stored
+ * as further away cannot matter. Four threads per block. */
 
 const uint BOXES = uint(2 * SDFGI_CONTENT_STRIPS);
 const uint BLOCKS = uint(SDFGI_GROUP_LINES / 4);
@@ -74,20 +134,30 @@ bool layer_is_stale(ivec3 first)
     return false;
 }
 
-void main()
+void find_blocks(uint group)
 {
     const uint lane = gl_LocalInvocationIndex, side = sdfgi_frame.size.x >> 2u;
+    const uint x = args.first + group / side, z = group % side;
     if (lane < 2u)
         stale[lane] = 0u;
     fetch_content();
     for (uint y = lane / 4u; y < side; y += BLOCKS) {
-        const ivec3 block = ivec3(args.first + gl_WorkGroupID.y, y, gl_WorkGroupID.x);
+        const ivec3 block = ivec3(x, y, z);
         if (args.box_count == 0u || block_changed(block) || layer_is_stale(4 * block + ivec3(0, 0, lane & 3u)))
             atomicOr(stale[y >> 5u], 1u << (y & 31u));
     }
     barrier();
     if (lane < 2u)
-        sdfgi_scratch[stale_slot(args.first + gl_WorkGroupID.y, gl_WorkGroupID.x) + lane] = stale[lane];
+        sdfgi_scratch[stale_slot(x, z) + lane] = stale[lane];
     if (lane == 0u)
         counter_add(SDFGI_COUNTER_DISTANCE_CELLS, 64u * uint(bitCount(stale[0]) + bitCount(stale[1])));
+}
+
+void main()
+{
+    const uint n = sdfgi_frame.size.x, row_groups = n * n / COLUMNS;
+    if (gl_WorkGroupID.x < row_groups)
+        find_rows(gl_WorkGroupID.x);
+    else
+        find_blocks(gl_WorkGroupID.x - row_groups);
 }
