@@ -24,7 +24,6 @@
     X(FLOOD_STEP,      flood_step,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \
     X(FLOOD_DISTANCE,  flood_distance,  "cells",       R(SCRATCH), R(DISTANCE), FLOOD)                               \
     X(PROBE_PLACE,     probe_place,     "probes",      R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS), COMPLETE)     \
-    X(PROBE_LINK,      probe_link,      "probes",      R(BITS) | R(DISTANCE), R(PROBES), COMPLETE)                      \
     X(PROBE_SEED,      probe_seed,      "probes",      R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE), SEED) \
     X(OCCLUSION_TRACE, occlusion_trace, "rays",        R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION), OCCLUSION)   \
     X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(COUNTERS), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \

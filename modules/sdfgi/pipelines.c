@@ -16,7 +16,6 @@
 #include "flood_step.comp.h"
 #include "flood_distance.comp.h"
 #include "probe_place.comp.h"
-#include "probe_link.comp.h"
 #include "probe_seed.comp.h"
 #include "occlusion_trace.comp.h"
 #include "light_mark.comp.h"

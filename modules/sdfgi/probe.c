@@ -14,14 +14,7 @@ static void record_probes(struct frame *frame, enum pass pass, uint32_t c, uint6
 
 void probe_place_record(struct frame *frame, uint32_t c)
 {
-    struct sdfgi *gi = frame->gi;
-    const uint32_t probes = (uint32_t)gi->resources->extent.probes;
-    record_probes(frame, PASS_PROBE_PLACE, c, probes);
-    pass_begin(frame, PASS_PROBE_LINK);
-    pass_dispatch(frame, PASS_PROBE_LINK, &(struct sdfgi_pass_args){ .cascade = c },
-                  (3 * probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1, 1);
-    gi->passes[PASS_PROBE_LINK].work += probes;
-    pass_end(frame);
+    record_probes(frame, PASS_PROBE_PLACE, c, frame->gi->resources->extent.probes);
 }
 
 void probe_reset_record(struct frame *frame, uint32_t c)

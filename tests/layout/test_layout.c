@@ -18,7 +18,6 @@
 #include "light_mark.comp.h"
 #include "occlusion_trace.comp.h"
 #include "probe_blend.comp.h"
-#include "probe_link.comp.h"
 #include "probe_place.comp.h"
 #include "probe_seed.comp.h"
 #include "probe_trace.comp.h"
@@ -56,7 +55,6 @@ static const struct {
     MODULE(light_mark_comp),
     MODULE(occlusion_trace_comp),
     MODULE(probe_blend_comp),
-    MODULE(probe_link_comp),
     MODULE(probe_place_comp),
     MODULE(probe_seed_comp),
     MODULE(probe_trace_comp),

@@ -6,7 +6,7 @@
 #define P(id) (UINT64_C(1) << PASS_##id)
 
 static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_LIST),
-                      generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
+                      generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | listing,
                       seeding = P(PROBE_SEED) | P(RAY_FORGET),
                       exact = P(DISTANCE_PREPARE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
                       flood = P(FLOOD_SEED) | P(FLOOD_STEP) | P(FLOOD_DISTANCE),
@@ -148,7 +148,7 @@ static void a_step_runs_in_parts(void **state)
     const uint64_t runs[] = {
         publishing | P(REGION_CLEAR) | P(VOXELIZE) | P(VOXEL_RESOLVE),
         publishing | exact,
-        publishing | seeding | P(PROBE_PLACE) | P(PROBE_LINK) | listing | P(CELL_MASK) | P(LIGHT_DIRECT),
+        publishing | seeding | P(PROBE_PLACE) | listing | P(CELL_MASK) | P(LIGHT_DIRECT),
         publishing | P(LIGHT_DIRECT),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
