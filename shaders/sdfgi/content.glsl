@@ -20,40 +20,23 @@ uint content_slot(uint cascade, uint box)
     return 6u * (cascade * 2u * uint(SDFGI_CONTENT_STRIPS) + box);
 }
 
-/* ---- What a workgroup finds, so that few atomics meet in one place: thousands of cells raising the same six words took longer
- * than everything else that region_clear does. */
-
-shared uint content_found[6 * SDFGI_CONTENT_STRIPS];
-
-/* Called by all threads, before any has found something. */
-void content_begin()
+/* Testing first spares contended atomics. */
+void content_raise(uint slot, int value)
 {
-    for (uint i = gl_LocalInvocationIndex; i < 6u * uint(SDFGI_CONTENT_STRIPS); i += gl_WorkGroupSize.x)
-        content_found[i] = 0u;
-    barrier();
+    if (sdfgi_content[slot] < uint(value))
+        atomicMax(sdfgi_content[slot], uint(value));
 }
 
-/* Adds the cells [low, high), all of one strip; strips lie one behind the other along an axis. */
-void content_find(int axis, ivec3 low, ivec3 high)
+/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. */
+void content_add(uint cascade, uint what, int axis, ivec3 low, ivec3 high)
 {
     const int strip = clamp(low[axis] * SDFGI_CONTENT_STRIPS >> int(sdfgi_frame.size.y), 0, SDFGI_CONTENT_STRIPS - 1);
+    const uint slot = content_slot(cascade, what + uint(strip));
     for (int i = 0; i < 3; i++) {
-        atomicMax(content_found[6 * strip + i], uint(SDFGI_CONTENT_ORIGIN - low[i]));
-        atomicMax(content_found[6 * strip + 3 + i], uint(SDFGI_CONTENT_ORIGIN + high[i]));
+        content_raise(slot + uint(i), SDFGI_CONTENT_ORIGIN - low[i]);
+        content_raise(slot + 3u + uint(i), SDFGI_CONTENT_ORIGIN + high[i]);
     }
 }
-
-/* Called by all threads: adds what they found to what went or came. Testing first spares atomics once more. */
-void content_end(uint cascade, uint what)
-{
-    barrier();
-    const uint slot = content_slot(cascade, what);
-    for (uint i = gl_LocalInvocationIndex; i < 6u * uint(SDFGI_CONTENT_STRIPS); i += gl_WorkGroupSize.x)
-        if (content_found[i] > sdfgi_content[slot + i])
-            atomicMax(sdfgi_content[slot + i], content_found[i]);
-}
-
-/* ---- What all of them found */
 
 bool content_any(uint cascade, uint box)
 {

@@ -122,10 +122,13 @@ uvec2 resolve_emission(uint block, uvec3 block_texel)
     return uvec2(rgbe_encode(mean * resolve_filled(covered, bits, facing) * largest), packed);
 }
 
-shared uint voxels; /* samples in the workgroup's blocks */
-
-void resolve(ivec3 cell)
+void main()
 {
+    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / 2u;
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= size.x * size.y * size.z)
+        return;
+    const ivec3 cell = args.low.xyz + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
     const uvec3 block_texel = cell_texel(args.cascade, cell) / 2u;
     const uint block = block_index(args.cascade, cell);
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
@@ -137,23 +140,7 @@ void resolve(ivec3 cell)
     sdfgi_normals[out_index] = resolve_normals(block);
     if (count == 0u)
         return;
-    atomicAdd(voxels, count);
+    counter_add(SDFGI_COUNTER_VOXELS, count);
     if (args.before.w >= 0)
-        content_find(args.before.w, cell, cell + 2);
-}
-
-void main()
-{
-    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / 2u;
-    const uint i = gl_GlobalInvocationID.x;
-    if (gl_LocalInvocationIndex == 0u)
-        voxels = 0u;
-    content_begin();
-    if (i < size.x * size.y * size.z)
-        resolve(args.low.xyz + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
-    if (args.before.w >= 0)
-        content_end(args.cascade, CONTENT_CAME);
-    barrier();
-    if (gl_LocalInvocationIndex == 0u && voxels > 0u)
-        counter_add(SDFGI_COUNTER_VOXELS, voxels);
+        content_add(args.cascade, CONTENT_CAME, args.before.w, cell, cell + 2);
 }
