@@ -38,7 +38,7 @@ static struct sdfgi_stale_args stale_args(uint32_t resolution, uint32_t c, const
     return args;
 }
 
-/* A workgroup per 32 columns of cells, and one per column of blocks to look at. */
+/* Workgroups for all columns of cells, and one per column of blocks to look at. */
 static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *args, uint32_t count)
 {
     const uint32_t n = frame->gi->settings.resolution;
@@ -46,7 +46,7 @@ static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *a
     gpu_use(&frame->rec, GPU_USAGE_COMPUTE, pass_reads(PASS_DISTANCE_PREPARE),
             pass_writes(PASS_DISTANCE_PREPARE));
     gpu_push(&frame->rec, frame->gi->pipelines.layout, sizeof *args, args);
-    gpu_dispatch(&frame->rec, n * n / 32 + n / 4 * count, 1, 1);
+    gpu_dispatch(&frame->rec, n * n / SDFGI_GROUP_COLUMNS + n / 4 * count, 1, 1);
     frame->gi->passes[PASS_DISTANCE_PREPARE].dispatches++;
     count_cells(frame, PASS_DISTANCE_PREPARE, n / 4 + count);
     pass_end(frame);

@@ -8,7 +8,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_DISTANCE
 
-const uint BATCH = 196u; /* few, for many workgroups at once; a village's layers in one go */
+const uint BATCH = 260u; /* few, for many workgroups at once; a village's layers in one go */
 
 #include "lines.glsl"
 
@@ -79,33 +79,19 @@ void put_planes(uint count)
     barrier();
 }
 
-uint encoded(uint y, int least)
+uint encoded(uint y, uint own)
 {
-    return least == WORST ? 0xffffu : distance_encode(uint(8 * (least + line_offset(y)) + line_weight()) + 32u);
+    return line_candidates() == 0u ? 0xffffu : distance_encode(uint(8 * line_result(y, own) + line_weight()) + 32u);
 }
 
-/* Two cells share a word: neighbours along x put theirs together where the sums were. */
-void gather_pairs()
-{
-    const uint own = line_own(), count = line_cells_per_slot();
-    [[unroll]] for (uint odd = 0u; odd < 2u; odd++) {
-        barrier();
-        [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) {
-            const uint y = line_slot() * count + k, at = 4u * y + (own >> 1u);
-            if (k < count && (own & 1u) == odd)
-                line_sums[at] = (odd == 0u ? 0 : line_sums[at]) | int(encoded(y, line_least[k]) << 16u * odd);
-        }
-    }
-    barrier();
-}
-
+/* Two cells share a word. */
 void store_lines(uvec2 stale)
 {
-    gather_pairs();
     for (uint i = gl_LocalInvocationIndex; i < 4u * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
-        const uint y = i >> 2u, x = 2u * (i & 1u), z = i >> 1u & 1u;
+        const uint y = i >> 2u, x = 2u * (i & 1u), z = i >> 1u & 1u, own = 4u * z + x;
         if (block_is_stale(stale, y))
-            sdfgi_distances[cell_index(args.cascade, ivec3(first_x() + x, y, first_z() + z)) >> 1u] = uint(line_sums[i]);
+            sdfgi_distances[cell_index(args.cascade, ivec3(first_x() + x, y, first_z() + z)) >> 1u] =
+                encoded(y, own) | encoded(y, own + 1u) << 16u;
     }
 }
 
@@ -123,5 +109,6 @@ void main()
         line_search(min(BATCH, count - first));
         barrier();
     }
+    line_publish();
     store_lines(stale);
 }

@@ -107,7 +107,7 @@ void put_rows(uint count)
         /* Nothing here asks before it reads: all three runs are waited for once. */
         const uint place = line_batch[at], runs = runs_of(place), bits = row_of_run(place, run);
         const int below = way_below(place, runs, run), above = way_above(place, runs, run);
-        [[unroll]] for (uint own = 0u; own < LINES; own++) {
+        for (uint own = 0u; own < LINES; own++) {
             const int steps = steps_along_row(bits, own, below, above);
             line_sums[own * BATCH + at] = line_sum(place, steps * (steps + 1) / 2);
         }
@@ -115,15 +115,13 @@ void put_rows(uint count)
     barrier();
 }
 
+/* In the order in which the words lie: four cells along x, two along z, then along x again. */
 void store_lines()
 {
-    const uint count = line_cells_per_slot(), x = first_x() + line_own();
-    if (!line_slot_wanted() || x < args.step || x >= args.source)
-        return;
-    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) {
-        const uint z = line_slot() * count + k;
-        if (k < count)
-            sdfgi_scratch[plane_slot(layer(), x - args.step, z)] = uint(line_least[k] + line_offset(z));
+    for (uint i = gl_LocalInvocationIndex; i < LINES * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
+        const uint own = i & 3u | i >> 1u & 4u, z = i >> 2u & 1u | i >> 4u << 1u, x = first_x() + own;
+        if (line_slot_wanted(z / line_cells_per_slot()) && x >= args.step && x < args.source)
+            sdfgi_scratch[plane_slot(layer(), x - args.step, z)] = uint(line_result(z, own));
     }
 }
 
@@ -145,5 +143,6 @@ void main()
         line_search(min(BATCH, count - first));
         barrier();
     }
+    line_publish();
     store_lines();
 }

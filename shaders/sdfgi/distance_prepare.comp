@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What the exact search has to know before it begins (occupancy.glsl): which rows of sub-voxels hold bits, and which blocks of 4^3
- * cells to search. Neither needs the other, so one dispatch finds both: workgroups share 32 columns along z, or a column of
+ * cells to search. Neither needs the other, so one dispatch finds both: workgroups share some columns along z, or a column of
  * blocks along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,9 +13,9 @@ layout(push_constant) uniform sdfgi_push { sdfgi_stale_args args; };
 
 /* ---- Rows: a thread reads eight cells that lie side by side */
 
-const uint COLUMNS = 32u;
+const uint COLUMNS = SDFGI_GROUP_COLUMNS;
 
-shared uint runs[16u * COLUMNS]; /* as in the scratch buffer; all of it where a row has 32 runs */
+shared uint runs[16u * COLUMNS]; /* as in the scratch buffer; all of it is used where a row has 32 runs */
 
 uint runs_per_row()
 {
@@ -53,7 +53,7 @@ void note_rows(uint rows, uint column, uint run)
 void find_rows(uint group)
 {
     const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(), groups = sdfgi_frame.size.x / COLUMNS;
-    const uint y = group / groups, first_z = COLUMNS * (group % groups), words = 4u * per_row;
+    const uint y = group / groups, first_z = COLUMNS * (group % groups), words = COLUMNS * per_row / 8u; /* of a layer */
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         runs[i] = 0u;
     barrier();
@@ -84,10 +84,13 @@ void fetch_content()
     if (lane == 0u)
         content_count = 0u;
     barrier();
-    if (lane < BOXES && content_any(args.cascade, lane)) {
-        const uint i = atomicAdd(content_count, 1u);
-        content_lows[i] = content_low(args.cascade, lane);
-        content_highs[i] = content_high(args.cascade, lane);
+    if (lane < BOXES) {
+        const ivec3 low = content_low(args.cascade, lane), high = content_high(args.cascade, lane);
+        if (content_any(args.cascade, lane)) {
+            const uint i = atomicAdd(content_count, 1u);
+            content_lows[i] = low;
+            content_highs[i] = high;
+        }
     }
     barrier();
 }
@@ -149,7 +152,7 @@ void find_blocks(uint group)
     barrier();
     if (lane < 2u)
         sdfgi_scratch[stale_slot(x, z) + lane] = stale[lane];
-    if (lane == 0u)
+    if (lane == 0u && (stale[0] | stale[1]) != 0u)
         counter_add(SDFGI_COUNTER_DISTANCE_CELLS, 64u * uint(bitCount(stale[0]) + bitCount(stale[1])));
 }
 

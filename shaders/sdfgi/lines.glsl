@@ -8,8 +8,8 @@
  * and of the one before its first: 10 to 12 candidates in the mean where a village scrolls, 23 to 30 in the slowest of 32 threads.
  * With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is line_weight t + what is brought along. A way
  * is a candidate's step less eight times the cell, so one product per candidate and a constant per cell tell all sums.
- * Candidates come in batches. Before it includes this, a pass defines BATCH, 4 more than a multiple of 32: threads that share
- * a line, and those of lines beside it, then find candidates side by side in banks of their own.
+ * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads
+ * that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
  * Shared memory: 36 bytes per candidate of a batch, and 1.3 KiB. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
@@ -63,12 +63,6 @@ int line_sum(uint place, int brought)
 {
     const int way = line_step(place);
     return line_weight() * (way * way >> 3) + brought;
-}
-
-/* What to add to line_least for the sum at a cell. */
-int line_offset(uint cell)
-{
-    return 8 * line_weight() * int(cell * cell);
 }
 
 /* ---- Places: before candidates are put into batches */
@@ -144,9 +138,9 @@ void line_put_batch(uint first)
 
 /* ---- Search */
 
-bool line_slot_wanted()
+bool line_slot_wanted(uint slot)
 {
-    return (line_wanted >> line_slot() & 1u) != 0u;
+    return (line_wanted >> slot & 1u) != 0u;
 }
 
 /* The last cell of every slot looks at all candidates; the threads of its line take turns. Of several best the first. */
@@ -192,11 +186,28 @@ void line_search_eight(uint first)
 void line_search(uint count)
 {
     line_search_ends(count);
-    if (!line_slot_wanted())
+    if (!line_slot_wanted(line_slot()))
         return;
     line_search_eight(0u);
     if (line_cells_per_slot() > 8u)
         line_search_eight(8u);
+}
+
+/* Once all batches are searched: results of all threads go where the sums were. Compilers may unroll what follows here less often
+ * than loops over registers: code that comes from memory for each pass of each frame costs more than it does. */
+void line_publish()
+{
+    const uint first = line_slot() * line_cells_per_slot();
+    barrier();
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
+        if (k < line_cells_per_slot())
+            line_sums[(first + k) * LINES + line_own()] = line_least[k];
+    barrier();
+}
+
+int line_result(uint cell, uint own)
+{
+    return line_sums[cell * LINES + own] + 8 * line_weight() * int(cell * cell);
 }
 
 #endif

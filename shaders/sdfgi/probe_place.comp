@@ -132,12 +132,21 @@ uint place(ivec3 probe, uint i)
     return (blocked >> i & 1u) != 0u ? roomiest_place(corner) : 0u;
 }
 
-/* Whether a probe that stands at `state` sees the next one. */
-bool sees(ivec3 probe, uint state, uint next, ivec3 step)
+/* Which of the next probes a probe that stands at `state` sees. Called by the whole workgroup. */
+uint find_links(ivec3 probe, uint state)
 {
-    return !probe_is_dead(state) && !probe_is_dead(next) &&
-           trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING, probe_position(ivec3(0), state),
-                              probe_position(step, next));
+    uint next = SDFGI_PROBE_DEAD;
+    [[dont_unroll]] for (uint i = 1u; i < 4u; i++) {
+        const uint other = place(probe, i);
+        next = gl_LocalInvocationIndex + 1u == i ? other : next;
+    }
+    const ivec3 step = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u);
+    if (!probe_is_dead(state) && !probe_is_dead(next) &&
+        trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING, probe_position(ivec3(0), state),
+                           probe_position(step, next)))
+        atomicOr(links, 1u << SDFGI_PROBE_LINK_SHIFT + gl_LocalInvocationIndex);
+    barrier();
+    return links;
 }
 
 void main()
@@ -149,12 +158,9 @@ void main()
     if (changed_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
         find_blocked(probe);
         state = place(probe, 0u);
-        const uint nexts[3] = { place(probe, 1u), place(probe, 2u), place(probe, 3u) };
-        if (lane < 3u && sees(probe, state, nexts[lane], next_probe(ivec3(0), lane + 1u)))
-            atomicOr(links, 1u << SDFGI_PROBE_LINK_SHIFT + lane);
-        barrier();
+        const uint seen = find_links(probe, state);
         const bool is_new = entered(corner) || ((state ^ before) & PLACE_BITS) != 0u;
-        state |= links | (is_new ? SDFGI_PROBE_NEW : 0u);
+        state |= seen | (is_new ? SDFGI_PROBE_NEW : 0u);
     }
     if (lane > 0u)
         return;

@@ -22,9 +22,12 @@ void clear_accumulators(ivec3 cell)
 void note_bits(ivec3 first, uint index)
 {
     const ivec3 low = args.before.xyz, was = low + (first - low & space_resolution() - 1);
-    for (uint k = 0u; k < 4u; k++)
-        if (sdfgi_bits[index + k] != uvec2(0u))
-            content_add(args.cascade, CONTENT_WENT, args.before.w, was + ivec3(k, 0, 0), was + ivec3(k + 1u, 1, 1));
+    int held = 0;
+    for (int k = 0; k < 4; k++)
+        held |= int(sdfgi_bits[index + uint(k)] != uvec2(0u)) << k;
+    if (held != 0)
+        content_add(args.cascade, CONTENT_WENT, args.before.w, was + ivec3(findLSB(held), 0, 0),
+                    was + ivec3(findMSB(held) + 1, 1, 1));
 }
 
 void main()
