@@ -43,14 +43,6 @@ bool block_is_stale(uvec2 stale, uint y)
     return (stale[y >> 7u] >> (y >> 2u & 31u) & 1u) != 0u;
 }
 
-/* A bit per layer of sub-voxels of a layer of cells. */
-uint four_layers(uint y)
-{
-    const uint slot = layers_slot(4u * y);
-    return sdfgi_scratch[slot] | sdfgi_scratch[slot + 1u] << 1u | sdfgi_scratch[slot + 2u] << 2u |
-           sdfgi_scratch[slot + 3u] << 3u;
-}
-
 void mark_all(uvec2 stale)
 {
     for (uint y = gl_LocalInvocationIndex; y < sdfgi_frame.size.x; y += SDFGI_GROUP_LINES) {

@@ -35,10 +35,9 @@ uint runs_of(uint place)
     return runs_of_row(layer(), place);
 }
 
-bool column_is_stale(uint x, uint block_z)
+bool layer_holds_any()
 {
-    const uint slot = stale_slot(x >> 2u, block_z);
-    return x >= args.step && x < args.source && (sdfgi_scratch[slot] | sdfgi_scratch[slot + 1u]) != 0u;
+    return (four_layers(layer() >> 2u) >> (layer() & 3u) & 1u) != 0u;
 }
 
 void mark_rows()
@@ -51,12 +50,15 @@ void mark_rows()
     }
 }
 
+/* Slots with cells of stale blocks. A run has two columns of blocks, each two words: a thread looks at one of the four. */
 void mark_wanted()
 {
-    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x >> 2u; z += SDFGI_GROUP_LINES)
-        if (column_is_stale(first_x(), z) || column_is_stale(first_x() + 4u, z))
-            for (uint i = 0u; i < 4u; i++)
-                atomicOr(line_wanted, 1u << (4u * z + i) / line_cells_per_slot());
+    for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
+        const uint x = first_x() + 2u * (i & 2u), z = i & ~3u, first = z / line_cells_per_slot();
+        const uint slots = (2u << (z + 3u) / line_cells_per_slot()) - (1u << first);
+        if (x >= args.step && x < args.source && sdfgi_scratch[stale_slot(x >> 2u, z >> 2u) + (i & 1u)] != 0u)
+            atomicOr(line_wanted, slots);
+    }
 }
 
 /* ---- Along x: rows are named by their place along z */
@@ -127,13 +129,13 @@ void store_lines()
 
 void main()
 {
+    if (!layer_holds_any())
+        return;
     line_begin();
-    mark_rows();
     mark_wanted();
+    mark_rows();
     barrier();
-    if (gl_LocalInvocationIndex == 0u && gl_WorkGroupID.x == 0u)
-        sdfgi_scratch[layers_slot(layer())] = line_any;
-    if (line_any == 0u || line_wanted == 0u)
+    if (line_wanted == 0u)
         return;
     line_count();
     const uint count = line_candidates();

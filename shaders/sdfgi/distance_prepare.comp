@@ -16,6 +16,7 @@ layout(push_constant) uniform sdfgi_push { sdfgi_stale_args args; };
 const uint COLUMNS = SDFGI_GROUP_COLUMNS;
 
 shared uint runs[16u * COLUMNS]; /* as in the scratch buffer; all of it is used where a row has 32 runs */
+shared uint layers;              /* a bit per layer */
 
 uint runs_per_row()
 {
@@ -42,12 +43,14 @@ uint rows_of_run(uint y, uint z, uint run)
 
 void note_rows(uint rows, uint column, uint run)
 {
-    [[unroll]] for (uint row = 0u; row < 16u; row++)
+    for (uint row = 0u; row < 16u; row++)
         if ((rows >> row & 1u) != 0u) {
             const uint place = (row >> 2u) * 4u * COLUMNS + 4u * column + (row & 3u);
             const uint bit = place * runs_per_row() + run;
             atomicOr(runs[bit >> 5u], 1u << (bit & 31u));
         }
+    if (rows != 0u)
+        atomicOr(layers, any_of_fours(rows));
 }
 
 void find_rows(uint group)
@@ -56,6 +59,8 @@ void find_rows(uint group)
     const uint y = group / groups, first_z = COLUMNS * (group % groups), words = COLUMNS * per_row / 8u; /* of a layer */
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         runs[i] = 0u;
+    if (lane == 0u)
+        layers = 0u;
     barrier();
     for (uint i = lane; i < COLUMNS * per_row; i += SDFGI_GROUP_LINES) {
         const uint column = i / per_row, run = i % per_row;
@@ -64,6 +69,9 @@ void find_rows(uint group)
     barrier();
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         sdfgi_scratch[runs_slot(runs_bit(4u * y + i / words, 4u * first_z)) + i % words] = runs[i];
+    if (lane == 0u)
+        sdfgi_scratch[layers_slot(y, first_z / COLUMNS)] =
+            (layers & 1u) | (layers >> 3u & 2u) | (layers >> 6u & 4u) | (layers >> 9u & 8u);
 }
 
 /* ---- Blocks: those that touch a changed box, and those with a cell whose nearest sub-voxel may have gone, or may be one that

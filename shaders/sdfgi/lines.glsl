@@ -25,7 +25,6 @@ const int WORST = 0x7fffffff;
 
 shared uint line_places[32];            /* a bit per place along the line that has candidates */
 shared uint line_ranks[33];             /* candidates before each 32 places, and all */
-shared uint line_any;                   /* not 0 if there is a candidate */
 shared uint line_wanted;                /* a bit per slot that has to answer */
 shared uint line_batch[BATCH];          /* places of a batch of candidates */
 shared int line_sums[LINES * BATCH];    /* of each line: what its candidates amount to for cell 0 */
@@ -71,10 +70,8 @@ void line_begin()
 {
     if (gl_LocalInvocationIndex < 32u)
         line_places[gl_LocalInvocationIndex] = 0u;
-    if (gl_LocalInvocationIndex == 0u) {
+    if (gl_LocalInvocationIndex == 0u)
         line_wanted = 0u;
-        line_any = 0u;
-    }
     [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
         line_least[k] = WORST;
     barrier();
@@ -83,10 +80,8 @@ void line_begin()
 /* `four` has a bit per sub-voxel along this cell of the line. */
 void line_mark(uint cell, uint four)
 {
-    if (four == 0u)
-        return;
-    atomicOr(line_places[cell >> 3u], four << 4u * (cell & 7u));
-    line_any = 1u;
+    if (four != 0u)
+        atomicOr(line_places[cell >> 3u], four << 4u * (cell & 7u));
 }
 
 uint line_words()
@@ -107,11 +102,6 @@ void line_count()
     barrier();
 }
 
-bool line_holds(uint place)
-{
-    return (line_places[place >> 5u] >> (place & 31u) & 1u) != 0u;
-}
-
 /* Candidates before that of a place. */
 uint line_rank(uint place)
 {
@@ -126,10 +116,15 @@ uint line_candidates()
 /* Fills line_batch with the places of the candidates numbered from `first`. */
 void line_put_batch(uint first)
 {
-    for (uint place = gl_LocalInvocationIndex; place < 4u * sdfgi_frame.size.x; place += SDFGI_GROUP_LINES) {
-        const uint at = line_rank(place) - first;
-        if (line_holds(place) && at < BATCH)
-            line_batch[at] = place;
+    for (uint cell = gl_LocalInvocationIndex; cell < sdfgi_frame.size.x; cell += SDFGI_GROUP_LINES) {
+        const uint four = line_places[cell >> 3u] >> 4u * (cell & 7u) & 15u;
+        uint at = line_rank(4u * cell) - first;
+        for (uint i = 0u; i < 4u; i++)
+            if ((four >> i & 1u) != 0u) {
+                if (at < BATCH)
+                    line_batch[at] = 4u * cell + i;
+                at++;
+            }
     }
     line_ends[gl_LocalInvocationIndex] = WORST;
     line_best[gl_LocalInvocationIndex] = BATCH;

@@ -2,7 +2,7 @@
  * What the exact distance search keeps in the scratch buffer, N cells a side, in words:
  *   planes    2 N^3   distance within a layer of sub-voxels, for half of the layers of cells along x at a time
  *   runs      N^3/16  per row of sub-voxels along x a bit per eight cells in which it holds any
- *   layers    4 N     per layer of sub-voxels along y whether it holds a bit
+ *   layers    N^2/32  per layer of cells along y and 32 columns a bit per layer of sub-voxels that holds any
  *   stale     N^2/8   a bit per block of 4^3 cells to search, along y: two words each
  * Coordinates are local, and lengths odd numbers of half a sub-voxel, so that all arithmetic is in integers and no order of
  * work changes a result. */
@@ -45,14 +45,28 @@ uint runs_of_row(uint layer, uint place)
     return bitfieldExtract(sdfgi_scratch[runs_slot(bit)], int(bit & 31u), int(sdfgi_frame.size.x >> RUN_BITS));
 }
 
-uint layers_slot(uint layer)
+uint layer_parts()
 {
-    return runs_slot(runs_bit(4u * sdfgi_frame.size.x, 0u)) + layer;
+    return sdfgi_frame.size.x / SDFGI_GROUP_COLUMNS;
+}
+
+uint layers_slot(uint y, uint part)
+{
+    return runs_slot(runs_bit(4u * sdfgi_frame.size.x, 0u)) + y * layer_parts() + part;
+}
+
+/* A bit per layer of sub-voxels of a layer of cells. */
+uint four_layers(uint y)
+{
+    uint four = 0u;
+    for (uint part = 0u; part < layer_parts(); part++)
+        four |= sdfgi_scratch[layers_slot(y, part)];
+    return four;
 }
 
 uint stale_slot(uint block_x, uint block_z)
 {
-    return layers_slot(4u * sdfgi_frame.size.x) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
+    return layers_slot(sdfgi_frame.size.x, 0u) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
 }
 
 /* ---- Squared lengths: 16 per square of half a sub-voxel, so that heights scaled by 1/2 or 3/4 stay whole numbers */

@@ -51,7 +51,7 @@
 #define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
 #define SDFGI_GROUP_LINES 128      /* threads that share eight lines of cells, or a layer */
 #define SDFGI_LINES 8              /* lines of a workgroup */
-#define SDFGI_GROUP_COLUMNS 8      /* columns of cells of a workgroup, with a thread for each eight cells of 128 along x */
+#define SDFGI_GROUP_COLUMNS 32     /* columns of cells that they share */
 #define SDFGI_GROUP_TRIANGLE 64    /* threads that share as many triangles */
 #define SDFGI_GROUP_PROBE 32       /* threads that share one probe */
 #define SDFGI_GROUP_OCCLUSION 64   /* threads that share one probe's 256 depths */
