@@ -16,10 +16,21 @@ layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
 const uint PER_THREAD = (BATCH * LINES - 1u) / SDFGI_GROUP_LINES + 1u;
 
-/* In eighths of distance_y_weight's unit; what planes store counts 16 times. */
+/* What squares along y count and what planes store, 16, have in common. */
+int common_weight()
+{
+    return distance_y_weight() == 9u ? 1 : int(distance_y_weight());
+}
+
 int line_weight()
 {
-    return int(distance_y_weight());
+    return int(distance_y_weight()) / common_weight();
+}
+
+/* Sums are below (line_weight + 2 * 16 / common_weight) / 8 (8 N)^2: where N is 256, 23 bits, but 25 where 9 and 16 share nothing. */
+uint line_number_bits()
+{
+    return common_weight() == 1 && sdfgi_frame.size.x > 128u ? 7u : 9u;
 }
 
 uint first_x()
@@ -61,7 +72,7 @@ void put_planes(uint count)
         const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
         const uint place = line_batch[i / LINES];
         const uint slot = plane_slot(place, first_x() - args.step, first_z()) + (i & (LINES - 1u));
-        sums[k] = line_sum(place, 16 * int(sdfgi_scratch[slot]));
+        sums[k] = line_sum(place, 16 / common_weight() * int(sdfgi_scratch[slot]));
     }
     [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
         const uint i = gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES;
@@ -73,7 +84,7 @@ void put_planes(uint count)
 
 uint encoded(uint y, uint own)
 {
-    return line_candidates() == 0u ? 0xffffu : distance_encode(uint(8 * line_result(y, own) + line_weight()) + 32u);
+    return line_candidates() == 0u ? 0xffffu : distance_encode(uint(8 * common_weight() * line_result(y, own)) + distance_y_weight() + 32u);
 }
 
 /* Two cells share a word. */
@@ -95,10 +106,10 @@ void main()
     line_begin();
     mark_all(stale);
     const uint count = line_candidates();
-    for (uint first = 0u; first < count; first += BATCH) {
+    for (uint first = 0u; first < count; first += line_room()) {
         line_put_batch(first);
-        put_planes(min(BATCH, count - first));
-        line_search(min(BATCH, count - first));
+        put_planes(min(line_room(), count - first));
+        line_search(min(line_room(), count - first));
         barrier();
     }
     line_publish();

@@ -19,6 +19,12 @@ int line_weight()
     return 1;
 }
 
+/* Sums are below 2 / 8 (8 N)^2: 20 bits where N is 256. */
+uint line_number_bits()
+{
+    return 9u;
+}
+
 uint layer()
 {
     return gl_WorkGroupID.y;
@@ -139,10 +145,10 @@ void main()
         return;
     line_count();
     const uint count = line_candidates();
-    for (uint first = 0u; first < count; first += BATCH) {
+    for (uint first = 0u; first < count; first += line_room()) {
         line_put_batch(first);
-        put_rows(min(BATCH, count - first));
-        line_search(min(BATCH, count - first));
+        put_rows(min(line_room(), count - first));
+        line_search(min(line_room(), count - first));
         barrier();
     }
     line_publish();

@@ -10,7 +10,7 @@
  * is a candidate's step less eight times the cell, so one product per candidate and a constant per cell tell all sums.
  * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads
  * that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
- * Shared memory: 36 bytes per candidate of a batch, and 1.3 KiB. */
+ * Shared memory: 36 bytes per candidate of a batch, and 800 besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
 
@@ -22,19 +22,21 @@ const uint LINES = SDFGI_LINES;
 const uint SLOTS = SDFGI_GROUP_LINES / LINES;
 const uint MOST_CELLS = 256u / SLOTS; /* of a slot */
 const int WORST = 0x7fffffff;
+const uint NOT_YET = 0xffffffffu;
 
 shared uint line_places[32];            /* a bit per place along the line that has candidates */
 shared uint line_ranks[33];             /* candidates before each 32 places, and all */
 shared uint line_wanted;                /* a bit per slot that has to answer */
 shared uint line_batch[BATCH];          /* places of a batch of candidates */
 shared int line_sums[LINES * BATCH];    /* of each line: what its candidates amount to for cell 0 */
-shared int line_ends[SDFGI_GROUP_LINES]; /* sums for the last cell of each slot */
-shared uint line_best[SDFGI_GROUP_LINES]; /* which candidate has it */
+shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the candidate's number */
 
 int line_least[MOST_CELLS]; /* for the cells of this thread */
 
 /* How much squares along this line count. */
 int line_weight();
+/* Bits that sums leave of 32 for the number of a candidate in its batch. */
+uint line_number_bits();
 
 uint line_own()
 {
@@ -113,6 +115,12 @@ uint line_candidates()
     return line_ranks[line_words()];
 }
 
+/* Candidates in a batch at most. */
+uint line_room()
+{
+    return min(BATCH, 1u << line_number_bits());
+}
+
 /* Fills line_batch with the places of the candidates numbered from `first`. */
 void line_put_batch(uint first)
 {
@@ -121,13 +129,12 @@ void line_put_batch(uint first)
         uint at = line_rank(4u * cell) - first;
         for (uint i = 0u; i < 4u; i++)
             if ((four >> i & 1u) != 0u) {
-                if (at < BATCH)
+                if (at < line_room())
                     line_batch[at] = 4u * cell + i;
                 at++;
             }
     }
-    line_ends[gl_LocalInvocationIndex] = WORST;
-    line_best[gl_LocalInvocationIndex] = BATCH;
+    line_ends[gl_LocalInvocationIndex] = NOT_YET;
     barrier();
 }
 
@@ -138,38 +145,47 @@ bool line_slot_wanted(uint slot)
     return (line_wanted >> slot & 1u) != 0u;
 }
 
-/* The last cell of every slot looks at all candidates; the threads of its line take turns. Of several best the first. */
+/* What the sum at the last cell of a slot is more than at that of the slot before, a candidate's way aside. */
+uint line_growth(uint slot)
+{
+    const int cells = int(line_cells_per_slot());
+    return uint(8 * line_weight() * cells * (2 * (int(slot) * cells - 1) + cells));
+}
+
+/* The last cell of every slot looks at all candidates; the threads of its line take turns. The number of a candidate lies below
+ * its sum, so that of several best the first is found. */
 void line_search_ends(uint count)
 {
-    int least[SLOTS];
-    uint best[SLOTS];
+    uint least[SLOTS];
     [[unroll]] for (uint s = 0u; s < SLOTS; s++)
-        least[s] = WORST;
+        least[s] = NOT_YET;
+    const uint shift = line_number_bits();
     const int stride = 2 * line_weight() * int(line_cells_per_slot());
     for (uint i = line_slot(); i < count; i += SLOTS) {
-        const int way = line_step(line_batch[i]), next = stride * way;
-        int sum = line_sums[line_own() * BATCH + i] + 2 * line_weight() * way;
+        const int way = line_step(line_batch[i]);
+        uint sum = uint(line_sums[line_own() * BATCH + i] + line_weight() * (2 * way + 8)) << shift | i;
         [[unroll]] for (uint s = 0u; s < SLOTS; s++) {
-            sum -= next;
-            best[s] = sum < least[s] ? i : best[s];
+            sum += (line_growth(s) - uint(stride * way)) << shift;
             least[s] = min(least[s], sum);
         }
     }
     [[unroll]] for (uint s = 0u; s < SLOTS; s++)
         atomicMin(line_ends[s * LINES + line_own()], least[s]);
     barrier();
-    [[unroll]] for (uint s = 0u; s < SLOTS; s++)
-        if (least[s] == line_ends[s * LINES + line_own()] && least[s] != WORST)
-            atomicMin(line_best[s * LINES + line_own()], best[s]);
-    barrier();
+}
+
+/* Which candidate is best for the last cell of a slot. */
+uint line_best(uint slot)
+{
+    return line_ends[slot * LINES + line_own()] & (1u << line_number_bits()) - 1u;
 }
 
 /* Eight cells from the slot's cell `first` on look between the best of the slot's ends. */
 void line_search_eight(uint first)
 {
-    const uint own = line_own(), slot = line_slot(), end = line_best[slot * LINES + own];
+    const uint own = line_own(), slot = line_slot(), end = line_best(slot);
     const int cell = int(slot * line_cells_per_slot() + first);
-    for (uint i = slot > 0u ? line_best[(slot - 1u) * LINES + own] : 0u; i <= end; i++) {
+    for (uint i = slot > 0u ? line_best(slot - 1u) : 0u; i <= end; i++) {
         const int way = 2 * line_weight() * line_step(line_batch[i]);
         int sum = line_sums[own * BATCH + i] - cell * way;
         [[unroll]] for (uint k = 0u; k < 8u; k++, sum -= way)
