@@ -80,10 +80,22 @@ void find_rows(uint group)
 
 const uint BOXES = uint(2 * SDFGI_CONTENT_STRIPS);
 const uint BLOCKS = uint(SDFGI_GROUP_LINES / 4);
+const int FAR = 2 * SDFGI_CONTENT_ORIGIN; /* cells: beyond all boxes */
 
-shared ivec3 content_lows[BOXES], content_highs[BOXES];
+shared ivec3 content_lows[BOXES + 2u], content_highs[BOXES + 2u]; /* the last two: around all that went, and all that came */
 shared uint content_count;
 shared uint stale[2];
+
+void content_keep(ivec3 low, ivec3 high, uint all)
+{
+    const uint i = atomicAdd(content_count, 1u);
+    content_lows[i] = low;
+    content_highs[i] = high;
+    for (int axis = 0; axis < 3; axis++) {
+        atomicMin(content_lows[all][axis], low[axis]);
+        atomicMax(content_highs[all][axis], high[axis]);
+    }
+}
 
 /* Brings boxes that hold anything to the front, in any order. */
 void fetch_content()
@@ -91,14 +103,15 @@ void fetch_content()
     const uint lane = gl_LocalInvocationIndex;
     if (lane == 0u)
         content_count = 0u;
+    if (lane < 2u) {
+        content_lows[BOXES + lane] = ivec3(FAR);
+        content_highs[BOXES + lane] = ivec3(-FAR);
+    }
     barrier();
     if (lane < BOXES) {
         const ivec3 low = content_low(args.cascade, lane), high = content_high(args.cascade, lane);
-        if (content_any(args.cascade, lane)) {
-            const uint i = atomicAdd(content_count, 1u);
-            content_lows[i] = low;
-            content_highs[i] = high;
-        }
+        if (content_any(args.cascade, lane))
+            content_keep(low, high, BOXES + uint(lane >= CONTENT_CAME));
     }
     barrier();
 }
@@ -132,6 +145,10 @@ bool layer_is_stale(ivec3 first)
         pairs[i] = sdfgi_distances[cell_index(args.cascade, first + ivec3(2 * (i & 1), i >> 1, 0)) >> 1u];
     for (int i = 0; i < 8; i++)
         most = max(most, max(pairs[i] & 0xffffu, pairs[i] >> 16u));
+    /* Two boxes rule out most layers, and with them up to 32. */
+    if (!content_reaches(BOXES, first, first + ivec3(3, 3, 0), most) &&
+        !content_reaches(BOXES + 1u, first, first + ivec3(3, 3, 0), most))
+        return false;
     for (uint box = 0u; box < content_count; box++) {
         if (!content_reaches(box, first, first + ivec3(3, 3, 0), most))
             continue;
