@@ -23,25 +23,31 @@ static int64_t camera_cell(double position, double cell_size)
     return (int64_t)fmin(fmax(cell, -FARTHEST_CELL), FARTHEST_CELL);
 }
 
+/* Probe spacings to step along an axis on which the camera is `off_centre` cells from the middle: up to the
+ * camera; or one, past it, into what lookups have left free on the other side. */
+static int64_t spacings_to_step(int64_t off_centre, double spare)
+{
+    const int64_t spacing = SDFGI_PROBE_SPACING;
+    if (off_centre > -spacing && off_centre < spacing)
+        return ((double)off_centre + spare >= (double)spacing) -
+               ((double)off_centre + 1 + spare <= -(double)spacing);
+    return off_centre / spacing;
+}
+
 bool cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[3])
 {
     const int64_t half = resolution / 2, spacing = SDFGI_PROBE_SPACING;
-    bool moved = false;
+    int64_t off_centre[3];
+    bool moves = !cascade->placed;
     for (int i = 0; i < 3; i++) {
-        const int64_t cell = camera_cell(camera[i], cascade->cell_size[i]);
-        const int64_t off_centre = cell - (cascade->origin[i] + half);
-        if (cascade->placed && off_centre >= -spacing && off_centre <= spacing)
-            continue;
-        /* A first place is the nearest probe. A step leads up to the camera, not past it: lookups have
-         * stopped reading what it takes away (schedule.c), and the way back to the threshold is longer than a
-         * spacing, so that a camera that oscillates around any point causes one step at most. */
-        const int64_t origin = cascade->placed ? cascade->origin[i] + off_centre / spacing * spacing
-                                               : floor_div(cell - half + spacing / 2, spacing) * spacing;
-        moved = moved || !cascade->placed || origin != cascade->origin[i];
-        cascade->origin[i] = origin;
+        off_centre[i] = camera_cell(camera[i], cascade->cell_size[i]) - (cascade->origin[i] + half);
+        moves = moves || off_centre[i] < -spacing || off_centre[i] > spacing;
     }
+    for (int i = 0; moves && i < 3; i++)
+        cascade->origin[i] += spacing * (cascade->placed ? spacings_to_step(off_centre[i], cascade->spare[i])
+                                                         : floor_div(off_centre[i] + spacing / 2, spacing));
     cascade->placed = true;
-    return moved;
+    return moves;
 }
 
 struct box cascade_box(const struct cascade *cascade, uint32_t resolution)

@@ -163,8 +163,9 @@ struct cascade {
     uint32_t relight_next, relight_left; /* entries of its list: next to be lit again, still to be lit again */
     uint64_t listed_at;                  /* frame in which its light cells were listed last */
     struct cell_box window;  /* complete cells, which shaders may read */
-    double share_low[3], share_high[3]; /* the part of it that lookups read, see schedule.c */
+    double share_low[3], share_high[3]; /* the part of it that lookups read, see border.c */
     bool share_moves;        /* it still widens */
+    double spare[3];         /* cells that it leaves free on the side that the camera leaves: the low one if positive */
     struct change change;
     struct box edits[SDFGI_MAX_CHANGES]; /* world: geometry changed there since the last change began */
     uint32_t edit_count;
@@ -172,7 +173,8 @@ struct cascade {
 };
 
 /* Places a cascade around a camera: at first centred to within half a probe; then moved by whole probe spacings,
- * once the camera is more than one off centre. Returns true if it moved. */
+ * once the camera is more than one off centre along any axis, along all axes at once that lookups leave free to step:
+ * see border.c. A camera that oscillates around any point causes one step at most. Returns true if it moved. */
 bool cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[3]);
 struct box cascade_box(const struct cascade *cascade, uint32_t resolution);
 /* Cells that a box in the world touches, widened to whole probe spacings, clipped to the cascade. */
@@ -241,14 +243,16 @@ struct step {
 enum { SDFGI_MAX_STEPS = 64 };
 
 struct schedule {
-    double camera[3], velocity[3]; /* m, m per frame (a running mean) */
+    double camera[3];        /* m */
+    double last_step, pace;  /* along the fastest axis, probe spacings of cascade 0: of this frame, lasting */
+    double heading[3];       /* share of that along each axis: a running mean */
     bool has_camera;
-    double carry; /* cells that the frame before could not use */
     struct step steps[SDFGI_MAX_STEPS]; /* of this frame */
     uint32_t step_count;
     bool from_nothing;      /* no cascade was complete before this frame */
     uint64_t cells;         /* voxelised or given distances in this frame */
-    uint64_t steps_begun; /* since the start */
+    uint64_t steps_begun;    /* since the start */
+    uint32_t frames_between; /* since a cascade became complete */
 };
 
 /* Starts what cascades need and decides how much of it this frame does. */
@@ -259,6 +263,14 @@ bool schedule_has(const struct sdfgi *gi, enum step_kind kind);
 /* True if a cascade becomes complete in this frame. */
 bool schedule_completes(const struct sdfgi *gi, uint32_t cascade);
 bool schedule_idle(const struct sdfgi *gi);
+
+/* ---- What lookups read: border.c */
+
+/* Leaves cells free on the sides that the camera leaves, ... */
+void border_leave(struct sdfgi *gi);
+/* ... and moves all borders towards where the camera and the windows would have them. */
+void border_move(struct sdfgi *gi);
+bool border_rests(const struct sdfgi *gi);
 
 /* ---- Convergence: settle.c */
 

@@ -98,7 +98,7 @@ static const struct row rows[] = {
     LIVE(frames_to_update_lights, "sdfgi_frames_to_update_lights", INT, 1, 1, 16, "frames", "",
         "less time per frame", "frames until a changed light is seen",
         "Frames over which the direct light of all cells is brought up to date."),
-    LIVE(max_scroll_cells, "sdfgi_max_scroll_cells_per_frame", INT, 4194304, 262144, 134217728, "cells", "",
+    LIVE(max_scroll_cells, "sdfgi_max_scroll_cells_per_frame", INT, 4194304, 524288, 134217728, "cells", "",
         "fine cascades that keep up with faster cameras, and changed geometry that is seen sooner",
         "time of the frames in which cascades step or geometry changes, in proportion",
         "At most so many cells are voxelised or given distances in a frame, once there is anything to show. A step of a cascade "

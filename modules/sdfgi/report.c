@@ -79,7 +79,7 @@ static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
 static float converged_fraction(const struct sdfgi *gi)
 {
     if (gi->converged)
-        return 1.0f;
+        return border_rests(gi) ? 1.0f : 0.99f;
     if (gi->known_ring <= gi->disturbed_ring || gi->known_change >= 1.0f)
         return 0.0f;
     const float way = logf(fmaxf(gi->known_change, 1e-6f)) / logf(SDFGI_CONVERGED_CHANGE);
@@ -103,7 +103,7 @@ void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
     memset(report, 0, sizeof *report);
     report->update_count = gi->update_count;
     report->active = gi->active;
-    report->converged = gi->active && gi->converged;
+    report->converged = gi->active && gi->converged && border_rests(gi);
     report->converged_fraction = gi->active ? converged_fraction(gi) : 0.0f;
     report->command_count = gi->command_count;
     report_passes(gi, report);

@@ -12,28 +12,33 @@
 #include "internal.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* Share of a new velocity in the running mean. */
-#define VELOCITY_SHARE 0.125
-/* How much more is done than the camera's velocity calls for. */
+/* Share of a new direction in the running mean, of a slower pace in that of the pace: a path that winds keeps
+ * the pace of its fastest parts. */
+#define HEADING_SHARE 0.125
+#define PACE_SHARE    0.015625
+/* How much more is done than the camera's pace calls for. */
 #define HEADROOM 1.15
-/* Frames in which a cascade is done at the latest, within the budget: with the camera moving, and at rest;
- * steps of cascades a frame below which it is taken to rest. */
-#define FRAMES_MOVING  64.0
-#define FRAMES_AT_REST 16.0
-#define RESTING_STEPS  0.001
-/* Steps of cascades per frame from which on one frame may complete several. */
-#define BUSY_STEPS 0.5
-/* Probe spacings off centre from which on a cascade falls behind. */
-#define LAG 2.0
+/* Steps of cascades per frame from which on one frame may complete several, and frames between those that
+ * do at a slow pace. */
+#define BUSY_STEPS     0.5
+#define FRAMES_BETWEEN 3.0
+/* Probe spacings that a window may lack on a side before its cascade falls behind: one that is not due yet,
+ * one that is being made, one more. */
+#define LAG 3.0
 /* Share of the budget that cascades may claim before finer ones wait. */
 #define CLAIM_SHARE 0.9
 
 static uint64_t layer_cells(const struct sdfgi *gi)
 {
     return (uint64_t)gi->settings.resolution * gi->settings.resolution * 4;
+}
+
+/* The largest slice that voxels are made in. Settings allow a frame to do that, whatever the resolution. */
+static uint64_t slice_cells(const struct sdfgi *gi)
+{
+    return (uint64_t)gi->settings.resolution * gi->settings.resolution * SDFGI_PROBE_SPACING;
 }
 
 static uint64_t distance_cells(const struct sdfgi *gi)
@@ -43,27 +48,36 @@ static uint64_t distance_cells(const struct sdfgi *gi)
 
 /* ---- The camera */
 
-/* A jump is not a velocity: what counts of a step is limited by how fast a camera can pick up speed. */
+/* The pace is that along the fastest axis, as others step with it. It goes up at once, so that work does not
+ * fall behind, and down slowly. A jump is no pace: of two steps in a row, the shorter counts. */
 static void follow_camera(struct sdfgi *gi, const double camera[3])
 {
     struct schedule *s = &gi->schedule;
+    double step[3], longest = 0;
     for (int i = 0; i < 3; i++) {
-        const double step = s->has_camera ? camera[i] - s->camera[i] : 0;
-        const double most = 2 * fabs(s->velocity[i]) + gi->cascades[0].cell_size[i];
-        s->velocity[i] += VELOCITY_SHARE * (fmin(fmax(step, -most), most) - s->velocity[i]);
+        const double step_m = s->has_camera ? camera[i] - s->camera[i] : 0;
+        step[i] = step_m / (gi->cascades[0].cell_size[i] * SDFGI_PROBE_SPACING);
+        longest = fmax(longest, fabs(step[i]));
         s->camera[i] = camera[i];
     }
+    const double lasting = fmin(longest, s->last_step);
+    s->pace = fmax(lasting, s->pace + PACE_SHARE * (lasting - s->pace));
+    for (int i = 0; i < 3; i++)
+        s->heading[i] += HEADING_SHARE * ((isnormal(longest) ? step[i] / longest : 0) - s->heading[i]);
+    s->last_step = longest;
     s->has_camera = true;
 }
 
-/* Share of frames in which a cascade steps at the camera's velocity; axes that are due together step
- * together. */
-static double steps_per_frame(const struct schedule *s, const struct cascade *cascade)
+/* Steps of a cascade per frame at the camera's pace. */
+static double steps_per_frame(const struct sdfgi *gi, uint32_t c)
 {
-    double stays = 1;
-    for (int i = 0; i < 3; i++)
-        stays *= 1 - fmin(fabs(s->velocity[i]) / (cascade->cell_size[i] * SDFGI_PROBE_SPACING), 1);
-    return 1 - stays;
+    return fmin(ldexp(gi->schedule.pace, -(int)c), 1);
+}
+
+/* Cells that a step along one axis makes new. */
+static double cells_per_step(const struct sdfgi *gi)
+{
+    return (double)(distance_cells(gi) + slice_cells(gi));
 }
 
 /* ---- Changes */
@@ -108,14 +122,6 @@ static int32_t clamped_shift(int64_t shift, uint32_t resolution)
     return (int32_t)(shift > most ? most : shift < -most ? -most : shift);
 }
 
-static int32_t longest_shift(const int32_t shift[3])
-{
-    int32_t longest = 0;
-    for (int i = 0; i < 3; i++)
-        longest = abs(shift[i]) > longest ? abs(shift[i]) : longest;
-    return longest;
-}
-
 /* Moves a cascade to the place of `next`: keeps what both places share. */
 static void begin_step(struct sdfgi *gi, struct cascade *cascade, const struct cascade *next)
 {
@@ -137,10 +143,7 @@ static void begin_step(struct sdfgi *gi, struct cascade *cascade, const struct c
         begin_whole(gi, cascade);
         return;
     }
-    /* Behind the coarsest cascade there is nothing: it makes up for what it has lost at once. */
-    const bool coarsest = cascade == &gi->cascades[gi->settings.cascades - 1];
-    cascade->change =
-        (struct change){ .kept = kept, .at_once = coarsest && longest_shift(shift) > SDFGI_PROBE_SPACING };
+    cascade->change = (struct change){ .kept = kept };
     struct change *change = &cascade->change;
     memcpy(change->before, shift, sizeof change->before);
     change->count = cell_box_difference(&whole, &kept, change->boxes);
@@ -255,6 +258,52 @@ static uint32_t next_box(const struct sdfgi *gi, const struct change *change)
     return box;
 }
 
+/* True if a window ends too near to the camera, although its cascade could keep up. */
+static bool falls_behind(const struct sdfgi *gi, const struct cascade *cascade)
+{
+    const double half = gi->settings.resolution / 2.0;
+    double nearest = half;
+    for (int i = 0; i < 3; i++) {
+        const double at = gi->schedule.camera[i] / cascade->cell_size[i] - (double)cascade->origin[i];
+        nearest = fmin(nearest, fmin(at - cascade->window.low[i], cascade->window.high[i] - at));
+    }
+    return !cascade->waits && nearest < fmax(half - LAG * SDFGI_PROBE_SPACING, 0);
+}
+
+/* True if a change cannot wait for its turn: geometry changed in sight, or the camera runs away. */
+static bool hurries(const struct sdfgi *gi, const struct cascade *cascade)
+{
+    return cascade->change.active &&
+           (cascade->change.at_once || gi->schedule.from_nothing || falls_behind(gi, cascade));
+}
+
+/* Steps of all cascades per frame, but of those that wait. */
+static double steps_of_all(const struct sdfgi *gi)
+{
+    double steps = 0;
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        steps += gi->cascades[c].waits ? 0 : steps_per_frame(gi, c);
+    return steps;
+}
+
+static bool any_hurries(const struct sdfgi *gi)
+{
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        if (hurries(gi, &gi->cascades[c]))
+            return true;
+    return false;
+}
+
+/* That a cascade becomes complete is work of its own: some frames lie between one and the next, as many as
+ * the pace leaves time for, unless they hurry. */
+static bool may_complete(const struct sdfgi *gi)
+{
+    const double steps = steps_of_all(gi);
+    const bool apart = !schedule_has(gi, STEP_COMPLETE) &&
+                       gi->schedule.frames_between >= fmin(FRAMES_BETWEEN, BUSY_STEPS / steps - 1);
+    return apart || steps >= BUSY_STEPS || any_hurries(gi);
+}
+
 /* Does as much of a change as the budget allows. */
 static void advance(struct sdfgi *gi, uint32_t c, uint64_t *budget)
 {
@@ -267,45 +316,8 @@ static void advance(struct sdfgi *gi, uint32_t c, uint64_t *budget)
         *budget -= done < *budget ? done : *budget;
         gi->schedule.cells += done;
     } while (done > 0);
-    if (change->cells_left == 0)
+    if (change->cells_left == 0 && may_complete(gi))
         add_step(gi, STEP_COMPLETE, c);
-}
-
-/* ---- What lookups read
- *
- * When a cascade steps, its window loses a slab on one side at once and gains one on the other later. Neither
- * may show. The border therefore recedes with the camera on the side that the next step takes away, so that
- * nothing of it is read any more when it goes; and it advances slowly into what was gained. */
-
-/* Cells a frame by which the border advances at least, how much faster than the camera, and the frames in
- * which it would make up for any distance at its present speed. */
-#define SHARE_SPEED    0.25
-#define SHARE_HEADROOM 1.25
-#define SHARE_FRAMES   32
-
-/* Moves a border outwards by at most `most`, inwards at once. `sign` is its outward direction. */
-static double border_moved(double border, double target, double sign, double most)
-{
-    const double outwards = (target - border) * sign, step = fmax(most, outwards / SHARE_FRAMES);
-    return outwards > step ? border + sign * step : target;
-}
-
-static void move_share(struct sdfgi *gi, struct cascade *cascade)
-{
-    const struct schedule *s = &gi->schedule;
-    cascade->share_moves = false;
-    for (int i = 0; i < 3; i++) {
-        const double half = gi->settings.resolution / 2.0;
-        const double off = s->camera[i] / cascade->cell_size[i] - (double)cascade->origin[i] - half;
-        const double low = fmax(cascade->window.low[i], off),
-                     high = fmin(cascade->window.high[i], 2 * half + off);
-        const double speed = fabs(s->velocity[i]) / cascade->cell_size[i] * SHARE_HEADROOM;
-        const double most = cascade->fresh ? INFINITY : fmax(SHARE_SPEED, speed);
-        cascade->share_low[i] = border_moved(cascade->share_low[i], low, -1, most);
-        cascade->share_high[i] = border_moved(cascade->share_high[i], high, 1, most);
-        cascade->share_moves =
-            cascade->share_moves || cascade->share_low[i] != low || cascade->share_high[i] != high;
-    }
 }
 
 static bool any_complete(const struct sdfgi *gi)
@@ -322,92 +334,37 @@ static void begin_all(struct sdfgi *gi, double budget)
     double claimed = 0;
     for (uint32_t c = gi->settings.cascades; c-- > 0;) {
         struct cascade *cascade = &gi->cascades[c];
-        const double steps = steps_per_frame(&gi->schedule, cascade);
-        claimed += (double)distance_cells(gi) * steps;
+        claimed += cells_per_step(gi) * steps_per_frame(gi, c);
         cascade->waits = cascade->placed && claimed > budget * CLAIM_SHARE && c + 1 < gi->settings.cascades;
         if (!cascade->change.active)
             begin(gi, cascade);
     }
 }
 
-/* Cells from the middle of a cascade's place to the camera, along the axis where that is most. */
-static double off_centre(const struct sdfgi *gi, const struct cascade *cascade)
-{
-    double most = 0;
-    for (int i = 0; i < 3; i++) {
-        const double middle = (double)cascade->origin[i] + gi->settings.resolution / 2.0;
-        most = fmax(most, fabs(gi->schedule.camera[i] / cascade->cell_size[i] - middle));
-    }
-    return most;
-}
-
-/* True if a change cannot wait for its turn: geometry changed in sight, or the camera runs away. */
-static bool hurries(const struct sdfgi *gi, const struct cascade *cascade)
-{
-    return cascade->change.active && (cascade->change.at_once || gi->schedule.from_nothing ||
-                                      off_centre(gi, cascade) > LAG * SDFGI_PROBE_SPACING);
-}
-
-/* Steps of all cascades per frame, but of those that wait. */
-static double steps_of_all(const struct sdfgi *gi)
-{
-    double steps = 0;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        steps += gi->cascades[c].waits ? 0 : steps_per_frame(&gi->schedule, &gi->cascades[c]);
-    return steps;
-}
-
-static bool any_hurries(const struct sdfgi *gi)
-{
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (hurries(gi, &gi->cascades[c]))
-            return true;
-    return false;
-}
-
-/* What all changes together do in this frame: as much as the camera's velocity calls for, so that one frame
- * costs as much as the next; never more than the setting allows, unless there is nothing to show. */
+/* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so
+ * that one frame costs as much as the next; a slice at least, and never more than the setting allows, unless
+ * there is nothing to show. */
 static uint64_t frame_budget(const struct sdfgi *gi)
 {
-    const struct schedule *s = &gi->schedule;
-    const double limit = (double)gi->settings.max_scroll_cells, whole = (double)distance_cells(gi);
-    const double steps = steps_of_all(gi);
-    if (s->from_nothing)
+    const double limit = (double)gi->settings.max_scroll_cells, layer = (double)layer_cells(gi);
+    if (gi->schedule.from_nothing)
         return UINT64_MAX;
     if (any_hurries(gi))
-        return (uint64_t)limit;
-    const double slab = (double)SDFGI_PROBE_SPACING / gi->settings.resolution;
-    const double called_for = whole * (1 + slab) * steps * HEADROOM;
-    const double slowest = whole / (steps > RESTING_STEPS ? FRAMES_MOVING : FRAMES_AT_REST);
-    return (uint64_t)fmin(fmax(called_for, slowest) + s->carry, limit);
-}
-
-static bool any_changes(const struct sdfgi *gi)
-{
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].change.active)
-            return true;
-    return false;
+        return gi->settings.max_scroll_cells;
+    const double called_for = cells_per_step(gi) * steps_of_all(gi) * HEADROOM;
+    return (uint64_t)fmin(fmax(ceil(called_for / layer) * layer, (double)slice_cells(gi)), limit);
 }
 
 /* Fine cascades first, but before all the coarsest if it falls behind: behind that there is nothing. */
 static void advance_all(struct sdfgi *gi, uint64_t budget)
 {
-    const uint32_t last = gi->settings.cascades - 1;
-    if (hurries(gi, &gi->cascades[last]))
-        advance(gi, last, &budget);
-    for (uint32_t c = 0; c <= last; c++) {
-        /* A frame in which a cascade becomes complete has enough to do, unless they do so all the time. */
-        if (schedule_has(gi, STEP_COMPLETE) && steps_of_all(gi) < BUSY_STEPS &&
-            !hurries(gi, &gi->cascades[c]))
-            continue;
+    const uint32_t count = gi->settings.cascades,
+                   first = hurries(gi, &gi->cascades[count - 1]) ? count - 1 : 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t c = (first + i) % count;
         if (gi->cascades[c].change.active)
             advance(gi, c, &budget);
     }
-    /* Where not even one unit fitted, it all is kept until one does. */
-    const bool stuck = gi->schedule.cells == 0 && any_changes(gi);
-    const double most = stuck ? (double)gi->settings.max_scroll_cells : (double)layer_cells(gi);
-    gi->schedule.carry = fmin((double)budget, most);
 }
 
 void schedule_frame(struct sdfgi *gi, const double camera[3])
@@ -416,19 +373,20 @@ void schedule_frame(struct sdfgi *gi, const double camera[3])
     s->step_count = 0;
     s->cells = 0;
     follow_camera(gi, camera);
+    border_leave(gi);
     begin_all(gi, (double)gi->settings.max_scroll_cells);
     /* With nothing to show, there is nothing to wait for. */
     s->from_nothing = !any_complete(gi);
     if (s->from_nothing)
-        memset(s->velocity, 0, sizeof s->velocity);
+        s->pace = 0;
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         gi->cascades[c].fresh = gi->cascades[c].fresh || s->from_nothing;
     advance_all(gi, frame_budget(gi));
+    s->frames_between = schedule_has(gi, STEP_COMPLETE) ? 0 : s->frames_between + 1;
     for (uint32_t i = 0; i < s->step_count; i++)
         if (s->steps[i].kind == STEP_COMPLETE)
             gi->cascades[s->steps[i].cascade].window = cell_box_whole(gi->settings.resolution);
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        move_share(gi, &gi->cascades[c]);
+    border_move(gi);
 }
 
 void schedule_finish(struct sdfgi *gi)
@@ -457,7 +415,7 @@ bool schedule_completes(const struct sdfgi *gi, uint32_t c)
 bool schedule_idle(const struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].change.active || gi->cascades[c].relight_left > 0 || gi->cascades[c].share_moves)
+        if (gi->cascades[c].change.active || gi->cascades[c].relight_left > 0)
             return false;
     return true;
 }

@@ -91,6 +91,49 @@ static void axes_move_alone(void **state)
     REQUIRE_CMP(c.origin[0], ==, 16 - 32); /* up to the camera, not past it */
 }
 
+/* Along axes on which cells are left free on the other side, a step may go past the camera into these. */
+static void axes_with_spare_cells_move_along(void **state)
+{
+    (void)state;
+    struct cascade c = cascade_of(1);
+    place(&c, 0.5, 0.5, 0.5);
+    memcpy(c.spare, (double[]){ 4, 2, -4 }, sizeof c.spare);
+    REQUIRE_TRUE(!place(&c, 8.5, 7.5, -7.5));
+    REQUIRE_TRUE(place(&c, 9.5, 5.5, -3.5));
+    REQUIRE_CMP(c.origin[0], ==, 8 - 32);
+    REQUIRE_CMP(c.origin[1], ==, -32);
+    REQUIRE_CMP(c.origin[2], ==, -32);
+    REQUIRE_TRUE(place(&c, 17.5, 6.5, -4.5));
+    REQUIRE_CMP(c.origin[0], ==, 16 - 32);
+    REQUIRE_CMP(c.origin[1], ==, 8 - 32);
+    REQUIRE_CMP(c.origin[2], ==, -8 - 32);
+}
+
+/* Along a straight way a cascade steps as often as its fastest axis alone would have it, or hardly more
+ * often. */
+static void axes_step_together(void **state)
+{
+    (void)state;
+    struct test_random random = { 23 };
+    for (int trial = 0; trial < 200; trial++) {
+        struct cascade c = cascade_of(1);
+        double camera[3] = { 0.5, 0.5, 0.5 }, velocity[3] = { 1, 0, 0 };
+        for (int i = 0; i < 3; i++) {
+            velocity[i] = i > 0 ? test_random_real(&random, -1, 1) : 1;
+            c.spare[i] = velocity[i] > 0 ? 4 : -4;
+        }
+        place(&c, camera[0], camera[1], camera[2]);
+        int moves = 0;
+        for (int cell = 0; cell < 800; cell++) {
+            for (int i = 0; i < 3; i++)
+                camera[i] += velocity[i];
+            moves += place(&c, camera[0], camera[1], camera[2]);
+            require_centred(&c, camera, false);
+        }
+        REQUIRE_CMP(moves, <=, 110);
+    }
+}
+
 /* Anywhere, by next to nothing or by almost a probe spacing. */
 static void hard_24_an_oscillating_camera_moves_a_cascade_once(void **state)
 {
@@ -171,6 +214,8 @@ int main(void)
         cmocka_unit_test(a_new_cascade_is_centred_anywhere),
         cmocka_unit_test(a_walk_stays_centred),
         cmocka_unit_test(axes_move_alone),
+        cmocka_unit_test(axes_with_spare_cells_move_along),
+        cmocka_unit_test(axes_step_together),
         cmocka_unit_test(hard_24_an_oscillating_camera_moves_a_cascade_once),
         cmocka_unit_test(hard_22_a_jump_of_any_length_is_one_move),
         cmocka_unit_test(cameras_beyond_all_cells_do_not_overflow),

@@ -40,7 +40,7 @@ struct sdfgi_settings {
     enum sdfgi_visibility visibility; /* sdfgi_visibility */
     enum sdfgi_sdf_method sdf_method; /* sdfgi_sdf_method */
     enum sdfgi_voxelizer voxelizer;   /* sdfgi_voxelizer */
-    uint32_t max_scroll_cells;        /* sdfgi_max_scroll_cells_per_frame, [262144, 134217728] */
+    uint32_t max_scroll_cells;        /* sdfgi_max_scroll_cells_per_frame, [524288, 134217728] */
 };
 
 enum sdfgi_property_type { SDFGI_PROPERTY_BOOL, SDFGI_PROPERTY_INT, SDFGI_PROPERTY_FLOAT, SDFGI_PROPERTY_ENUM };
