@@ -9,16 +9,6 @@ static void count_cells(struct frame *frame, enum pass pass, uint32_t layers)
     frame->gi->passes[pass].work += 4 * layers * n * n;
 }
 
-static void record_occupancy(struct frame *frame, uint32_t c)
-{
-    const struct sdfgi_pass_args args = { .cascade = c };
-    const uint32_t n = frame->gi->settings.resolution;
-    pass_begin(frame, PASS_OCCUPANCY);
-    pass_dispatch(frame, PASS_OCCUPANCY, &args, n / 32, n, 1);
-    count_cells(frame, PASS_OCCUPANCY, n / 4);
-    pass_end(frame);
-}
-
 static int32_t clamp_to(int32_t value, int32_t low, int32_t high)
 {
     return value < low ? low : value > high ? high : value;
@@ -48,15 +38,17 @@ static struct sdfgi_stale_args stale_args(uint32_t resolution, uint32_t c, const
     return args;
 }
 
-static void record_stale(struct frame *frame, const struct sdfgi_stale_args *args, uint32_t count)
+/* Workgroups for all columns of cells, and one per column of blocks to look at. */
+static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *args, uint32_t count)
 {
-    pass_begin(frame, PASS_DISTANCE_STALE);
-    gpu_use(&frame->rec, GPU_USAGE_COMPUTE, pass_reads(PASS_DISTANCE_STALE),
-            pass_writes(PASS_DISTANCE_STALE));
+    const uint32_t n = frame->gi->settings.resolution;
+    pass_begin(frame, PASS_DISTANCE_PREPARE);
+    gpu_use(&frame->rec, GPU_USAGE_COMPUTE, pass_reads(PASS_DISTANCE_PREPARE),
+            pass_writes(PASS_DISTANCE_PREPARE));
     gpu_push(&frame->rec, frame->gi->pipelines.layout, sizeof *args, args);
-    gpu_dispatch(&frame->rec, frame->gi->settings.resolution / 4, count, 1);
-    frame->gi->passes[PASS_DISTANCE_STALE].dispatches++;
-    count_cells(frame, PASS_DISTANCE_STALE, count);
+    gpu_dispatch(&frame->rec, n * n / SDFGI_GROUP_COLUMNS + n / 4 * count, 1, 1);
+    frame->gi->passes[PASS_DISTANCE_PREPARE].dispatches++;
+    count_cells(frame, PASS_DISTANCE_PREPARE, n / 4 + count);
     pass_end(frame);
 }
 
@@ -84,8 +76,7 @@ static void record_exact(struct frame *frame, uint32_t c, const struct distance_
     const struct sdfgi_stale_args stale = stale_args(n, c, part);
     if (part->changed_count > 0 && stale.box_count == 0)
         return; /* boxes without a cell */
-    record_occupancy(frame, c);
-    record_stale(frame, &stale, part->count);
+    record_prepare(frame, &stale, part->count);
     for (uint32_t first = part->first; first < end; first += room)
         record_search(frame, c, first, first + room < end ? room : end - first);
 }

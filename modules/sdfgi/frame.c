@@ -196,11 +196,7 @@ static void complete_cascade(struct frame *frame, uint32_t c)
         probe_place_record(frame, c);
     pass_group_end(frame);
 
-    pass_group_begin(frame);
     light_cache_list_record(frame, c);
-    if (all)
-        probe_link_record(frame, c);
-    pass_group_end(frame);
 
     pass_group_begin(frame);
     light_cache_renew_record(frame, c);

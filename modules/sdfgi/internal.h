@@ -443,7 +443,6 @@ struct distance_part {
 void distance_field_record(struct frame *frame, uint32_t cascade, const struct distance_part *part);
 void occlusion_record(struct frame *frame, uint32_t cascade);
 void probe_place_record(struct frame *frame, uint32_t cascade);
-void probe_link_record(struct frame *frame, uint32_t cascade);
 /* Makes room where the newest counters known say that the list was too short. */
 void light_cache_make_room(struct sdfgi *gi);
 /* Decides whose direct light is to be made again, from what this frame completes. */

@@ -17,15 +17,13 @@
     X(VOXELIZE,        voxelize,        "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS)   \
     X(VOXELIZE_RASTER, voxelize_raster, "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS_RASTER) \
     X(VOXEL_RESOLVE,   voxel_resolve,   "blocks",      R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(CONTENT), GENERATE) \
-    X(OCCUPANCY,       occupancy,       "cells",       R(BITS), R(SCRATCH), EXACT)                                   \
-    X(DISTANCE_STALE,  distance_stale,  "cells",       R(DISTANCE) | R(CONTENT), R(SCRATCH) | R(COUNTERS), EXACT)                 \
+    X(DISTANCE_PREPARE, distance_prepare, "cells",     R(BITS) | R(DISTANCE) | R(CONTENT), R(SCRATCH) | R(COUNTERS), EXACT) \
     X(DISTANCE_PLANE,  distance_plane,  "cells",       R(BITS) | R(SCRATCH), R(SCRATCH), EXACT)                      \
     X(DISTANCE_EXACT,  distance_exact,  "cells",       R(SCRATCH), R(DISTANCE), EXACT)                               \
     X(FLOOD_SEED,      flood_seed,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \
     X(FLOOD_STEP,      flood_step,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \
     X(FLOOD_DISTANCE,  flood_distance,  "cells",       R(SCRATCH), R(DISTANCE), FLOOD)                               \
     X(PROBE_PLACE,     probe_place,     "probes",      R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS), COMPLETE)     \
-    X(PROBE_LINK,      probe_link,      "probes",      R(BITS) | R(DISTANCE), R(PROBES), COMPLETE)                      \
     X(PROBE_SEED,      probe_seed,      "probes",      R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE), SEED) \
     X(OCCLUSION_TRACE, occlusion_trace, "rays",        R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION), OCCLUSION)   \
     X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \

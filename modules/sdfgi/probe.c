@@ -17,17 +17,6 @@ void probe_place_record(struct frame *frame, uint32_t c)
     record_probes(frame, PASS_PROBE_PLACE, c, frame->gi->resources->extent.probes);
 }
 
-void probe_link_record(struct frame *frame, uint32_t c)
-{
-    struct sdfgi *gi = frame->gi;
-    const uint32_t probes = (uint32_t)gi->resources->extent.probes;
-    pass_begin(frame, PASS_PROBE_LINK);
-    pass_dispatch(frame, PASS_PROBE_LINK, &(struct sdfgi_pass_args){ .cascade = c },
-                  (3 * probes + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR, 1, 1);
-    gi->passes[PASS_PROBE_LINK].work += probes;
-    pass_end(frame);
-}
-
 void probe_reset_record(struct frame *frame, uint32_t c)
 {
     const struct extent *e = &frame->gi->resources->extent;

@@ -6,7 +6,7 @@
 
 #include "pass.glsl"
 
-/* Six words per box: how far it reaches from SDFGI_CONTENT_ORIGIN downwards, and upwards. Zeroes are no box, maxima its growth. */
+/* The first six words of each box: how far it reaches from SDFGI_CONTENT_ORIGIN downwards, and upwards. Zeroes are no box, maxima its growth. */
 layout(std430, set = 0, binding = SDFGI_BINDING_CONTENT) buffer sdfgi_content_buffer
 {
     uint sdfgi_content[];
@@ -17,24 +17,23 @@ const uint CONTENT_CAME = uint(SDFGI_CONTENT_STRIPS);
 
 uint content_slot(uint cascade, uint box)
 {
-    return 6u * (cascade * 2u * uint(SDFGI_CONTENT_STRIPS) + box);
+    return uint(SDFGI_CONTENT_STRIDE) * (cascade * 2u * uint(SDFGI_CONTENT_STRIPS) + box);
 }
 
-/* Testing first spares contended atomics. */
-void content_raise(uint slot, int value)
-{
-    if (sdfgi_content[slot] < uint(value))
-        atomicMax(sdfgi_content[slot], uint(value));
-}
-
-/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. */
+/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. Testing first spares contended
+ * atomics; all six words are read before any is tested. */
 void content_add(uint cascade, uint what, int axis, ivec3 low, ivec3 high)
 {
     const int strip = clamp(low[axis] * SDFGI_CONTENT_STRIPS >> int(sdfgi_frame.size.y), 0, SDFGI_CONTENT_STRIPS - 1);
     const uint slot = content_slot(cascade, what + uint(strip));
-    for (int i = 0; i < 3; i++) {
-        content_raise(slot + uint(i), SDFGI_CONTENT_ORIGIN - low[i]);
-        content_raise(slot + 3u + uint(i), SDFGI_CONTENT_ORIGIN + high[i]);
+    const uvec3 down = uvec3(SDFGI_CONTENT_ORIGIN - low), up = uvec3(SDFGI_CONTENT_ORIGIN + high);
+    const uvec3 had_down = uvec3(sdfgi_content[slot], sdfgi_content[slot + 1u], sdfgi_content[slot + 2u]);
+    const uvec3 had_up = uvec3(sdfgi_content[slot + 3u], sdfgi_content[slot + 4u], sdfgi_content[slot + 5u]);
+    for (uint i = 0u; i < 3u; i++) {
+        if (had_down[i] < down[i])
+            atomicMax(sdfgi_content[slot + i], down[i]);
+        if (had_up[i] < up[i])
+            atomicMax(sdfgi_content[slot + 3u + i], up[i]);
     }
 }
 

@@ -5,20 +5,32 @@
  * One workgroup per four cells along x and two along z: eight lines along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_DISTANCE
 
-const uint BATCH = 128u; /* few, for many workgroups at once: 0.095 ms a cascade, with 192 it takes 0.110 */
+const uint BATCH = 260u; /* few, for many workgroups at once; a village's layers in one go */
 
 #include "lines.glsl"
 
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-const uint PER_THREAD = BATCH * LINES / SDFGI_GROUP_LINES;
+const uint PER_THREAD = (BATCH * LINES - 1u) / SDFGI_GROUP_LINES + 1u;
 
-/* 16 per square of half a sub-voxel, 128 per unit of what planes store. */
-uvec4 line_values(ivec4 way, uint brought)
+/* What squares along y count and what planes store, 16, have in common. */
+int common_weight()
 {
-    return distance_y_weight() * uvec4(way * way) + 128u * brought;
+    return distance_y_weight() == 9u ? 1 : int(distance_y_weight());
+}
+
+int line_weight()
+{
+    return int(distance_y_weight()) / common_weight();
+}
+
+/* Sums are below (line_weight + 2 * 16 / common_weight) / 8 (8 N)^2: where N is 256, 23 bits, but 25 where 9 and 16 share nothing. */
+uint line_number_bits()
+{
+    return common_weight() == 1 && sdfgi_frame.size.x > 128u ? 7u : 9u;
 }
 
 uint first_x()
@@ -42,14 +54,6 @@ bool block_is_stale(uvec2 stale, uint y)
     return (stale[y >> 7u] >> (y >> 2u & 31u) & 1u) != 0u;
 }
 
-/* A bit per layer of sub-voxels of a layer of cells. */
-uint four_layers(uint y)
-{
-    const uint slot = layers_slot(4u * y);
-    return sdfgi_scratch[slot] | sdfgi_scratch[slot + 1u] << 1u | sdfgi_scratch[slot + 2u] << 2u |
-           sdfgi_scratch[slot + 3u] << 3u;
-}
-
 void mark_all(uvec2 stale)
 {
     for (uint y = gl_LocalInvocationIndex; y < sdfgi_frame.size.x; y += SDFGI_GROUP_LINES) {
@@ -63,22 +67,24 @@ void mark_all(uvec2 stale)
 /* What the planes hold of a batch; a workgroup's lines lie side by side there. All is read before any is written: one wait. */
 void put_planes(uint count)
 {
-    uint entries[PER_THREAD];
-    for (uint k = 0u; k < PER_THREAD; k++) {
+    int sums[PER_THREAD];
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
         const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
         const uint place = line_batch[i / LINES];
         const uint slot = plane_slot(place, first_x() - args.step, first_z()) + (i & (LINES - 1u));
-        entries[k] = sdfgi_scratch[slot] << PLACE_BITS | place;
+        sums[k] = line_sum(place, 16 / common_weight() * int(sdfgi_scratch[slot]));
     }
-    for (uint k = 0u; k < PER_THREAD; k++)
-        line_entries[gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES] = entries[k];
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
+        const uint i = gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES;
+        if (i < count * LINES)
+            line_sums[(i & (LINES - 1u)) * BATCH + i / LINES] = sums[k];
+    }
     barrier();
 }
 
 uint encoded(uint y, uint own)
 {
-    const uint least = line_least[y * LINES + own];
-    return least == 0xffffffffu ? 0xffffu : distance_encode(least + 32u);
+    return line_candidates() == 0u ? 0xffffu : distance_encode(uint(8 * common_weight() * line_result(y, own)) + distance_y_weight() + 32u);
 }
 
 /* Two cells share a word. */
@@ -99,14 +105,13 @@ void main()
         return;
     line_begin();
     mark_all(stale);
-    line_clear();
     const uint count = line_candidates();
-    for (uint first = 0u; first < count; first += BATCH) {
+    for (uint first = 0u; first < count; first += line_room()) {
         line_put_batch(first);
-        put_planes(min(BATCH, count - first));
-        line_search(min(BATCH, count - first));
+        put_planes(min(line_room(), count - first));
+        line_search(min(line_room(), count - first));
         barrier();
     }
-    barrier();
+    line_publish();
     store_lines(stale);
 }

@@ -2,11 +2,15 @@
  * For every cell along a line the least of a sum over candidate sub-voxels of the line: what a candidate brings along plus
  * the square of the way to it. The best candidate never moves back as the cell moves on, so few cells look at all candidates
  * and the others only at those between their neighbours' best (Aggarwal et al. 1987, "Geometric applications of a
- * matrix-searching algorithm"). For 128 cells a candidate is read nine times: by four cells that look at all, by three between
- * each two of those, and then by the rest four at a time.
- * A workgroup works on LINES lines. SLOTS threads share one; each answers for as many cells in a row, and four make a team.
- * Candidates come in batches. A pass defines line_values and, before it includes this, BATCH.
- * Shared memory: 36 bytes per candidate of a batch, 8 KiB of results, and 1.3 KiB besides. */
+ * matrix-searching algorithm").
+ * A workgroup works on LINES lines. SLOTS threads share one; each answers for as many cells in a row. First they share out the
+ * candidates, each trying its own on the last cell of every slot; then each looks for its cells between the best of its last
+ * and of the one before its first: 10 to 12 candidates in the mean where a village scrolls, 23 to 30 in the slowest of 32 threads.
+ * With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is line_weight t + what is brought along. A way
+ * is a candidate's step less eight times the cell, so one product per candidate and a constant per cell tell all sums.
+ * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads
+ * that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
+ * Shared memory: 36 bytes per candidate of a batch, and 800 besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
 
@@ -16,20 +20,23 @@ layout(local_size_x = SDFGI_GROUP_LINES) in;
 
 const uint LINES = SDFGI_LINES;
 const uint SLOTS = SDFGI_GROUP_LINES / LINES;
-const uint PLACE_BITS = 10u;
+const uint MOST_CELLS = 256u / SLOTS; /* of a slot */
+const int WORST = 0x7fffffff;
+const uint NOT_YET = 0xffffffffu;
 
-shared uint line_places[32];             /* a bit per place along the line that has candidates */
-shared uint line_ranks[33];              /* candidates before each 32 places, and all */
-shared uint line_any;                    /* not 0 if there is a candidate */
-shared uint line_wanted;                 /* a bit per slot that has to answer */
-shared uint line_batch[BATCH];           /* places of a batch of candidates */
-shared uint line_entries[BATCH * LINES]; /* for each line: place, and above it what the candidate brings along */
-shared uint line_least[256u * LINES];    /* per cell, of the batches so far */
-shared uint line_part[SDFGI_GROUP_LINES];
-shared uint line_best[SDFGI_GROUP_LINES]; /* which candidate is best for the last cell of each slot */
+shared uint line_places[32];            /* a bit per place along the line that has candidates */
+shared uint line_ranks[33];             /* candidates before each 32 places, and all */
+shared uint line_wanted;                /* a bit per slot that has to answer */
+shared uint line_batch[BATCH];          /* places of a batch of candidates */
+shared int line_sums[LINES * BATCH];    /* of each line: what its candidates amount to for cell 0 */
+shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the candidate's number */
 
-/* What a candidate amounts to for four cells of the line: the way to it squared, and what it brings along. */
-uvec4 line_values(ivec4 way, uint brought);
+int line_least[MOST_CELLS]; /* for the cells of this thread */
+
+/* How much squares along this line count. */
+int line_weight();
+/* Bits that sums leave of 32 for the number of a candidate in its batch. */
+uint line_number_bits();
 
 uint line_own()
 {
@@ -46,17 +53,17 @@ uint line_cells_per_slot()
     return sdfgi_frame.size.x / SLOTS;
 }
 
-/* For cells whose ways are measured from `centre`, line_centre of each. */
-uvec4 line_values_of(uint entry, ivec4 centre)
+/* The way from the centre of cell 0, in halves of a sub-voxel. */
+int line_step(uint place)
 {
-    return line_values(2 * int(entry & ((1u << PLACE_BITS) - 1u)) - centre, entry >> PLACE_BITS);
+    return 2 * int(place) - 3;
 }
 
-/* Where a cell's centre is, so that its way to the centre of a sub-voxel is twice the place less this, in halves of a sub-voxel:
- * an odd number. */
-int line_centre(uint cell)
+/* A candidate for cell 0. */
+int line_sum(uint place, int brought)
 {
-    return int(8u * cell + 3u);
+    const int way = line_step(place);
+    return line_weight() * (way * way >> 3) + brought;
 }
 
 /* ---- Places: before candidates are put into batches */
@@ -65,20 +72,18 @@ void line_begin()
 {
     if (gl_LocalInvocationIndex < 32u)
         line_places[gl_LocalInvocationIndex] = 0u;
-    if (gl_LocalInvocationIndex == 0u) {
+    if (gl_LocalInvocationIndex == 0u)
         line_wanted = 0u;
-        line_any = 0u;
-    }
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
+        line_least[k] = WORST;
     barrier();
 }
 
 /* `four` has a bit per sub-voxel along this cell of the line. */
 void line_mark(uint cell, uint four)
 {
-    if (four == 0u)
-        return;
-    atomicOr(line_places[cell >> 3u], four << 4u * (cell & 7u));
-    line_any = 1u;
+    if (four != 0u)
+        atomicOr(line_places[cell >> 3u], four << 4u * (cell & 7u));
 }
 
 uint line_words()
@@ -99,11 +104,6 @@ void line_count()
     barrier();
 }
 
-bool line_holds(uint place)
-{
-    return (line_places[place >> 5u] >> (place & 31u) & 1u) != 0u;
-}
-
 /* Candidates before that of a place. */
 uint line_rank(uint place)
 {
@@ -115,121 +115,110 @@ uint line_candidates()
     return line_ranks[line_words()];
 }
 
+/* Candidates in a batch at most. */
+uint line_room()
+{
+    return min(BATCH, 1u << line_number_bits());
+}
+
 /* Fills line_batch with the places of the candidates numbered from `first`. */
 void line_put_batch(uint first)
 {
-    for (uint place = gl_LocalInvocationIndex; place < 4u * sdfgi_frame.size.x; place += SDFGI_GROUP_LINES) {
-        const uint at = line_rank(place) - first;
-        if (line_holds(place) && at < BATCH)
-            line_batch[at] = place;
+    for (uint cell = gl_LocalInvocationIndex; cell < sdfgi_frame.size.x; cell += SDFGI_GROUP_LINES) {
+        const uint four = line_places[cell >> 3u] >> 4u * (cell & 7u) & 15u;
+        uint at = line_rank(4u * cell) - first;
+        for (uint i = 0u; i < 4u; i++)
+            if ((four >> i & 1u) != 0u) {
+                if (at < line_room())
+                    line_batch[at] = 4u * cell + i;
+                at++;
+            }
     }
+    line_ends[gl_LocalInvocationIndex] = NOT_YET;
     barrier();
 }
 
 /* ---- Search */
 
-bool line_slots_wanted(uint first, uint count)
+bool line_slot_wanted(uint slot)
 {
-    return (line_wanted >> first & ((1u << count) - 1u)) != 0u;
+    return (line_wanted >> slot & 1u) != 0u;
 }
 
-/* Each thread those cells that it answers for. */
-void line_clear()
+/* What the sum at the last cell of a slot is more than at that of the slot before, a candidate's way aside. */
+uint line_growth(uint slot)
 {
-    const uint count = line_cells_per_slot();
-    if (line_slots_wanted(line_slot(), 1u))
-        for (uint cell = line_slot() * count; cell < (line_slot() + 1u) * count; cell++)
-            line_least[cell * LINES + line_own()] = 0xffffffffu;
+    const int cells = int(line_cells_per_slot());
+    return uint(8 * line_weight() * cells * (2 * (int(slot) * cells - 1) + cells));
 }
 
-/* Looks at candidates from `first` to before `end`. */
-void line_scan(uint cell, uint first, uint end, inout uint least, inout uint best)
+/* The last cell of every slot looks at all candidates; the threads of its line take turns. The number of a candidate lies below
+ * its sum, so that of several best the first is found. */
+void line_search_ends(uint count)
 {
-    for (uint i = first; i < end; i++) {
-        const uint value = line_values_of(line_entries[i * LINES + line_own()], ivec4(line_centre(cell))).x;
-        best = value < least ? i : best;
-        least = min(least, value);
-    }
-}
-
-void line_lower(uint cell, uint value)
-{
-    const uint at = cell * LINES + line_own();
-    line_least[at] = min(line_least[at], value);
-}
-
-/* A team that the next one would start from is as good as asked. */
-bool line_team_asked(uint team)
-{
-    return line_slots_wanted(team, 8u);
-}
-
-/* The last cell of each team looks at all candidates; its threads take a quarter each. */
-void line_search_teams(uint count)
-{
-    const uint lane = gl_LocalInvocationIndex, member = line_slot() & 3u, team = line_slot() & ~3u;
-    const uint cell = (team + 4u) * line_cells_per_slot() - 1u;
-    uint least = 0xffffffffu, best = 0u;
-    if (line_team_asked(team))
-        line_scan(cell, count * member >> 2u, count * (member + 1u) >> 2u, least, best);
-    line_part[lane] = least;
-    line_best[lane] = best;
-    barrier();
-    if (member == 3u && line_team_asked(team)) {
-        for (uint other = lane - 3u * LINES; other < lane; other += LINES)
-            if (line_part[other] < least) {
-                least = line_part[other];
-                best = line_best[other];
-            }
-        line_best[lane] = best;
-        line_lower(cell, least);
-    }
-    barrier();
-}
-
-/* Best candidate of the cell before a slot's first; 0 where nobody asked for it, which is no later. */
-uint line_best_before(uint slot)
-{
-    return slot == 0u ? 0u : line_best[(slot - 1u) * LINES + line_own()];
-}
-
-/* The last cells of the other slots look between those of the teams. */
-void line_search_slots()
-{
-    const uint slot = line_slot(), cell = (slot + 1u) * line_cells_per_slot() - 1u;
-    if ((slot & 3u) != 3u) {
-        uint least = 0xffffffffu, best = line_best_before(slot & ~3u);
-        if (line_slots_wanted(slot, 1u)) {
-            line_scan(cell, best, line_best[(slot | 3u) * LINES + line_own()] + 1u, least, best);
-            line_lower(cell, least);
+    uint least[SLOTS];
+    [[unroll]] for (uint s = 0u; s < SLOTS; s++)
+        least[s] = NOT_YET;
+    const uint shift = line_number_bits();
+    const int stride = 2 * line_weight() * int(line_cells_per_slot());
+    for (uint i = line_slot(); i < count; i += SLOTS) {
+        const int way = line_step(line_batch[i]);
+        uint sum = uint(line_sums[line_own() * BATCH + i] + line_weight() * (2 * way + 8)) << shift | i;
+        [[unroll]] for (uint s = 0u; s < SLOTS; s++) {
+            sum += (line_growth(s) - uint(stride * way)) << shift;
+            least[s] = min(least[s], sum);
         }
-        line_best[gl_LocalInvocationIndex] = best;
     }
+    [[unroll]] for (uint s = 0u; s < SLOTS; s++)
+        atomicMin(line_ends[s * LINES + line_own()], least[s]);
     barrier();
 }
 
-/* Four cells look between the best of their slot's last and of the one before their first. */
-void line_search_four(uint cell, uint cell_end)
+/* Which candidate is best for the last cell of a slot. */
+uint line_best(uint slot)
 {
-    const ivec4 centre = line_centre(cell) + ivec4(0, 8, 16, 24);
-    const uint end = line_best[gl_LocalInvocationIndex] + 1u;
-    uvec4 least = uvec4(0xffffffffu);
-    for (uint i = line_best_before(line_slot()); i < end; i++)
-        least = min(least, line_values_of(line_entries[i * LINES + line_own()], centre));
-    for (int k = 0; k < 4; k++)
-        if (cell + k < cell_end)
-            line_lower(cell + k, least[k]);
+    return line_ends[slot * LINES + line_own()] & (1u << line_number_bits()) - 1u;
+}
+
+/* Eight cells from the slot's cell `first` on look between the best of the slot's ends. */
+void line_search_eight(uint first)
+{
+    const uint own = line_own(), slot = line_slot(), end = line_best(slot);
+    const int cell = int(slot * line_cells_per_slot() + first);
+    for (uint i = slot > 0u ? line_best(slot - 1u) : 0u; i <= end; i++) {
+        const int way = 2 * line_weight() * line_step(line_batch[i]);
+        int sum = line_sums[own * BATCH + i] - cell * way;
+        [[unroll]] for (uint k = 0u; k < 8u; k++, sum -= way)
+            line_least[first + k] = min(line_least[first + k], sum);
+    }
 }
 
 /* Lowers line_least by the `count` candidates of a batch. */
 void line_search(uint count)
 {
-    line_search_teams(count);
-    line_search_slots();
-    const uint cells = line_cells_per_slot(), cell_end = (line_slot() + 1u) * cells;
-    if (line_slots_wanted(line_slot(), 1u))
-        for (uint cell = cell_end - cells; cell < cell_end; cell += 4u)
-            line_search_four(cell, cell_end);
+    line_search_ends(count);
+    if (!line_slot_wanted(line_slot()))
+        return;
+    line_search_eight(0u);
+    if (line_cells_per_slot() > 8u)
+        line_search_eight(8u);
+}
+
+/* Once all batches are searched: results of all threads go where the sums were. Compilers may unroll what follows here less often
+ * than loops over registers: code that comes from memory for each pass of each frame costs more than it does. */
+void line_publish()
+{
+    const uint first = line_slot() * line_cells_per_slot();
+    barrier();
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
+        if (k < line_cells_per_slot())
+            line_sums[(first + k) * LINES + line_own()] = line_least[k];
+    barrier();
+}
+
+int line_result(uint cell, uint own)
+{
+    return line_sums[cell * LINES + own] + 8 * line_weight() * int(cell * cell);
 }
 
 #endif

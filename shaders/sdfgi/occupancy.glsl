@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * What the exact distance search keeps in the scratch buffer, N cells a side, in words:
  *   planes    2 N^3   distance within a layer of sub-voxels, for half of the layers of cells along x at a time
- *   runs      N^3/16  per eight cells along x a bit per row of sub-voxels along x that is set anywhere in them: z + 4 y;
- *                     two to a word
- *   rows      N^2     the same per column of cells along x
- *   layers    4 N     per layer of sub-voxels along y whether it holds a bit
+ *   runs      N^3/16  per row of sub-voxels along x a bit per eight cells in which it holds any
+ *   layers    N^2/32  per layer of cells along y and 32 columns a bit per layer of sub-voxels that holds any
  *   stale     N^2/8   a bit per block of 4^3 cells to search, along y: two words each
  * Coordinates are local, and lengths odd numbers of half a sub-voxel, so that all arithmetic is in integers and no order of
  * work changes a result. */
@@ -26,27 +24,49 @@ uint plane_slot(uint layer, uint x, uint z)
     return tile << 3u | (z & 1u) << 2u | (x & 3u);
 }
 
-/* All runs of a column lie side by side. */
-uint runs_slot(uint y, uint z, uint run)
+const uint RUN_BITS = 3u; /* a run is eight cells */
+
+/* The bit where the runs of a row begin; rows lie side by side along z. */
+uint runs_bit(uint layer, uint place)
 {
     const uint bits = occupancy_side_bits();
-    return (2u << (3u * bits)) + ((z << bits | y) << (bits - 4u) | run >> 1u);
+    return (layer << (bits + 2u) | place) << (bits - RUN_BITS);
 }
 
-uint rows_slot(uint y, uint z)
+uint runs_slot(uint bit)
 {
-    const uint bits = occupancy_side_bits();
-    return runs_slot(0u, sdfgi_frame.size.x, 0u) + (y << bits | z);
+    return (2u << (3u * occupancy_side_bits())) + (bit >> 5u);
 }
 
-uint layers_slot(uint layer)
+/* The runs in which a row holds bits. */
+uint runs_of_row(uint layer, uint place)
 {
-    return rows_slot(sdfgi_frame.size.x, 0u) + layer;
+    const uint bit = runs_bit(layer, place);
+    return bitfieldExtract(sdfgi_scratch[runs_slot(bit)], int(bit & 31u), int(sdfgi_frame.size.x >> RUN_BITS));
+}
+
+uint layer_parts()
+{
+    return sdfgi_frame.size.x / SDFGI_GROUP_COLUMNS;
+}
+
+uint layers_slot(uint y, uint part)
+{
+    return runs_slot(runs_bit(4u * sdfgi_frame.size.x, 0u)) + y * layer_parts() + part;
+}
+
+/* A bit per layer of sub-voxels of a layer of cells. */
+uint four_layers(uint y)
+{
+    uint four = 0u;
+    for (uint part = 0u; part < layer_parts(); part++)
+        four |= sdfgi_scratch[layers_slot(y, part)];
+    return four;
 }
 
 uint stale_slot(uint block_x, uint block_z)
 {
-    return layers_slot(4u * sdfgi_frame.size.x) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
+    return layers_slot(sdfgi_frame.size.x, 0u) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
 }
 
 /* ---- Squared lengths: 16 per square of half a sub-voxel, so that heights scaled by 1/2 or 3/4 stay whole numbers */

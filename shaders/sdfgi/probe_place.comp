@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * Decides where each probe stands: on its lattice corner if the eight cells around are empty, else in the centre of the
  * nearest roomy empty cell, else nowhere (Hu et al. 2021, SDFDDGI, section 3.4: probes leave geometry along the distance
- * field). Only probes near something new are placed again. One workgroup per probe, one thread per cell that it may move to. */
+ * field); and which of the next probes along the axes it sees: lookups extrapolate along such links. Only near something new.
+ * One workgroup per probe, one thread per cell that it may move to. A workgroup finds out where the next probes stand, too,
+ * rather than wait for theirs. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_PROBES
 #include "changed.glsl"
 #include "probe_common.glsl"
+#include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
@@ -20,11 +24,16 @@ const float MOVE_COST = 0.25;
  * surface inside its cell makes of the room on either side. */
 const float DOWN_COST = 0.5;
 /* Cells that matter to a place: those it may move to, and those whose distance tells how roomy they are. */
-const int NEAR = REACH + int(ENOUGH_ROOM) + 1;
+const int NEAR_PLACE = REACH + int(ENOUGH_ROOM) + 1;
+/* Cells around the way to the next probe that matter: how far probes move, and a ray's longest step. */
+const int NEAR_LINK = 8;
 const uint CANDIDATES = uint(8 * REACH * REACH * REACH);
+const uint PER_THREAD = (CANDIDATES - 1u) / uint(SDFGI_GROUP_LINEAR) + 1u;
+const int NOWHERE = -0x7fffffff;
 const uint PLACE_BITS = SDFGI_PROBE_DEAD | SDFGI_PROBE_MOVED | 0x7fffu;
 
-shared uint corner_blocked;
+shared uint blocked; /* a bit per probe: this one, and the next along each axis */
+shared uint links;
 shared int best_score; /* ordered as the floats are */
 shared uint best_candidate;
 
@@ -42,8 +51,8 @@ ivec3 candidate_offset(uint i)
 int candidate_score(ivec3 corner, uint i)
 {
     const ivec3 offset = candidate_offset(i), cell = corner + offset;
-    if (!cell_inside(cell) || cell_bits(args.cascade, cell) != uvec2(0u))
-        return -0x7fffffff;
+    if (i >= CANDIDATES || !cell_inside(cell) || cell_bits(args.cascade, cell) != uvec2(0u))
+        return NOWHERE;
     const float moved = length(metric_from_cells(vec3(offset) + 0.5));
     const float score = min(cell_distance(args.cascade, cell), ENOUGH_ROOM) - MOVE_COST * moved -
                         (offset.y < 0 ? DOWN_COST : 0.0);
@@ -52,49 +61,110 @@ int candidate_score(ivec3 corner, uint i)
 }
 
 /* Called by the whole workgroup. */
-uint place(ivec3 corner)
+uint roomiest_place(ivec3 corner)
 {
     const uint lane = gl_LocalInvocationIndex;
+    int scores[PER_THREAD];
+    barrier();
     if (lane == 0u) {
-        corner_blocked = 0u;
-        best_score = -0x7fffffff;
+        best_score = NOWHERE;
         best_candidate = CANDIDATES;
     }
     barrier();
-    if (lane < 8u && !cell_empty(corner - ivec3(lane & 1u, lane >> 1u & 1u, lane >> 2u)))
-        corner_blocked = 1u;
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
+        scores[k] = candidate_score(corner, lane + k * uint(SDFGI_GROUP_LINEAR));
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
+        atomicMax(best_score, scores[k]);
     barrier();
-    if (corner_blocked == 0u)
-        return 0u;
-    for (uint i = lane; i < CANDIDATES; i += uint(SDFGI_GROUP_LINEAR))
-        atomicMax(best_score, candidate_score(corner, i));
-    barrier();
-    if (best_score == -0x7fffffff)
+    if (best_score == NOWHERE)
         return SDFGI_PROBE_DEAD;
-    for (uint i = lane; i < CANDIDATES; i += uint(SDFGI_GROUP_LINEAR))
-        if (candidate_score(corner, i) == best_score)
-            atomicMin(best_candidate, i);
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
+        if (scores[k] == best_score)
+            atomicMin(best_candidate, lane + k * uint(SDFGI_GROUP_LINEAR));
     barrier();
     return probe_pack_moved(candidate_offset(best_candidate));
 }
 
-void main()
+bool entered(ivec3 corner)
 {
-    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const ivec3 corner = probe * SDFGI_PROBE_SPACING;
-    const uint slot = probe_index(args.cascade, probe);
     const ivec3 low = sdfgi_frame.cascades[args.cascade].kept_low.xyz;
     const ivec3 high = sdfgi_frame.cascades[args.cascade].kept_high.xyz;
-    const bool entered =
-        any(greaterThanEqual(low, high)) || any(lessThan(corner, low)) || any(greaterThan(corner, high));
+    return any(greaterThanEqual(low, high)) || any(lessThan(corner, low)) || any(greaterThan(corner, high));
+}
+
+bool is_placed(ivec3 corner)
+{
+    return entered(corner) || changed_near(args.cascade, corner, corner, NEAR_PLACE);
+}
+
+/* This probe, or the next one along an axis. */
+ivec3 next_probe(ivec3 probe, uint i)
+{
+    return probe + ivec3(i == 1u, i == 2u, i == 3u);
+}
+
+bool exists(ivec3 probe)
+{
+    return all(lessThan(probe, ivec3(sdfgi_frame.size.z)));
+}
+
+/* Which of the four have anything in the eight cells around their corners. */
+void find_blocked(ivec3 probe)
+{
+    const uint lane = gl_LocalInvocationIndex, i = lane >> 3u;
+    if (lane == 0u)
+        blocked = links = 0u;
+    barrier();
+    const ivec3 corner = next_probe(probe, i) * SDFGI_PROBE_SPACING;
+    if (i < 4u && !cell_empty(corner - ivec3(lane & 1u, lane >> 1u & 1u, lane >> 2u & 1u)))
+        atomicOr(blocked, 1u << i);
+    barrier();
+}
+
+/* Where a probe stands, as PLACE_BITS. Called by the whole workgroup. */
+uint place(ivec3 probe, uint i)
+{
+    const ivec3 other = next_probe(probe, i), corner = other * SDFGI_PROBE_SPACING;
+    if (!exists(other))
+        return SDFGI_PROBE_DEAD;
+    if (!is_placed(corner))
+        return sdfgi_probes[probe_index(args.cascade, other)] & PLACE_BITS;
+    return (blocked >> i & 1u) != 0u ? roomiest_place(corner) : 0u;
+}
+
+/* Which of the next probes a probe that stands at `state` sees. Called by the whole workgroup. */
+uint find_links(ivec3 probe, uint state)
+{
+    uint next = SDFGI_PROBE_DEAD;
+    [[dont_unroll]] for (uint i = 1u; i < 4u; i++) {
+        const uint other = place(probe, i);
+        next = gl_LocalInvocationIndex + 1u == i ? other : next;
+    }
+    const ivec3 step = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u);
+    if (!probe_is_dead(state) && !probe_is_dead(next) &&
+        trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING, probe_position(ivec3(0), state),
+                           probe_position(step, next)))
+        atomicOr(links, 1u << SDFGI_PROBE_LINK_SHIFT + gl_LocalInvocationIndex);
+    barrier();
+    return links;
+}
+
+void main()
+{
+    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
+    const uint lane = gl_LocalInvocationIndex, slot = probe_index(args.cascade, probe);
     const uint before = sdfgi_probes[slot] & ~SDFGI_PROBE_NEW;
     uint state = before;
-    if (entered || changed_near(args.cascade, corner, corner, NEAR))
-        state = place(corner);
-    if (gl_LocalInvocationIndex > 0u)
+    if (changed_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
+        find_blocked(probe);
+        state = place(probe, 0u);
+        const uint seen = find_links(probe, state);
+        const bool is_new = entered(corner) || ((state ^ before) & PLACE_BITS) != 0u;
+        state |= seen | (is_new ? SDFGI_PROBE_NEW : 0u);
+    }
+    if (lane > 0u)
         return;
-    const bool is_new = entered || ((state ^ before) & PLACE_BITS) != 0u;
-    sdfgi_probes[slot] = is_new ? state | SDFGI_PROBE_NEW : before;
+    sdfgi_probes[slot] = state;
     if (probe_is_dead(state))
         counter_add(SDFGI_COUNTER_DEAD_PROBES, 1u);
 }

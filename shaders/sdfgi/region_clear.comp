@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks; notes where there
- * were bits. One thread per four cells along x, which share a word of masks; boxes begin and end at multiples of 8 cells. */
+ * were bits. One thread per four cells along y; eight side by side have cells that are stored side by side. Boxes begin and end
+ * at multiples of 8 cells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
@@ -18,31 +19,35 @@ void clear_accumulators(ivec3 cell)
         sdfgi_scratch[plane * block_count() + block] = 0u;
 }
 
-/* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. */
-void note_bits(ivec3 first, uint index)
+/* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. `held` has a bit per cell. */
+void note_bits(ivec3 first, int held)
 {
     const ivec3 low = args.before.xyz, was = low + (first - low & space_resolution() - 1);
-    for (uint k = 0u; k < 4u; k++)
-        if (sdfgi_bits[index + k] != uvec2(0u))
-            content_add(args.cascade, CONTENT_WENT, args.before.w, was + ivec3(k, 0, 0), was + ivec3(k + 1u, 1, 1));
+    if (held != 0)
+        content_add(args.cascade, CONTENT_WENT, args.before.w, was + ivec3(0, findLSB(held), 0),
+                    was + ivec3(1, findMSB(held) + 1, 1));
 }
 
 void main()
 {
-    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / uvec3(4u, 1u, 1u);
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= size.x * size.y * size.z)
+    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / uvec3(8u, 4u, 1u);
+    const uint i = gl_GlobalInvocationID.x, row = i >> 3u;
+    if (row >= size.x * size.y * size.z)
         return;
-    const ivec3 first =
-        args.low.xyz + ivec3(4u * (i % size.x), i / size.x % size.y, i / (size.x * size.y));
-    const uint index = cell_index(args.cascade, first);
+    const ivec3 first = args.low.xyz + ivec3(row % size.x * 8u | i & 7u, row / size.x % size.y * 4u, row / (size.x * size.y));
+    int held = 0;
+    for (int k = 0; k < 4; k++)
+        held |= int(cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
     if (args.before.w >= 0)
-        note_bits(first, index);
-    for (uint k = 0u; k < 4u; k++)
-        sdfgi_bits[index + k] = sdfgi_light[index + k] = uvec2(0u);
-    sdfgi_masks[index >> 2u] = 0u;
-    if (((first.y | first.z) & 1) == 0) {
+        note_bits(first, held);
+    for (int k = 0; k < 4; k++) {
+        const uint index = cell_index(args.cascade, first + ivec3(0, k, 0));
+        sdfgi_bits[index] = sdfgi_light[index] = uvec2(0u);
+        if ((first.x & 3) == 0)
+            sdfgi_masks[index >> 2u] = 0u;
+    }
+    if (((first.x | first.z) & 1) == 0) {
         clear_accumulators(first);
-        clear_accumulators(first + ivec3(2, 0, 0));
+        clear_accumulators(first + ivec3(0, 2, 0));
     }
 }

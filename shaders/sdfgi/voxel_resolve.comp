@@ -122,13 +122,10 @@ uvec2 resolve_emission(uint block, uvec3 block_texel)
     return uvec2(rgbe_encode(mean * resolve_filled(covered, bits, facing) * largest), packed);
 }
 
-void main()
+shared uint voxels; /* samples in the blocks of the workgroup: one atomic for all */
+
+void resolve(ivec3 cell)
 {
-    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / 2u;
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= size.x * size.y * size.z)
-        return;
-    const ivec3 cell = args.low.xyz + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
     const uvec3 block_texel = cell_texel(args.cascade, cell) / 2u;
     const uint block = block_index(args.cascade, cell);
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
@@ -140,7 +137,21 @@ void main()
     sdfgi_normals[out_index] = resolve_normals(block);
     if (count == 0u)
         return;
-    counter_add(SDFGI_COUNTER_VOXELS, count);
+    atomicAdd(voxels, count);
     if (args.before.w >= 0)
         content_add(args.cascade, CONTENT_CAME, args.before.w, cell, cell + 2);
+}
+
+void main()
+{
+    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / 2u;
+    const uint i = gl_GlobalInvocationID.x;
+    if (gl_LocalInvocationIndex == 0u)
+        voxels = 0u;
+    barrier();
+    if (i < size.x * size.y * size.z)
+        resolve(args.low.xyz + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && voxels > 0u)
+        counter_add(SDFGI_COUNTER_VOXELS, voxels);
 }

@@ -85,18 +85,18 @@ vec3 mesh_position(uint vertex)
     return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
 }
 
-/* False, and counted, if a vertex is out of range or not finite. */
+/* False if a vertex is out of range or not finite. Nothing is asked before all is read: two waits, not six. */
 bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
 {
-    for (int i = 0; i < 3; i++) {
+    bool valid = true;
+    for (int i = 0; i < 3; i++)
         index[i] = mesh_index(3u * t + uint(i));
-        if (index[i] >= args.vertex_count)
-            return false;
-        v[i] = mesh_position(index[i]);
-        if (!(max(abs(v[i].x), max(abs(v[i].y), abs(v[i].z))) < MAX_COORDINATE))
-            return false;
+    for (int i = 0; i < 3; i++) {
+        v[i] = mesh_position(min(index[i], args.vertex_count - 1u));
+        valid = valid && index[i] < args.vertex_count &&
+                max(abs(v[i].x), max(abs(v[i].y), abs(v[i].z))) < MAX_COORDINATE;
     }
-    return true;
+    return valid;
 }
 
 /* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box. Nothing but the range

@@ -7,7 +7,8 @@
 #define SDFGI_MAX_CHANGES 6   /* boxes of cells that a cascade makes new at once: three that enter it, three that leave */
 /* Strips across a cascade in which boxes around what went and what came are kept, see sdfgi/content.glsl. */
 #define SDFGI_CONTENT_STRIPS 16
-#define SDFGI_CONTENT_BYTES (2 * SDFGI_CONTENT_STRIPS * 6 * 4) /* of one cascade */
+#define SDFGI_CONTENT_STRIDE 32 /* words from box to box: 128 bytes, as atomics on one cache line wait for each other */
+#define SDFGI_CONTENT_BYTES (2 * SDFGI_CONTENT_STRIPS * SDFGI_CONTENT_STRIDE * 4) /* of one cascade */
 #define SDFGI_CONTENT_ORIGIN 4096 /* further than any cell that leaves is from the cascade */
 #define SDFGI_PROBE_SPACING 8 /* cells between probes */
 /* Probes after which hashed places repeat: a scene moved by so many probes has the same light to the bit. */
@@ -53,6 +54,7 @@
 #define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
 #define SDFGI_GROUP_LINES 128      /* threads that share eight lines of cells, or a layer */
 #define SDFGI_LINES 8              /* lines of a workgroup */
+#define SDFGI_GROUP_COLUMNS 32     /* columns of cells that they share */
 #define SDFGI_GROUP_TRIANGLE 64    /* threads that share as many triangles */
 #define SDFGI_GROUP_PROBE 32       /* threads that share one probe */
 #define SDFGI_GROUP_RAYS 128       /* one thread per ray of a frame; threads that share a probe's remembered rays */

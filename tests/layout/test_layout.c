@@ -7,7 +7,7 @@
 #include "cell_mask.comp.h"
 #include "distance_exact.comp.h"
 #include "distance_plane.comp.h"
-#include "distance_stale.comp.h"
+#include "distance_prepare.comp.h"
 #include "flood_distance.comp.h"
 #include "flood_seed.comp.h"
 #include "flood_step.comp.h"
@@ -17,9 +17,7 @@
 #include "light_list.comp.h"
 #include "light_mark.comp.h"
 #include "occlusion_trace.comp.h"
-#include "occupancy.comp.h"
 #include "probe_blend.comp.h"
-#include "probe_link.comp.h"
 #include "probe_place.comp.h"
 #include "probe_seed.comp.h"
 #include "probe_sum.comp.h"
@@ -48,7 +46,7 @@ static const struct {
     MODULE(cell_mask_comp),
     MODULE(distance_exact_comp),
     MODULE(distance_plane_comp),
-    MODULE(distance_stale_comp),
+    MODULE(distance_prepare_comp),
     MODULE(flood_distance_comp),
     MODULE(flood_seed_comp),
     MODULE(flood_step_comp),
@@ -58,9 +56,7 @@ static const struct {
     MODULE(light_list_comp),
     MODULE(light_mark_comp),
     MODULE(occlusion_trace_comp),
-    MODULE(occupancy_comp),
     MODULE(probe_blend_comp),
-    MODULE(probe_link_comp),
     MODULE(probe_place_comp),
     MODULE(probe_seed_comp),
     MODULE(probe_sum_comp),

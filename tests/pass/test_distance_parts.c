@@ -110,8 +110,8 @@ static void write_content(struct gi_test *t, const struct cell_box *changed, uin
     uint32_t words[SDFGI_CONTENT_BYTES / 4] = { 0 };
     for (uint32_t b = 0; b < count; b++)
         for (uint32_t i = 0; i < 3 && !cell_box_empty(&changed[b]); i++) {
-            words[6 * b + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN - changed[b].low[i]);
-            words[6 * b + 3 + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN + changed[b].high[i]);
+            words[SDFGI_CONTENT_STRIDE * b + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN - changed[b].low[i]);
+            words[SDFGI_CONTENT_STRIDE * b + 3 + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN + changed[b].high[i]);
         }
     write_buffer(t, RESOURCE_CONTENT, words, sizeof words);
 }

@@ -7,10 +7,9 @@
 #define RAYS  (P(RAY_LIST) | P(PROBE_TRACE))
 
 static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_LIST),
-                      generation =
-                          P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | P(PROBE_LINK) | listing,
+                      generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | listing,
                       seeding = P(PROBE_SEED) | P(RAY_FORGET),
-                      exact = P(OCCUPANCY) | P(DISTANCE_STALE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
+                      exact = P(DISTANCE_PREPARE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
                       flood = P(FLOOD_SEED) | P(FLOOD_STEP) | P(FLOOD_DISTANCE),
                       light = P(LIGHT_BOUNCE) | P(PROBE_SUM),
                       publishing = P(LIGHT_BOUNCE) | P(PROBE_SUM) | P(PROBE_BLEND);
@@ -156,7 +155,7 @@ static void a_step_runs_in_parts(void **state)
     const uint64_t runs[] = {
         publishing | P(REGION_CLEAR) | P(VOXELIZE) | P(VOXEL_RESOLVE),
         publishing | exact,
-        publishing | seeding | P(PROBE_PLACE) | P(PROBE_LINK) | listing | P(CELL_MASK) | P(LIGHT_DIRECT),
+        publishing | seeding | P(PROBE_PLACE) | listing | P(CELL_MASK) | P(LIGHT_DIRECT),
         publishing | P(LIGHT_DIRECT),
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
