@@ -254,7 +254,8 @@ struct schedule {
     uint32_t step_count;
     bool from_nothing;      /* no cascade was complete before this frame */
     uint64_t cells;         /* voxelised or given distances in this frame */
-    uint64_t steps_begun; /* since the start */
+    uint64_t steps_begun;    /* since the start */
+    uint32_t frames_between; /* since a cascade became complete */
 };
 
 /* Starts what cascades need and decides how much of it this frame does. */

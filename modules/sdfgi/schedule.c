@@ -20,8 +20,10 @@
 #define PACE_SHARE    0.015625
 /* How much more is done than the camera's pace calls for. */
 #define HEADROOM 1.15
-/* Steps of cascades per frame from which on one frame may complete several. */
-#define BUSY_STEPS 0.5
+/* Steps of cascades per frame from which on one frame may complete several, and frames between those that
+ * do at a slow pace. */
+#define BUSY_STEPS     0.5
+#define FRAMES_BETWEEN 3.0
 /* Probe spacings that a window may lack on a side before its cascade falls behind: one that is not due yet,
  * one that is being made, one more. */
 #define LAG 3.0
@@ -292,10 +294,14 @@ static bool any_hurries(const struct sdfgi *gi)
     return false;
 }
 
-/* One cascade a frame becomes complete, which is work of its own, unless they do so all the time or hurry. */
+/* That a cascade becomes complete is work of its own: some frames lie between one and the next, as many as
+ * the pace leaves time for, unless they hurry. */
 static bool may_complete(const struct sdfgi *gi)
 {
-    return !schedule_has(gi, STEP_COMPLETE) || steps_of_all(gi) >= BUSY_STEPS || any_hurries(gi);
+    const double steps = steps_of_all(gi);
+    const bool apart = !schedule_has(gi, STEP_COMPLETE) &&
+                       gi->schedule.frames_between >= fmin(FRAMES_BETWEEN, BUSY_STEPS / steps - 1);
+    return apart || steps >= BUSY_STEPS || any_hurries(gi);
 }
 
 /* Does as much of a change as the budget allows. */
@@ -376,6 +382,7 @@ void schedule_frame(struct sdfgi *gi, const double camera[3])
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         gi->cascades[c].fresh = gi->cascades[c].fresh || s->from_nothing;
     advance_all(gi, frame_budget(gi));
+    s->frames_between = schedule_has(gi, STEP_COMPLETE) ? 0 : s->frames_between + 1;
     for (uint32_t i = 0; i < s->step_count; i++)
         if (s->steps[i].kind == STEP_COMPLETE)
             gi->cascades[s->steps[i].cascade].window = cell_box_whole(gi->settings.resolution);

@@ -70,7 +70,8 @@ struct journey schedule_drive_journey(struct sdfgi *gi, const char *what, uint32
                                       const void *user)
 {
     uint64_t *work = test_array_alloc(frames, sizeof *work);
-    struct journey j = { .frames = frames };
+    struct journey j = { .frames = frames, .apart = UINT32_MAX };
+    uint32_t since = frames;
     double camera[3];
     for (uint32_t i = 0; i < skip + frames; i++) {
         where(user, i, camera);
@@ -78,6 +79,11 @@ struct journey schedule_drive_journey(struct sdfgi *gi, const char *what, uint32
         if (i < skip)
             continue;
         work[i - skip] = cells;
+        since++;
+        if (schedule_has(gi, STEP_COMPLETE)) {
+            j.apart = since < j.apart ? since : j.apart;
+            since = 0;
+        }
         for (uint32_t c = 0; c < gi->settings.cascades; c++)
             j.covered[c] += schedule_drive_covers(&gi->cascades[c], camera, 40);
     }

@@ -16,6 +16,7 @@ bool schedule_drive_covers(const struct cascade *cascade, const double camera[st
 
 struct journey {
     uint64_t median, p99, most;  /* cells a frame */
+    uint32_t apart;              /* fewest frames from one that completes a cascade to the next */
     uint32_t frames, covered[4]; /* frames in which a cascade covers 40 of its cells around the camera */
 };
 
