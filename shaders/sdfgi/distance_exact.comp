@@ -27,7 +27,8 @@ int line_weight()
     return int(distance_y_weight()) / common_weight();
 }
 
-/* Sums are below (line_weight + 2 * 16 / common_weight) / 8 (8 N)^2: where N is 256, 23 bits, but 25 where 9 and 16 share nothing. */
+/* Sums are below (line_weight + 2 * 16 / common_weight) / 8 (8 N)^2: at most 23 bits, but 25 where N is 256 and 9 and 16 have
+ * nothing in common. */
 uint line_number_bits()
 {
     return common_weight() == 1 && sdfgi_frame.size.x > 128u ? 7u : 9u;
@@ -84,7 +85,8 @@ void put_planes(uint count)
 
 uint encoded(uint y, uint own)
 {
-    return line_candidates() == 0u ? 0xffffu : distance_encode(uint(8 * common_weight() * line_result(y, own)) + distance_y_weight() + 32u);
+    const uint length2 = uint(8 * common_weight() * line_result(y, own)) + distance_y_weight() + 32u;
+    return line_candidates() == 0u ? 0xffffu : distance_encode(length2);
 }
 
 /* Two cells share a word. */

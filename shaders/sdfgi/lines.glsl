@@ -5,11 +5,12 @@
  * matrix-searching algorithm").
  * A workgroup works on LINES lines. SLOTS threads share one; each answers for as many cells in a row. First they share out the
  * candidates, each trying its own on the last cell of every slot; then each looks for its cells between the best of its last
- * and of the one before its first: 10 to 12 candidates in the mean where a village scrolls, 23 to 30 in the slowest of 32 threads.
+ * and of the one before its first: at 10 to 12 candidates in the mean where a village scrolls, at 23 to 30 in the slowest of
+ * 32 threads.
  * With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is line_weight t + what is brought along. A way
  * is a candidate's step less eight times the cell, so one product per candidate and a constant per cell tell all sums.
- * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads
- * that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
+ * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32:
+ * threads that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
  * Shared memory: 36 bytes per candidate of a batch, and 800 besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
@@ -24,11 +25,11 @@ const uint MOST_CELLS = 256u / SLOTS; /* of a slot */
 const int WORST = 0x7fffffff;
 const uint NOT_YET = 0xffffffffu;
 
-shared uint line_places[32];            /* a bit per place along the line that has candidates */
-shared uint line_ranks[33];             /* candidates before each 32 places, and all */
-shared uint line_wanted;                /* a bit per slot that has to answer */
-shared uint line_batch[BATCH];          /* places of a batch of candidates */
-shared int line_sums[LINES * BATCH];    /* of each line: what its candidates amount to for cell 0 */
+shared uint line_places[32];              /* a bit per place along the line that has candidates */
+shared uint line_ranks[33];               /* candidates before each 32 places, and all */
+shared uint line_wanted;                  /* a bit per slot that has to answer */
+shared uint line_batch[BATCH];            /* places of a batch of candidates */
+shared int line_sums[LINES * BATCH];      /* of each line: what its candidates amount to for cell 0 */
 shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the candidate's number */
 
 int line_least[MOST_CELLS]; /* for the cells of this thread */
@@ -204,8 +205,7 @@ void line_search(uint count)
         line_search_eight(8u);
 }
 
-/* Once all batches are searched: results of all threads go where the sums were. Compilers may unroll what follows here less often
- * than loops over registers: code that comes from memory for each pass of each frame costs more than it does. */
+/* Once all batches are searched: results of all threads go where the sums were, to be stored in the order in which they lie. */
 void line_publish()
 {
     const uint first = line_slot() * line_cells_per_slot();
