@@ -13,16 +13,8 @@ const uint BATCH = 324u; /* 12.3 KiB of shared memory, of the 16 that every devi
 
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-int line_weight()
-{
-    return 1;
-}
-
 /* Sums are below 2 / 8 (8 N)^2: 20 bits where N is 256. */
-uint line_number_bits()
-{
-    return 9u;
-}
+const uint NUMBER_BITS = 9u;
 
 uint layer()
 {
@@ -136,7 +128,7 @@ void main()
 {
     if (!layer_holds_any())
         return;
-    line_begin();
+    line_begin(1, NUMBER_BITS);
     mark_wanted();
     mark_rows();
     barrier();
