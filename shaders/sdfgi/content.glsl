@@ -6,7 +6,8 @@
 
 #include "pass.glsl"
 
-/* The first six words of each box: how far it reaches from SDFGI_CONTENT_ORIGIN downwards, and upwards. Zeroes are no box, maxima its growth. */
+/* The first six words of each box: how far it reaches from SDFGI_CONTENT_ORIGIN downwards, and upwards. Zeroes are no box,
+ * maxima its growth. */
 layout(std430, set = 0, binding = SDFGI_BINDING_CONTENT) buffer sdfgi_content_buffer
 {
     uint sdfgi_content[];

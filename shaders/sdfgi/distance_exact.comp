@@ -16,21 +16,14 @@ layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
 const uint PER_THREAD = (BATCH * LINES - 1u) / SDFGI_GROUP_LINES + 1u;
 
-/* What squares along y count and what planes store, 16, have in common. */
-int common_weight()
-{
-    return distance_y_weight() == 9u ? 1 : int(distance_y_weight());
-}
+int common_bits; /* of what squares along y count, 4, 9 or 16, and what planes store, 16: powers of 2 in common */
 
-int line_weight()
+void begin()
 {
-    return int(distance_y_weight()) / common_weight();
-}
-
-/* Sums are below (line_weight + 2 * 16 / common_weight) / 8 (8 N)^2: where N is 256, 23 bits, but 25 where 9 and 16 share nothing. */
-uint line_number_bits()
-{
-    return common_weight() == 1 && sdfgi_frame.size.x > 128u ? 7u : 9u;
+    const int weight = int(distance_y_weight());
+    common_bits = findLSB(weight);
+    /* Sums are below (weight + 2 * 16) / 8 (8 N)^2, less what is common: at most 23 bits, but 25 where N is 256 and the weight 9. */
+    line_begin(weight >> common_bits, common_bits == 0 && sdfgi_frame.size.x > 128u ? 7u : 9u);
 }
 
 uint first_x()
@@ -72,7 +65,7 @@ void put_planes(uint count)
         const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
         const uint place = line_batch[i / LINES];
         const uint slot = plane_slot(place, first_x() - args.step, first_z()) + (i & (LINES - 1u));
-        sums[k] = line_sum(place, 16 / common_weight() * int(sdfgi_scratch[slot]));
+        sums[k] = line_sum(place, int(sdfgi_scratch[slot]) * (16 >> common_bits));
     }
     [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
         const uint i = gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES;
@@ -84,7 +77,8 @@ void put_planes(uint count)
 
 uint encoded(uint y, uint own)
 {
-    return line_candidates() == 0u ? 0xffffu : distance_encode(uint(8 * common_weight() * line_result(y, own)) + distance_y_weight() + 32u);
+    const uint length2 = uint((8 * line_result(y, own) + line_weight) << common_bits) + 32u;
+    return line_candidates() == 0u ? 0xffffu : distance_encode(length2);
 }
 
 /* Two cells share a word. */
@@ -103,7 +97,7 @@ void main()
     const uvec2 stale = stale_blocks();
     if (stale == uvec2(0u))
         return;
-    line_begin();
+    begin();
     mark_all(stale);
     const uint count = line_candidates();
     for (uint first = 0u; first < count; first += line_room()) {

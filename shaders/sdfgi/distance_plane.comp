@@ -1,29 +1,20 @@
 /* SPDX-License-Identifier: MIT
  * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along x by
- * scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8, their sums as
- * (d^2 + e^2 - 2) / 8. Cells of the stale blocks, where their columns hold any, from args.step to
- * before args.source along x.
+ * scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8,
+ * their sums as (d^2 + e^2 - 2) / 8. Cells of columns that hold stale blocks, from args.step to before args.source along x.
  * One workgroup per layer and run of eight cells along x: eight lines along z. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-const uint BATCH = 324u; /* 12.9 KiB of shared memory, of the 16 that every device has: a layer of a village in one go */
+const uint BATCH = 324u; /* 12.3 KiB of shared memory, of the 16 that every device has: a layer of a village in one go */
 
 #include "lines.glsl"
 
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-int line_weight()
-{
-    return 1;
-}
-
 /* Sums are below 2 / 8 (8 N)^2: 20 bits where N is 256. */
-uint line_number_bits()
-{
-    return 9u;
-}
+const uint NUMBER_BITS = 9u;
 
 uint layer()
 {
@@ -137,7 +128,7 @@ void main()
 {
     if (!layer_holds_any())
         return;
-    line_begin();
+    line_begin(1, NUMBER_BITS);
     mark_wanted();
     mark_rows();
     barrier();

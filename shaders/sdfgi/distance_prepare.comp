@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the exact search has to know before it begins (occupancy.glsl): which rows of sub-voxels hold bits, and which blocks of 4^3
- * cells to search. Neither needs the other, so one dispatch finds both: workgroups share some columns along z, or a column of
+ * What the exact search has to know before it begins (occupancy.glsl): which rows of sub-voxels hold bits, and which blocks of
+ * 4^3 cells to search. Neither needs the other, so one dispatch finds both: workgroups share some columns along z, or a column of
  * blocks along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -5,11 +5,12 @@
  * matrix-searching algorithm").
  * A workgroup works on LINES lines. SLOTS threads share one; each answers for as many cells in a row. First they share out the
  * candidates, each trying its own on the last cell of every slot; then each looks for its cells between the best of its last
- * and of the one before its first: 10 to 12 candidates in the mean where a village scrolls, 23 to 30 in the slowest of 32 threads.
+ * and of the one before its first: at 10 to 12 candidates in the mean where a village scrolls, at 23 to 30 in the slowest of
+ * 32 threads.
  * With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is line_weight t + what is brought along. A way
  * is a candidate's step less eight times the cell, so one product per candidate and a constant per cell tell all sums.
- * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads
- * that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
+ * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32:
+ * threads that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
  * Shared memory: 36 bytes per candidate of a batch, and 800 besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
@@ -24,19 +25,16 @@ const uint MOST_CELLS = 256u / SLOTS; /* of a slot */
 const int WORST = 0x7fffffff;
 const uint NOT_YET = 0xffffffffu;
 
-shared uint line_places[32];            /* a bit per place along the line that has candidates */
-shared uint line_ranks[33];             /* candidates before each 32 places, and all */
-shared uint line_wanted;                /* a bit per slot that has to answer */
-shared uint line_batch[BATCH];          /* places of a batch of candidates */
-shared int line_sums[LINES * BATCH];    /* of each line: what its candidates amount to for cell 0 */
+shared uint line_places[32];              /* a bit per place along the line that has candidates */
+shared uint line_ranks[33];               /* candidates before each 32 places, and all */
+shared uint line_wanted;                  /* a bit per slot that has to answer */
+shared uint line_batch[BATCH];            /* places of a batch of candidates */
+shared int line_sums[LINES * BATCH];      /* of each line: what its candidates amount to for cell 0 */
 shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the candidate's number */
 
 int line_least[MOST_CELLS]; /* for the cells of this thread */
-
-/* How much squares along this line count. */
-int line_weight();
-/* Bits that sums leave of 32 for the number of a candidate in its batch. */
-uint line_number_bits();
+int line_weight;            /* how much squares along this line count */
+uint line_number_bits;      /* that sums leave of 32 for the number of a candidate in its batch */
 
 uint line_own()
 {
@@ -63,13 +61,16 @@ int line_step(uint place)
 int line_sum(uint place, int brought)
 {
     const int way = line_step(place);
-    return line_weight() * (way * way >> 3) + brought;
+    return line_weight * (way * way >> 3) + brought;
 }
 
 /* ---- Places: before candidates are put into batches */
 
-void line_begin()
+/* Weight and bits are worked out once: within loops they took longer than all else. */
+void line_begin(int weight, uint number_bits)
 {
+    line_weight = weight;
+    line_number_bits = number_bits;
     if (gl_LocalInvocationIndex < 32u)
         line_places[gl_LocalInvocationIndex] = 0u;
     if (gl_LocalInvocationIndex == 0u)
@@ -118,7 +119,7 @@ uint line_candidates()
 /* Candidates in a batch at most. */
 uint line_room()
 {
-    return min(BATCH, 1u << line_number_bits());
+    return min(BATCH, 1u << line_number_bits);
 }
 
 /* Fills line_batch with the places of the candidates numbered from `first`. */
@@ -149,7 +150,7 @@ bool line_slot_wanted(uint slot)
 uint line_growth(uint slot)
 {
     const int cells = int(line_cells_per_slot());
-    return uint(8 * line_weight() * cells * (2 * (int(slot) * cells - 1) + cells));
+    return uint(8 * line_weight * cells * (2 * (int(slot) * cells - 1) + cells));
 }
 
 /* The last cell of every slot looks at all candidates; the threads of its line take turns. The number of a candidate lies below
@@ -159,11 +160,11 @@ void line_search_ends(uint count)
     uint least[SLOTS];
     [[unroll]] for (uint s = 0u; s < SLOTS; s++)
         least[s] = NOT_YET;
-    const uint shift = line_number_bits();
-    const int stride = 2 * line_weight() * int(line_cells_per_slot());
+    const uint shift = line_number_bits;
+    const int stride = 2 * line_weight * int(line_cells_per_slot());
     for (uint i = line_slot(); i < count; i += SLOTS) {
         const int way = line_step(line_batch[i]);
-        uint sum = uint(line_sums[line_own() * BATCH + i] + line_weight() * (2 * way + 8)) << shift | i;
+        uint sum = uint(line_sums[line_own() * BATCH + i] + line_weight * (2 * way + 8)) << shift | i;
         [[unroll]] for (uint s = 0u; s < SLOTS; s++) {
             sum += (line_growth(s) - uint(stride * way)) << shift;
             least[s] = min(least[s], sum);
@@ -177,7 +178,7 @@ void line_search_ends(uint count)
 /* Which candidate is best for the last cell of a slot. */
 uint line_best(uint slot)
 {
-    return line_ends[slot * LINES + line_own()] & (1u << line_number_bits()) - 1u;
+    return line_ends[slot * LINES + line_own()] & (1u << line_number_bits) - 1u;
 }
 
 /* Eight cells from the slot's cell `first` on look between the best of the slot's ends. */
@@ -186,7 +187,7 @@ void line_search_eight(uint first)
     const uint own = line_own(), slot = line_slot(), end = line_best(slot);
     const int cell = int(slot * line_cells_per_slot() + first);
     for (uint i = slot > 0u ? line_best(slot - 1u) : 0u; i <= end; i++) {
-        const int way = 2 * line_weight() * line_step(line_batch[i]);
+        const int way = 2 * line_weight * line_step(line_batch[i]);
         int sum = line_sums[own * BATCH + i] - cell * way;
         [[unroll]] for (uint k = 0u; k < 8u; k++, sum -= way)
             line_least[first + k] = min(line_least[first + k], sum);
@@ -204,8 +205,7 @@ void line_search(uint count)
         line_search_eight(8u);
 }
 
-/* Once all batches are searched: results of all threads go where the sums were. Compilers may unroll what follows here less often
- * than loops over registers: code that comes from memory for each pass of each frame costs more than it does. */
+/* Once all batches are searched: results of all threads go where the sums were, to be stored in the order in which they lie. */
 void line_publish()
 {
     const uint first = line_slot() * line_cells_per_slot();
@@ -218,7 +218,7 @@ void line_publish()
 
 int line_result(uint cell, uint own)
 {
-    return line_sums[cell * LINES + own] + 8 * line_weight() * int(cell * cell);
+    return line_sums[cell * LINES + own] + 8 * line_weight * int(cell * cell);
 }
 
 #endif

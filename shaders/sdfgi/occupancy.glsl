@@ -55,12 +55,12 @@ uint layers_slot(uint y, uint part)
     return runs_slot(runs_bit(4u * sdfgi_frame.size.x, 0u)) + y * layer_parts() + part;
 }
 
-/* A bit per layer of sub-voxels of a layer of cells. */
+/* A bit per layer of sub-voxels of a layer of cells. All parts are read at once. */
 uint four_layers(uint y)
 {
     uint four = 0u;
-    for (uint part = 0u; part < layer_parts(); part++)
-        four |= sdfgi_scratch[layers_slot(y, part)];
+    [[unroll]] for (uint part = 0u; part < 256u / SDFGI_GROUP_COLUMNS; part++)
+        four |= sdfgi_scratch[layers_slot(y, min(part, layer_parts() - 1u))];
     return four;
 }
 

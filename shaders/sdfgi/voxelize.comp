@@ -8,9 +8,8 @@
 
 layout(local_size_x = SDFGI_GROUP_TRIANGLE) in;
 
-shared vec3 corners[3 * SDFGI_GROUP_TRIANGLE]; /* of each thread's triangle: its corners, */
-shared ivec4 places[SDFGI_GROUP_TRIANGLE]; /* first column, columns in a row, dominant axis, */
-shared uint ends[SDFGI_GROUP_TRIANGLE];    /* and how many columns it and those before it have */
+shared ivec4 places[SDFGI_GROUP_TRIANGLE]; /* of each thread's triangle: first column, columns in a row, dominant axis */
+shared uint ends[SDFGI_GROUP_TRIANGLE];    /* how many columns it and those before it have */
 
 /* From one thread to the next, groups are shifted against each other by about the golden section of their number: no rows
  * of a grid of triangles line up with it. */
@@ -35,8 +34,6 @@ uint triangle_cull(uint t_index, uint thread)
     if (!triangle_place(t, v))
         return 0u;
     const ivec2 size = t.columns.zw - t.columns.xy + 1;
-    for (uint i = 0u; i < 3u; i++)
-        corners[3u * thread + i] = v[i];
     places[thread] = ivec4(t.columns.xy, size.x, t.axis);
     return uint(size.x * size.y);
 }
@@ -68,11 +65,11 @@ void store_columns(uint group, uint holder, uint first, uint last)
 {
     const ivec4 place = places[holder];
     const uint begin = holder > 0u ? ends[holder - 1u] : 0u;
+    vec3 v[3];
     triangle t;
-    for (uint i = 0u; i < 3u; i++)
-        t.index[i] = mesh_index(3u * triangle_of(group, holder) + i);
+    triangle_fetch(triangle_of(group, holder), v, t.index);
     t.axis = place.w;
-    triangle_setup(t, vec3[3](corners[3u * holder], corners[3u * holder + 1u], corners[3u * holder + 2u]));
+    triangle_setup(t, v);
     for (uint i = first - begin; i < last - begin; i++)
         triangle_store_column(t, place.xy + ivec2(i % uint(place.z), i / uint(place.z)));
 }
