@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Reads the light where this frame's rays of each probe end and adds it to the running sums of the 25 texels:
  * L max(0, n.w) weight, and the weights apart (each ray weighted by the solid angle its jitter stands for), so that a constant
- * field is exact. Young probes read the rays of the frames before again. One workgroup per probe and cascade. Shared memory: 128 rays of 32 bytes. */
+ * field is exact. Young probes read the rays of the frames before again. One workgroup per probe and cascade. Shared memory:
+ * 128 rays of 32 bytes. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
