@@ -22,7 +22,7 @@ void begin()
 {
     const int weight = int(distance_y_weight());
     common_bits = findLSB(weight);
-    /* Sums are below (weight + 2 * 16) / 8 (8 N)^2, less what is common: at most 23 bits, but 25 where N is 256 and the weight 9. */
+    /* Sums are below (weight + 2 * 16) / 8 (8 N)^2, less what is common: 23 bits at most, 25 where N is 256 and the weight 9. */
     line_begin(weight >> common_bits, common_bits == 0 && sdfgi_frame.size.x > 128u ? 7u : 9u);
 }
 
