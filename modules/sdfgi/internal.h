@@ -160,6 +160,7 @@ struct cascade {
     bool fresh;     /* no ring has been completed since nothing was there */
     bool published; /* its probes hold light */
     bool waits;     /* the camera is too fast for it to step */
+    bool left_behind; /* is to step for all that */
     uint32_t relight_next, relight_left; /* entries of its list: next to be lit again, still to be lit again */
     uint64_t listed_at;                  /* frame in which its light cells were listed last */
     struct cell_box window;  /* complete cells, which shaders may read */

@@ -174,6 +174,7 @@ static void begin(struct sdfgi *gi, struct cascade *cascade)
     const bool moved = cascade_place(&next, gi->settings.resolution, gi->schedule.camera);
     cascade->placed = true;
     const bool steps = moved && (!cascade->waits || cascade->rebuild);
+    cascade->left_behind = moved && !steps;
     if (cascade->edit_count > 0 && !cascade->rebuild && !(steps && cascade->edited))
         begin_edits(gi, cascade);
     else if (steps)
@@ -415,7 +416,7 @@ bool schedule_completes(const struct sdfgi *gi, uint32_t c)
 bool schedule_idle(const struct sdfgi *gi)
 {
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        if (gi->cascades[c].change.active || gi->cascades[c].relight_left > 0)
+        if (gi->cascades[c].change.active || gi->cascades[c].left_behind || gi->cascades[c].relight_left > 0)
             return false;
     return true;
 }

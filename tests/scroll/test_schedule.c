@@ -119,6 +119,27 @@ static void a_lost_cascade_comes_back_on_the_way(void **state)
         }
 }
 
+/* Two jumps in a row look like a pace that is too fast to follow. The camera rests, and there is work until
+ * all cascades are around it. */
+static void a_cascade_that_waits_is_work_to_do(void **state)
+{
+    (void)state;
+    struct sdfgi *gi = schedule_drive_begin(4194304);
+    double camera[3] = { 0.1, 0.1, 0.1 };
+    schedule_drive_frame(gi, camera);
+    for (uint32_t i = 0; i < 2; i++) {
+        camera[1] -= 2.4;
+        schedule_drive_frame(gi, camera);
+    }
+    REQUIRE_TRUE(gi->cascades[0].waits);
+    uint32_t frames = 0;
+    for (; !schedule_idle(gi) && frames < 200; frames++)
+        schedule_drive_frame(gi, camera);
+    REQUIRE_CMP(frames, <, 200u);
+    for (uint32_t c = 0; c < gi->settings.cascades; c++)
+        REQUIRE_TRUE(schedule_drive_covers(&gi->cascades[c], camera, 55));
+}
+
 /* It cannot be cut, and is done all the same. */
 static void a_flood_is_done_whole(void **state)
 {
@@ -236,6 +257,7 @@ int main(void)
         cmocka_unit_test(hard_23_a_cascade_width_per_frame_leaves_no_hole),
         cmocka_unit_test(hard_24_an_oscillating_camera_steps_once),
         cmocka_unit_test(a_lost_cascade_comes_back_on_the_way),
+        cmocka_unit_test(a_cascade_that_waits_is_work_to_do),
         cmocka_unit_test(a_flood_is_done_whole),
         cmocka_unit_test(borders_move_with_the_camera),
         cmocka_unit_test(borders_come_to_rest),
