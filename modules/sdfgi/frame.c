@@ -5,9 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Frames without a step after which one may leave it at that. */
-#define CALM_FRAMES 3
-
 static const char *frame_problem(const struct sdfgi_frame_desc *d)
 {
     for (int i = 0; i < 3; i++)
@@ -81,8 +78,8 @@ static bool any_steps(const struct sdfgi *gi)
 static void decide_wait(struct sdfgi *gi)
 {
     gi->takes_step = any_steps(gi);
-    gi->light_waits = gi->takes_step && !restarts(gi) && all_published(gi) && gi->calm_frames >= CALM_FRAMES;
-    gi->calm_frames = gi->takes_step ? 0 : gi->calm_frames + 1;
+    gi->light_waits =
+        gi->takes_step && !restarts(gi) && all_published(gi) && gi->schedule.calm_frames >= SDFGI_CALM_FRAMES;
 }
 
 /* Whatever changes may make remembered rays unknown, of any sample: after that the ring has to come round

@@ -21,6 +21,7 @@ enum {
     SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
     SDFGI_MAX_GATHERS = 8, /* per update */
     SDFGI_RELIGHT_CELLS = 16384, /* light cells a frame that are lit again since others changed */
+    SDFGI_CALM_FRAMES = 3,       /* at a slow pace, between frames in which cascades become complete */
 };
 
 /* A ring has settled when no probe texel changes by more than this share of its value from one ring to the
@@ -160,7 +161,7 @@ struct cascade {
     bool fresh;     /* no ring has been completed since nothing was there */
     bool published; /* its probes hold light */
     bool waits;     /* the camera is too fast for it to step */
-    bool left_behind; /* is to step for all that */
+    bool left_behind; /* it is to step for all that */
     uint32_t relight_next, relight_left; /* entries of its list: next to be lit again, still to be lit again */
     uint64_t listed_at;                  /* frame in which its light cells were listed last */
     struct cell_box window;  /* complete cells, which shaders may read */
@@ -247,16 +248,16 @@ struct step {
 enum { SDFGI_MAX_STEPS = 64 };
 
 struct schedule {
-    double camera[3];        /* m */
-    double last_step, pace;  /* along the fastest axis, probe spacings of cascade 0: of this frame, lasting */
-    double heading[3];       /* share of that along each axis: a running mean */
+    double camera[3];       /* m */
+    double last_step, pace; /* along the fastest axis, probe spacings of cascade 0: of this frame, lasting */
+    double heading[3];      /* share of that along each axis: a running mean */
     bool has_camera;
     struct step steps[SDFGI_MAX_STEPS]; /* of this frame */
     uint32_t step_count;
     bool from_nothing;      /* no cascade was complete before this frame */
     uint64_t cells;         /* voxelised or given distances in this frame */
-    uint64_t steps_begun;    /* since the start */
-    uint32_t frames_between; /* since a cascade became complete */
+    uint64_t steps_begun;   /* since the start */
+    uint32_t calm_frames;   /* before this one, in a row, in which no cascade became complete */
 };
 
 /* Starts what cascades need and decides how much of it this frame does. */
@@ -336,7 +337,6 @@ struct sdfgi {
     uint64_t ring, disturbed_ring, known_ring;
     uint32_t ring_frame; /* frame within the ring */
     uint32_t rays_missing; /* frames of rays until all of a ring are remembered */
-    uint32_t calm_frames; /* in a row, in which no step became complete */
     bool light_waits;    /* this frame sends none */
     float known_change, known_brightest;
     struct settling settling;

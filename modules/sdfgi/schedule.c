@@ -20,10 +20,8 @@
 #define PACE_SHARE    0.015625
 /* How much more is done than the camera's pace calls for. */
 #define HEADROOM 1.15
-/* Steps of cascades per frame from which on one frame may complete several, and frames between those that
- * do at a slow pace. */
-#define BUSY_STEPS     0.5
-#define FRAMES_BETWEEN 3.0
+/* Steps of cascades per frame from which on one frame may complete several. */
+#define BUSY_STEPS 0.5
 /* Probe spacings that a window may lack on a side before its cascade falls behind: one that is not due yet,
  * one that is being made, one more. */
 #define LAG 3.0
@@ -301,7 +299,7 @@ static bool may_complete(const struct sdfgi *gi)
 {
     const double steps = steps_of_all(gi);
     const bool apart = !schedule_has(gi, STEP_COMPLETE) &&
-                       gi->schedule.frames_between >= fmin(FRAMES_BETWEEN, BUSY_STEPS / steps - 1);
+                       gi->schedule.calm_frames >= fmin(SDFGI_CALM_FRAMES, BUSY_STEPS / steps - 1);
     return apart || steps >= BUSY_STEPS || any_hurries(gi);
 }
 
@@ -371,6 +369,7 @@ static void advance_all(struct sdfgi *gi, uint64_t budget)
 void schedule_frame(struct sdfgi *gi, const double camera[3])
 {
     struct schedule *s = &gi->schedule;
+    s->calm_frames = schedule_has(gi, STEP_COMPLETE) ? 0 : s->calm_frames + 1;
     s->step_count = 0;
     s->cells = 0;
     follow_camera(gi, camera);
@@ -383,7 +382,6 @@ void schedule_frame(struct sdfgi *gi, const double camera[3])
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
         gi->cascades[c].fresh = gi->cascades[c].fresh || s->from_nothing;
     advance_all(gi, frame_budget(gi));
-    s->frames_between = schedule_has(gi, STEP_COMPLETE) ? 0 : s->frames_between + 1;
     for (uint32_t i = 0; i < s->step_count; i++)
         if (s->steps[i].kind == STEP_COMPLETE)
             gi->cascades[s->steps[i].cascade].window = cell_box_whole(gi->settings.resolution);
