@@ -3,6 +3,7 @@
  * light's again. One thread per block of 2x2x2 cells of the box. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACE
 #include "content.glsl"
@@ -51,29 +52,35 @@ uvec2 slice_of(uvec2 bits, int major, int depth)
     return uvec2((depth < 2 ? bits.x : bits.y) >> uint(16 * (depth & 1)) & 0xffffu, 0u);
 }
 
+/* The same of the four cells side by side: where one leaves room the next one goes. */
+uvec2 slice_of_block(uvec2 cells[8], int major, int depth)
+{
+    const int deep = depth >> 2, near = depth & 3, along = 1 << major;
+    const int beside = major == 0 ? 2 : 1, above = major == 2 ? 2 : 4;
+    const int first = deep * along;
+    const uvec2 a = slice_of(cells[first], major, near), b = slice_of(cells[first + beside], major, near);
+    const uvec2 c = slice_of(cells[first + above], major, near), d = slice_of(cells[first + beside + above], major, near);
+    if (major == 0)
+        return a | b << 1u | c << 2u | d << 3u;
+    if (major == 1)
+        return a | b << 4u | c << 8u | d << 12u;
+    return uvec2(a.x | b.x << 16u, c.x | d.x << 16u);
+}
+
 /* Of the sub-voxels seen first by someone who looks along -axis, the share that emits. Emitters a sub-voxel before a
- * wall, or on one side of it, keep their power whatever lies behind them. */
+ * wall, or on one side of it, keep their power whatever lies behind them. Meant for a constant axis. */
 float resolve_seen_share(uint axis)
 {
     const int major = int(axis >> 1u);
-    int seen = 0, emissive = 0;
-    for (int column = 0; column < 4; column++) {
-        uvec2 hidden = uvec2(0u);
-        for (int i = 0; i < 8; i++) {
-            const int depth = (axis & 1u) == 0u ? 7 - i : i;
-            ivec3 cell;
-            cell[major] = depth >> 2;
-            cell[(major + 1) % 3] = column & 1;
-            cell[(major + 2) % 3] = column >> 1;
-            const int c = cell.x + 2 * cell.y + 4 * cell.z;
-            const uvec2 solid = slice_of(block_bits[c], major, depth & 3) & ~hidden;
-            const ivec2 both = bitCount(solid), emits = bitCount(solid & slice_of(block_emissive[c], major, depth & 3));
-            seen += both.x + both.y;
-            emissive += emits.x + emits.y;
-            hidden |= solid;
-        }
+    uvec2 hidden = uvec2(0u), emissive = uvec2(0u);
+    [[unroll]] for (int i = 0; i < 8; i++) {
+        const int depth = (axis & 1u) == 0u ? 7 - i : i;
+        const uvec2 solid = slice_of_block(block_bits, major, depth);
+        emissive |= solid & slice_of_block(block_emissive, major, depth) & ~hidden;
+        hidden |= solid;
     }
-    return seen > 0 ? float(emissive) / float(seen) : 0.0;
+    const ivec2 seen = bitCount(hidden), emits = bitCount(emissive);
+    return seen.x + seen.y > 0 ? float(emits.x + emits.y) / float(seen.x + seen.y) : 0.0;
 }
 
 /* Share of its sub-voxels that a lamp fills: those of a small one, and the rim of a larger, it fills in part. Where surfaces
@@ -89,7 +96,7 @@ float resolve_filled(float covered, int bits, uint facing)
 int take_bits(uvec3 block_texel)
 {
     int count = 0;
-    for (uint i = 0u; i < 8u; i++) {
+    [[unroll]] for (uint i = 0u; i < 8u; i++) {
         const uvec3 texel = 2u * block_texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
         const uint index = texel_index(texel) | args.cascade << (3u * sdfgi_frame.size.y);
         block_bits[i] = sdfgi_bits[index];
@@ -110,7 +117,7 @@ uvec2 resolve_emission(uint block, uvec3 block_texel)
     if (covered == 0.0)
         return uvec2(0u);
     float shares[6], largest = 0.0;
-    for (uint axis = 0u; axis < 6u; axis++) {
+    [[unroll]] for (uint axis = 0u; axis < 6u; axis++) {
         shares[axis] = (facing >> axis & 1u) != 0u ? resolve_seen_share(axis) : 0.0;
         largest = max(largest, shares[axis]);
     }
