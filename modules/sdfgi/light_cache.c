@@ -7,10 +7,6 @@
 #define SPARE_SHARE 8
 /* Workgroups that share a row of 64 blocks: along the ground it holds a thousand cells. */
 #define LIST_SHARES 4
-/* log2 of the threads that share the lights of a cell at most: each looks up the cell's surfaces. With nine
- * lights, light_direct and what runs beside it took 0.107 ms of a slab with 2 threads, 0.110 with 4, 0.124
- * with 8, 0.156 with 16. */
-#define MOST_SHARING_BITS 1
 /* Of frames that all complete a step one in so many lights cells again that stay. */
 #define RELIGHT_PATIENCE 4
 
@@ -108,18 +104,9 @@ void light_cache_plan(struct sdfgi *gi)
 
 /* ---- Recording */
 
-/* log2 of the threads that share the lights of a cell: no more than there are lights. */
-static uint32_t sharing_bits(const struct sdfgi *gi)
+static uint32_t groups_for(uint64_t cells, uint32_t per_group)
 {
-    uint32_t bits = 0;
-    while (bits < MOST_SHARING_BITS && gi->scene.lights.count >> (bits + 1) > 0)
-        bits++;
-    return bits;
-}
-
-static uint32_t groups_for(uint64_t threads)
-{
-    return (uint32_t)((threads + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR);
+    return (uint32_t)((cells + per_group - 1) / per_group);
 }
 
 static uint32_t one_row(uint32_t groups)
@@ -131,10 +118,9 @@ static void record_range(struct frame *frame, uint32_t c, uint32_t first, uint32
 {
     const struct sdfgi_pass_args args = { .low.x = (int32_t)first,
                                           .high.x = (int32_t)(first + count),
-                                          .cascade = c,
-                                          .source = sharing_bits(frame->gi) };
+                                          .cascade = c };
     pass_begin(frame, PASS_LIGHT_DIRECT);
-    const uint32_t groups = groups_for((uint64_t)count << args.source);
+    const uint32_t groups = groups_for(count, SDFGI_CELLS_OF_SURFACES);
     pass_dispatch(frame, PASS_LIGHT_DIRECT, &args, one_row(groups),
                   (groups + SDFGI_MAX_GROUPS - 1) / SDFGI_MAX_GROUPS, 1);
     frame->gi->passes[PASS_LIGHT_DIRECT].work += count;
@@ -179,7 +165,8 @@ void light_cache_mark_record(struct frame *frame, uint32_t c)
     const struct sdfgi_pass_args args = { .cascade = c, .fresh = light_cache_is_new(gi, c) };
     const uint64_t cells = renewed_cells(gi, c), room = gi->resources->extent.light_cells;
     pass_begin(frame, PASS_LIGHT_MARK);
-    pass_dispatch(frame, PASS_LIGHT_MARK, &args, one_row(groups_for(cells > room ? cells : room)), 1, 1);
+    pass_dispatch(frame, PASS_LIGHT_MARK, &args,
+                  one_row(groups_for(cells > room ? cells : room, SDFGI_GROUP_LINEAR)), 1, 1);
     gi->passes[PASS_LIGHT_MARK].work += cells;
     pass_end(frame);
 }
@@ -187,7 +174,7 @@ void light_cache_mark_record(struct frame *frame, uint32_t c)
 void light_cache_list_record(struct frame *frame, uint32_t c)
 {
     struct sdfgi *gi = frame->gi;
-    const struct sdfgi_pass_args args = { .cascade = c, .source = sharing_bits(gi) };
+    const struct sdfgi_pass_args args = { .cascade = c };
     pass_begin(frame, PASS_LIGHT_LIST);
     pass_dispatch(frame, PASS_LIGHT_LIST, &args, (uint32_t)(list_blocks(gi) / SDFGI_GROUP_LINEAR),
                   LIST_SHARES, 1);
@@ -207,7 +194,7 @@ static void record_renewed(struct frame *frame, enum pass pass, const struct sdf
 
 void light_cache_renew_record(struct frame *frame, uint32_t c)
 {
-    const struct sdfgi_pass_args args = { .cascade = c, .step = 1, .source = sharing_bits(frame->gi) };
+    const struct sdfgi_pass_args args = { .cascade = c, .step = 1 };
     record_renewed(frame, PASS_LIGHT_DIRECT, &args);
     record_renewed(frame, PASS_CELL_MASK, &args);
 }
@@ -267,6 +254,7 @@ void light_cache_bounce_record(struct frame *frame)
         gi->passes[PASS_LIGHT_BOUNCE].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
     }
     pass_begin(frame, PASS_LIGHT_BOUNCE);
-    pass_dispatch(frame, PASS_LIGHT_BOUNCE, &args, groups_for(room), gi->settings.cascades, 1);
+    pass_dispatch(frame, PASS_LIGHT_BOUNCE, &args, groups_for(room, SDFGI_GROUP_LINEAR),
+                  gi->settings.cascades, 1);
     pass_end(frame);
 }

@@ -47,15 +47,20 @@ void light_cell_store_direct(uint slot, uvec2 light)
     sdfgi_light_cells[slot + 2u] = light.y;
 }
 
-/* Bit per axis: the cell behind that axis is solid, so a surface faces along it. */
+/* Whether the cell behind an axis is solid, so that a surface faces along it. */
+bool light_cell_faces(uint cascade, ivec3 cell, uint axis)
+{
+    const ivec3 behind = cell - surface_axis_step(axis);
+    return cell_served(cascade, behind) && cell_bits(cascade, behind) != uvec2(0u);
+}
+
+/* Bit per axis along which a surface faces. */
 uint light_cell_facing(uint cascade, ivec3 cell)
 {
     uint facing = 0u;
-    for (uint axis = 0u; axis < 6u; axis++) {
-        const ivec3 behind = cell - surface_axis_step(axis);
-        if (cell_served(cascade, behind) && cell_bits(cascade, behind) != uvec2(0u))
+    for (uint axis = 0u; axis < 6u; axis++)
+        if (light_cell_faces(cascade, cell, axis))
             facing |= 1u << axis;
-    }
     return facing;
 }
 

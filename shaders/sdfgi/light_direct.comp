@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows, reflected by the
- * surface's albedo, one value per axis along which a surface faces. For each light cell of those that args name 2^args.source
- * threads, which share the lights. Shared memory: 6 KiB. */
+ * surface's albedo, one value per axis along which a surface faces. A thread per axis of each light cell that args name finds
+ * out which lights arrive; then all threads of a workgroup trace one shadow ray each from its cells to those lights, so that
+ * none follows several while others wait. Lights are added in their order. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
 #include "../include/sdfgi_trace.glsl"
 
-layout(local_size_x = SDFGI_GROUP_LINEAR) in;
+layout(local_size_x = SDFGI_GROUP_SURFACES) in;
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 layout(std430, set = 0, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_lights_buffer
 {
@@ -15,8 +16,15 @@ layout(std430, set = 0, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_li
 };
 
 const float PI = 3.14159265;
+const uint CELLS = uint(SDFGI_CELLS_OF_SURFACES);
+const uint ROUND = 32u; /* lights at once, a bit each */
 
-shared vec3 shares[SDFGI_GROUP_LINEAR][6]; /* per thread, what its lights bring */
+shared ivec3 cells[CELLS];
+shared uint facing[CELLS];
+shared uint arriving[CELLS], reaching[CELLS]; /* bits of a round's lights: those whose light would arrive, and that does */
+shared uint rays[CELLS * ROUND];              /* a cell's place here times ROUND, plus a light's in the round */
+shared uint ray_count;
+shared vec3 reflected[CELLS][6];
 
 /* Irradiance that a light sends to `position` on a surface that faces it, and the way to it. Inside half a cell the
  * inverse square is cut off: a voxelised surface is no closer than that (HARD_CASES row 47). */
@@ -42,79 +50,125 @@ vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, 
     return light.intensity.rgb * (cone / max(range * range, floor_m * floor_m));
 }
 
-bool light_reaches(vec3 pos, vec3 to_light, float range_m)
+/* The surface behind a cell that faces along an axis. */
+struct surface {
+    vec3 position, normal;
+    uint block;
+};
+
+/* Shadows are traced from a cell's centre, which is in the open; light arrives at the surface before it. */
+surface surface_behind(ivec3 cell, uint axis)
 {
+    const ivec3 step = surface_axis_step(axis);
+    const float depth = clamp(cell_distance(args.cascade, cell), 0.5, 1.0);
+    const uint block = surface_block(args.cascade, cell - step);
+    return surface(position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth), surface_normal(block, axis), block);
+}
+
+vec3 light_on(uint light, surface s)
+{
+    vec3 to_light;
+    float range;
+    const vec3 full = light_arriving(sdfgi_lights[light], s.position, to_light, range);
+    return full * max(dot(s.normal, to_light), 0.0);
+}
+
+bool light_reaches(ivec3 cell, uint light)
+{
+    const vec3 pos = vec3(cell) + 0.5;
+    vec3 to_light;
+    float range_m;
+    light_arriving(sdfgi_lights[light], position_from_cascade(args.cascade, pos), to_light, range_m);
     const float cell_m = sdfgi_frame.cascades[args.cascade].origin_rel.w;
     return !trace_ray(args.cascade, sdfgi_frame.size.w - 1u, pos, to_light, range_m / cell_m).hit;
 }
 
-/* Adds what lights bring to the surfaces along each axis: of as many threads as share a cell, each takes its own. */
-void add_lights(ivec3 cell, uint facing, out vec3 axes[6])
+/* Bits of the lights from `first` on that would light a surface. */
+uint find_arriving(uint first, uint count, surface s)
 {
-    /* Shadows are traced from the cell's centre, which is in the open; light arrives at the surface before it. */
-    const float depth = clamp(cell_distance(args.cascade, cell), 0.5, 1.0);
-    const vec3 pos = vec3(cell) + 0.5;
-    const vec3 position = position_from_cascade(args.cascade, pos);
-    vec3 normals[6], surfaces[6];
-    for (uint a = 0u; a < 6u; a++) {
-        axes[a] = vec3(0.0);
-        normals[a] = (facing >> a & 1u) != 0u
-                         ? surface_normal(surface_block(args.cascade, cell - surface_axis_step(a)), a)
-                         : vec3(0.0);
-        surfaces[a] = position_from_cascade(args.cascade, pos - vec3(surface_axis_step(a)) * depth);
-    }
-    const uint sharing = 1u << args.source;
-    for (uint i = gl_LocalInvocationIndex & sharing - 1u; i < sdfgi_frame.light.x; i += sharing) {
-        vec3 to_light, arriving[6];
-        float range, most = 0.0;
-        for (uint a = 0u; a < 6u; a++) {
-            arriving[a] = vec3(0.0);
-            if ((facing >> a & 1u) == 0u)
-                continue;
-            const vec3 full = light_arriving(sdfgi_lights[i], surfaces[a], to_light, range);
-            arriving[a] = full * max(dot(normals[a], to_light), 0.0);
-            most = max(most, max(arriving[a].r, max(arriving[a].g, arriving[a].b)));
-        }
-        if (most <= 0.0)
+    uint bits = 0u;
+    for (uint i = 0u; i < count; i++)
+        if (any(greaterThan(light_on(first + i, s), vec3(0.0))))
+            bits |= 1u << i;
+    return bits;
+}
+
+/* A cell's lights that cast no shadows reach it; to the others there are rays. */
+void list_rays(uint own, uint axis, uint first)
+{
+    for (uint i = axis; i < ROUND; i += 6u) {
+        if ((arriving[own] >> i & 1u) == 0u)
             continue;
-        light_arriving(sdfgi_lights[i], position, to_light, range);
-        const bool shadows = (sdfgi_lights[i].kind.x & SDFGI_LIGHT_CASTS_SHADOW) != 0u;
-        if (shadows && !light_reaches(pos, to_light, range))
-            continue;
-        for (uint a = 0u; a < 6u; a++)
-            axes[a] += arriving[a];
+        if ((sdfgi_lights[first + i].kind.x & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
+            rays[atomicAdd(ray_count, 1u)] = own * ROUND + i;
+        else
+            atomicOr(reaching[own], 1u << i);
     }
+}
+
+/* What a round's lights bring to the surface that is this thread's, if there is one. Called by the whole workgroup. */
+vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
+{
+    const uint count = min(sdfgi_frame.light.x - first, ROUND);
+    barrier();
+    if (axis == 0u)
+        arriving[own] = reaching[own] = 0u;
+    if (gl_LocalInvocationIndex == 0u)
+        ray_count = 0u;
+    barrier();
+    const uint bits = faces ? find_arriving(first, count, s) : 0u;
+    if (bits != 0u)
+        atomicOr(arriving[own], bits);
+    barrier();
+    list_rays(own, axis, first);
+    barrier();
+    for (uint ray = gl_LocalInvocationIndex; ray < ray_count; ray += SDFGI_GROUP_SURFACES) {
+        const uint cell = rays[ray] / ROUND, light = rays[ray] % ROUND;
+        if (light_reaches(cells[cell], first + light))
+            atomicOr(reaching[cell], 1u << light);
+    }
+    barrier();
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < count; i++)
+        if ((bits & reaching[own] & 1u << i) != 0u)
+            sum += light_on(first + i, s);
+    return sum;
+}
+
+void store_cell(uint slot, uint own)
+{
+    vec3 axes[6];
+    for (uint a = 0u; a < 6u; a++)
+        axes[a] = reflected[own][a];
+    light_fill_axes(facing[own], axes);
+    for (uint a = 0u; a < 6u; a++)
+        if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
+            counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
+    light_cell_store_direct(slot, light_pack(axes, light_cell_hash(args.cascade, cells[own])));
 }
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, sharing = 1u << args.source;
+    const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
     uint entry;
-    bool lit = light_entry(args, args.cascade, light_group() * SDFGI_GROUP_LINEAR + lane >> args.source, entry);
+    bool lit = light_entry(args, args.cascade, light_group() * CELLS + own, entry);
     const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
     const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
     lit = lit && cell_served(args.cascade, cell);
-    uint facing = 0u;
-    vec3 axes[6];
-    if (lit) {
-        facing = light_cell_facing(args.cascade, cell);
-        add_lights(cell, facing, axes);
-        for (uint a = 0u; a < 6u; a++)
-            shares[lane][a] = axes[a];
+    if (axis == 0u) {
+        cells[own] = cell;
+        facing[own] = 0u;
     }
     barrier();
-    if (!lit || (lane & sharing - 1u) > 0u)
-        return;
-    for (uint a = 0u; a < 6u; a++) {
-        if ((facing >> a & 1u) == 0u)
-            continue;
-        for (uint other = 1u; other < sharing; other++)
-            axes[a] += shares[lane + other][a];
-        axes[a] *= surface_albedo(surface_block(args.cascade, cell - surface_axis_step(a))) / PI;
-    }
-    light_fill_axes(facing, axes);
-    for (uint a = 0u; a < 6u; a++)
-        if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
-            counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
-    light_cell_store_direct(slot, light_pack(axes, light_cell_hash(args.cascade, cell)));
+    const bool faces = lit && light_cell_faces(args.cascade, cell, axis);
+    if (faces)
+        atomicOr(facing[own], 1u << axis);
+    const surface s = surface_behind(cell, axis);
+    vec3 sum = vec3(0.0);
+    for (uint first = 0u; first < sdfgi_frame.light.x; first += ROUND)
+        sum += light_round(first, own, axis, faces, s);
+    reflected[own][axis] = faces ? sum * surface_albedo(s.block) / PI : vec3(0.0);
+    barrier();
+    if (lit && axis == 0u)
+        store_cell(slot, own);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks; their
- * numbers, and the indirect arguments of passes over the latter, with one thread or several for each. Cells that were light
+ * numbers, and the indirect arguments of passes over the latter. Cells that were light
  * cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A row of
  * blocks is shared by the workgroups of a column, a cell to a thread in turn. */
 #version 460
@@ -38,10 +38,10 @@ uvec2 count_before(uint row)
     return sum;
 }
 
-/* Rows of as many workgroups as every device takes. */
-void write_groups(uint record, uint threads)
+/* Workgroups that take so many cells each, in rows of as many as every device takes. */
+void write_groups(uint record, uint cells, uint per_group)
 {
-    const uint groups = (threads + SDFGI_GROUP_LINEAR - 1u) / SDFGI_GROUP_LINEAR, most = uint(SDFGI_MAX_GROUPS);
+    const uint groups = (cells + per_group - 1u) / per_group, most = uint(SDFGI_MAX_GROUPS);
     sdfgi_indirect[4u * record] = min(groups, most);
     sdfgi_indirect[4u * record + 1u] = (groups + most - 1u) / most;
     sdfgi_indirect[4u * record + 2u] = 1u;
@@ -54,9 +54,9 @@ void write_totals(uvec2 total)
     const uint renewed = min(total.y, sdfgi_frame.light.y);
     sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_CELLS) + args.cascade) + 3u] = total.x;
     sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] = renewed;
-    write_groups(uint(SDFGI_INDIRECT_CELLS) + args.cascade, renewed);
-    write_groups(uint(SDFGI_INDIRECT_MASKS) + args.cascade, 8u * renewed);
-    write_groups(uint(SDFGI_INDIRECT_DIRECT) + args.cascade, renewed << args.source);
+    write_groups(uint(SDFGI_INDIRECT_CELLS) + args.cascade, renewed, SDFGI_GROUP_LINEAR);
+    write_groups(uint(SDFGI_INDIRECT_MASKS) + args.cascade, renewed, SDFGI_GROUP_LINEAR / 8u);
+    write_groups(uint(SDFGI_INDIRECT_DIRECT) + args.cascade, renewed, SDFGI_CELLS_OF_SURFACES);
 }
 
 /* First block of the row whose running sum exceeds `n`. */

@@ -52,7 +52,7 @@ struct sdfgi_pass_args {
     uint cascade;
     uint step;            /* flood: jump length in cells; probe_blend: 1 at the end of a ring; light cells: 1 for those in
                              renewed blocks */
-    uint source;          /* flood: which of the two pointer halves is read; light cells: log2 of threads a cell */
+    uint source;          /* flood: which of the two pointer halves is read */
     uint fresh;           /* 1: light_mark, no earlier list counts; bit per cascade: probe_blend, no earlier ring counts;
                              light_bounce, no probe has a value yet */
 };

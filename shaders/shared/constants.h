@@ -52,6 +52,8 @@
 /* Workgroup sizes. */
 #define SDFGI_GROUP_CELLS 4        /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR 64      /* one thread per element of a list */
+#define SDFGI_CELLS_OF_SURFACES 16 /* light cells that a workgroup lights directly */
+#define SDFGI_GROUP_SURFACES (6 * SDFGI_CELLS_OF_SURFACES) /* one thread per axis of a light cell */
 #define SDFGI_GROUP_LINES 128      /* threads that share eight lines of cells, or a layer */
 #define SDFGI_LINES 8              /* lines of a workgroup */
 #define SDFGI_GROUP_COLUMNS 32     /* columns of cells that they share */
