@@ -78,23 +78,25 @@ vec3 lookup_place(ivec3 cage, vec3 pos)
     return clamp(pos / float(SDFGI_PROBE_SPACING) - vec3(cage), 0.0, 1.0);
 }
 
-/* Sum of probes times weights in rgb, sum of weights in a. A mean: no brighter than the brightest probe. */
+/* Sum of probes times weights in rgb, sum of weights in a. A mean: no brighter than the brightest probe. All is read before
+ * anything is asked of it: one wait, not sixteen. */
 vec4 lookup_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, lookup_visibility visibility)
 {
     const vec3 f = lookup_place(cage, pos);
+    uint states[8];
+    vec4 lights[8];
+    for (int k = 0; k < 8; k++) {
+        states[k] = sdfgi_probes[probe_index(cascade, cage + lookup_corner(k))];
+        lights[k] = lookup_newest(cascade, cage + lookup_corner(k), normal);
+    }
     vec4 sum = vec4(0.0);
     for (int k = 0; k < 8; k++) {
-        if (visibility.of_probe[k] <= 0.0)
+        if (visibility.of_probe[k] <= 0.0 || probe_is_dead(states[k]))
             continue;
         const ivec3 corner = lookup_corner(k);
-        const ivec3 probe = cage + corner;
-        const uint state = sdfgi_probes[probe_index(cascade, probe)];
-        if (probe_is_dead(state))
-            continue;
-        const vec3 way = metric_from_cells(probe_position(probe, state) - pos);
+        const vec3 way = metric_from_cells(probe_position(cage + corner, states[k]) - pos);
         const float weight = lookup_weight(mix(1.0 - f, f, vec3(corner)), way, normal) * visibility.of_probe[k];
-        const vec4 light = lookup_newest(cascade, probe, normal);
-        sum += vec4(light.rgb, 1.0) * (weight * light.a);
+        sum += vec4(lights[k].rgb, 1.0) * (weight * lights[k].a);
     }
     return sum;
 }

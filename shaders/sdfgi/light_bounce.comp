@@ -34,10 +34,10 @@ void main()
     const uint mask = cell_mask(cascade, cell);
 
     vec3 axes[6];
-    for (uint a = 0u; a < 6u; a++) {
+    for (uint a = 0u; a < 6u; a++)
         axes[a] = vec3(0.0);
-        if ((facing >> a & 1u) == 0u)
-            continue;
+    for (uint rest = facing; rest != 0u; rest &= rest - 1u) {
+        const uint a = uint(findLSB(rest));
         const uint block = surface_block(cascade, cell - surface_axis_step(a));
         axes[a] = light_unpack_axis(direct, a) + surface_emission(block, a);
         /* args.fresh: no probe of these cascades has a value yet. */
