@@ -30,11 +30,6 @@ uint own_cascade()
     return gl_WorkGroupID.y;
 }
 
-vec3 cells_of(uint cascade, vec3 pos)
-{
-    return cascade_from_first(cascade, first_from_cascade(own_cascade(), pos));
-}
-
 /* Axis across which the boxes of a cascade lie in strips; below 0 where all of it is new. */
 int strip_axis(uint cascade)
 {
@@ -96,51 +91,47 @@ bool passes_content(uint side, content_box all, int axis, vec3 pos, vec3 dir, fl
     return false;
 }
 
+/* Where the rays of a probe begin, in cells of a cascade that changed. */
+struct ray_start {
+    vec3 pos;
+    float nearest; /* distance from there to anything new */
+};
+
 /* Since `cascade` changed. A ray that hit something that was not lit may have done so beside the border. */
-bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 probe, vec3 pos, uint s, uint code)
+bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 probe, ray_start start, uint s, uint code)
 {
     if (code == SDFGI_RAY_UNLIT)
         return true;
-    const vec3 from = cells_of(cascade, pos);
-    const float scale = exp2(float(own_cascade()) - float(cascade));
-    float range = 1e9; /* in cells of the probe's cascade, as parameters along the ray are */
+    float range = 1e9;
     if (code != SDFGI_RAY_SKY) {
         uint hit;
         const ivec3 cell = ray_cell(code, hit);
+        if (hit < cascade)
+            return false;
         const vec3 end = cascade_from_first(cascade, first_from_cascade(hit, vec3(cell) + 0.5));
-        const float margin = MARGIN * exp2(float(hit) - float(cascade));
-        if (changed_distance(cascade, end, MARGIN) <= margin)
+        const float margin = MARGIN * exp2(float(hit - cascade));
+        if (changed_touches(cascade, end, MARGIN + margin))
             return true;
-        range = (length(metric_from_cells(end - from)) + margin) / scale;
+        range = length(metric_from_cells(end - start.pos)) + margin;
     }
-    if (range * scale < changed_distance(cascade, from, MARGIN))
+    if (range < start.nearest)
         return false;
     float solid_angle;
-    const vec3 dir = cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle)) * scale;
+    const vec3 dir = cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle));
     const int axis = strip_axis(cascade);
     if (axis < 0)
-        return changed_crosses(cascade, from, dir, range, MARGIN);
-    return passes_content(0u, went, axis, from, dir, range) || passes_content(1u, came, axis, from, dir, range);
-}
-
-/* The texel that a code names holds another cell now. */
-bool names_new_cell(uint code)
-{
-    if (code == SDFGI_RAY_UNKNOWN || code >= SDFGI_RAY_UNLIT)
-        return false;
-    uint cascade;
-    const ivec3 cell = ray_cell(code, cascade);
-    return changed_holds(cascade, cell);
+        return changed_crosses(cascade, start.pos, dir, range, MARGIN);
+    return passes_content(0u, went, axis, start.pos, dir, range) || passes_content(1u, came, axis, start.pos, dir, range);
 }
 
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = probe_index(own_cascade(), probe);
-    const uint state = sdfgi_probes[slot], first = slot * sdfgi_frame.ring.z;
+    const uint state = sdfgi_probes[slot], cache = slot * sdfgi_frame.ring.z;
     if (probe_is_dead(state))
         return;
-    const vec3 pos = probe_position(probe, state);
+    const vec3 pos = probe_position(probe, state), first = first_from_cascade(own_cascade(), pos);
     /* On the border of what was complete, rays began beyond it. */
     const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || changed_holds(own_cascade(), ivec3(floor(pos)));
     for (uint start = 0u; start < sdfgi_frame.ring.z; start += AT_ONCE * uint(SDFGI_GROUP_RAYS)) {
@@ -148,22 +139,24 @@ void main()
         bool forget[AT_ONCE];
         for (uint k = 0u; k < AT_ONCE; k++) {
             samples[k] = start + k * uint(SDFGI_GROUP_RAYS) + gl_LocalInvocationIndex;
-            codes[k] = samples[k] < sdfgi_frame.ring.z ? sdfgi_rays[first + samples[k]] : SDFGI_RAY_UNKNOWN;
+            codes[k] = samples[k] < sdfgi_frame.ring.z ? sdfgi_rays[cache + samples[k]] : SDFGI_RAY_UNKNOWN;
         }
         for (uint k = 0u; k < AT_ONCE; k++)
-            forget[k] = all_rays || names_new_cell(codes[k]);
+            forget[k] = all_rays;
         for (uint c = own_cascade(); c < sdfgi_frame.size.w; c++) {
             if (changed_count(c) == 0)
                 continue;
             if (strip_axis(c) >= 0)
                 fetch_boxes(c);
             const content_box went = boxes[2u * STRIPS], came = boxes[2u * STRIPS + 1u];
+            const vec3 from = cascade_from_first(c, first);
+            const ray_start begin = ray_start(from, changed_distance(c, from, MARGIN));
             for (uint k = 0u; k < AT_ONCE; k++)
                 if (codes[k] != SDFGI_RAY_UNKNOWN && !forget[k])
-                    forget[k] = ends_elsewhere(c, went, came, probe, pos, samples[k], codes[k]);
+                    forget[k] = ends_elsewhere(c, went, came, probe, begin, samples[k], codes[k]);
         }
         for (uint k = 0u; k < AT_ONCE; k++)
             if (codes[k] != SDFGI_RAY_UNKNOWN && forget[k])
-                sdfgi_rays[first + samples[k]] = SDFGI_RAY_UNKNOWN;
+                sdfgi_rays[cache + samples[k]] = SDFGI_RAY_UNKNOWN;
     }
 }
