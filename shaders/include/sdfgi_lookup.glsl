@@ -372,7 +372,7 @@ lookup_visibility lookup_probe_depth(uint cascade, ivec3 cage, vec3 pos)
 bool lookup_is_solid(uint cascade, vec3 pos)
 {
     const ivec3 cell = ivec3(floor(pos));
-    return cell_served(cascade, cell) && trace_bit(cell_bits(cascade, cell), ivec3(floor(pos * 4.0)) & 3);
+    return cell_served(cascade, cell) && trace_bit(cell_bits(cascade, cell), trace_pack_sub(ivec3(floor(pos * 4.0)) & 3));
 }
 
 /* A point in the open on the way to a viewer who is `range` cell widths away. */

@@ -26,10 +26,18 @@ struct trace_hit {
 /* Sub-voxels by which rounding may misplace a ray that runs exactly through an edge. */
 #define TRACE_EDGE 0.00025
 
-bool trace_bit(uvec2 bits, ivec3 sub)
+/* Place of a sub-voxel in its cell, a byte per coordinate. One step out of the cell sets the third bit of a byte. */
+uint trace_pack_sub(ivec3 sub)
 {
-    const uint shift = uint(sub.x + 4 * sub.y + 16 * (sub.z & 1));
-    return ((sub.z < 2 ? bits.x : bits.y) >> shift & 1u) != 0u;
+    return uint(sub.x | sub.y << 8 | sub.z << 16);
+}
+
+const uint TRACE_SUB_OUTSIDE = 0x040404u;
+
+bool trace_bit(uvec2 bits, uint sub)
+{
+    const uint shift = (sub & 3u) | (sub >> 6u & 12u) | (sub >> 12u & 16u);
+    return (((sub & 0x20000u) == 0u ? bits.x : bits.y) >> shift & 1u) != 0u;
 }
 
 /* Axis along which the ray leaves the box [low, low + size] and the parameter where it does. */
@@ -45,7 +53,8 @@ uint trace_face(int axis, vec3 dir)
     return uint(2 * axis) + (dir[axis] > 0.0 ? 1u : 0u);
 }
 
-/* Walks the sub-voxels of one cell from parameter t. Returns true at a set one; else t and axis tell where it left. */
+/* Walks the sub-voxels of one cell from parameter t. Returns true at a set one; else t and axis tell where it left. Others of a
+ * subgroup wait for this: no operation needs an index. */
 bool trace_cell(uvec2 bits, ivec3 cell, vec3 origin, vec3 dir, vec3 inv_dir, inout float t, inout int axis)
 {
     const ivec3 low = cell * SDFGI_SUBVOXELS;
@@ -53,19 +62,60 @@ bool trace_cell(uvec2 bits, ivec3 cell, vec3 origin, vec3 dir, vec3 inv_dir, ino
     /* A ray that enters through an edge of sub-voxels still visits those beside it: it starts a little behind, as a step
      * across an edge would pass between two that only touch there. */
     const vec3 behind = t > 0.0 ? sign(dir) * TRACE_EDGE : vec3(0.0);
-    ivec3 sub = clamp(ivec3(floor((origin + dir * t) * 4.0 - behind)) - low, ivec3(0), ivec3(3));
-    vec3 next = ((vec3(low + sub + forward) * 0.25) - origin) * inv_dir;
+    const ivec3 first = clamp(ivec3(floor((origin + dir * t) * 4.0 - behind)) - low, ivec3(0), ivec3(3));
+    vec3 next = ((vec3(low + first + forward) * 0.25) - origin) * inv_dir;
     const vec3 delta = abs(inv_dir) * 0.25;
+    const ivec3 step = (forward * 2 - 1) * ivec3(1, 1 << 8, 1 << 16);
+    uint sub = trace_pack_sub(first);
     for (int i = 0; i < 3 * SDFGI_SUBVOXELS; i++) {
         if (trace_bit(bits, sub))
             return true;
-        axis = next.x <= next.y ? (next.x <= next.z ? 0 : 2) : (next.y <= next.z ? 1 : 2);
-        t = max(t, next[axis]);
-        sub[axis] += forward[axis] * 2 - 1;
-        next[axis] += delta[axis];
-        if (sub[axis] < 0 || sub[axis] >= SDFGI_SUBVOXELS)
+        const bool x = next.x <= min(next.y, next.z), y = !x && next.y <= next.z;
+        t = max(t, x ? next.x : (y ? next.y : next.z));
+        axis = x ? 0 : (y ? 1 : 2);
+        sub += uint(x ? step.x : (y ? step.y : step.z));
+        next.x += x ? delta.x : 0.0;
+        next.y += y ? delta.y : 0.0;
+        next.z += x || y ? 0.0 : delta.z;
+        if ((sub & TRACE_SUB_OUTSIDE) != 0u)
             return false;
     }
+    return false;
+}
+
+/* Sub-voxels [low, high] of a cell, as bits. */
+uvec2 trace_box_bits(uvec3 low, uvec3 high)
+{
+    const uint row = (15u << low.x) & (15u >> 3u - high.x);
+    const uint slice = row * 0x1111u & (0xffffu << 4u * low.y) & (0xffffu >> 4u * (3u - high.y));
+    const uint slices = (15u << low.z) & (15u >> 3u - high.z);
+    return slice * uvec2((slices & 1u) | (slices & 2u) << 15u, (slices >> 2u & 1u) | (slices & 8u) << 13u);
+}
+
+/* The sub-voxels of a cell that a ray may come by from parameter t until it leaves the cell: those in the box around its way. */
+uvec2 trace_near(ivec3 cell, vec3 origin, vec3 dir, float t, float t_exit)
+{
+    const vec3 edge = sign(dir) * TRACE_EDGE, low = vec3(cell * SDFGI_SUBVOXELS);
+    const vec3 from = clamp((origin + dir * t) * 4.0 - edge - low, 0.0, 3.0);
+    const vec3 to = clamp((origin + dir * t_exit) * 4.0 + edge - low, 0.0, 3.0);
+    return trace_box_bits(uvec3(min(from, to)), uvec3(max(from, to)));
+}
+
+/* From parameter t to where a ray leaves a cell or, returning true, hits a sub-voxel in it. `distance` is that of the cell. */
+bool trace_through(uint cascade, ivec3 base, ivec3 cell, float distance, vec3 origin, vec3 dir, vec3 inv_dir, inout float t,
+                   inout int axis)
+{
+    float t_exit;
+    const int exit_axis = trace_exit(origin, inv_dir, vec3(cell), 1.0, t_exit);
+    t_exit = max(t, t_exit);
+    /* What is near is found whether or not there are bits: threads of a subgroup stay together. Cells whose nearest sub-voxel is
+     * further than half their diagonal have none of their own. */
+    const uvec2 near = trace_near(cell, origin, dir, t, t_exit);
+    const uvec2 bits = distance < 1.0 ? cell_bits(cascade, cell + base) & near : uvec2(0u);
+    if (bits != uvec2(0u))
+        return trace_cell(bits, cell, origin, dir, inv_dir, t, axis);
+    axis = exit_axis;
+    t = t_exit;
     return false;
 }
 
@@ -152,13 +202,7 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             continue;
         }
 
-        /* Cells whose nearest sub-voxel is further than half their diagonal have none of their own. */
-        const uvec2 bits = distance < 1.0 ? cell_bits(cascade, cell + base) : uvec2(0u);
-        if (bits == uvec2(0u)) {
-            float t_exit;
-            axis = trace_exit(origin, inv_dir, vec3(cell), 1.0, t_exit);
-            t = max(t, t_exit);
-        } else if (trace_cell(bits, cell, origin, dir_cell, inv_dir, t, axis)) {
+        if (trace_through(cascade, base, cell, distance, origin, dir_cell, inv_dir, t, axis)) {
             result.distance = travelled + t * scale;
             if (result.distance >= range)
                 return trace_hit(false, false, false, cascade, ivec3(0), 0u, range);
