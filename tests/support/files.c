@@ -4,21 +4,31 @@
 #include "require.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { PATH_SIZE = 256 };
 
 static char folder[PATH_SIZE / 2];
 
+/* The first name of this process's that is free: one that crashed may have left another behind. */
 int files_setup(void **state)
 {
     (void)state;
     const char *const temporary = getenv("TMPDIR");
-    const int length =
-        snprintf(folder, sizeof folder, "%s/sdfgi_test_XXXXXX", temporary == NULL ? "/tmp" : temporary);
-    return length < 0 || (size_t)length >= sizeof folder || mkdtemp(folder) == NULL;
+    for (unsigned n = 0;; n++) {
+        const int length = snprintf(folder, sizeof folder, "%s/sdfgi_test_%ld_%u",
+                                    temporary == NULL ? "/tmp" : temporary, (long)getpid(), n);
+        if (length < 0 || (size_t)length >= sizeof folder)
+            return 1;
+        if (mkdir(folder, 0700) == 0)
+            return 0;
+        if (errno != EEXIST)
+            return 1;
+    }
 }
 
 static int each_file(void (*visit)(const char *name))
