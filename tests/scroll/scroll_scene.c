@@ -7,6 +7,11 @@
 
 #include <stdlib.h>
 
+uint32_t scroll_resolution(void)
+{
+    return getenv("SDFGI_TEST_FULL") ? 128 : 64;
+}
+
 struct sdfgi_settings scroll_settings(uint32_t resolution)
 {
     struct sdfgi_settings settings = light_settings(resolution, 0.25f);
@@ -47,6 +52,32 @@ void scroll_world(struct gi_test *t, const double center[static 3], double reach
     REQUIRE_CMP(
         sdfgi_set_sky(t->gi, &(struct sdfgi_sky){ { 0.5f, 0.7f, 1 }, { 1, 1, 1 }, { 0.2f, 0.2f, 0.1f } }), ==,
         SDFGI_OK);
+}
+
+void scroll_colored_box(struct gi_test *t, const double center[static 3], double half)
+{
+    static const float red[3] = { 0.63f, 0.065f, 0.05f }, green[3] = { 0.14f, 0.45f, 0.09f },
+                       white[3] = { 0.73f, 0.71f, 0.68f };
+    const double h = half, out = half + 0.3;
+    const struct {
+        double low[3], high[3];
+        const float *albedo;
+    } walls[5] = {
+        { { -out, -out, -h }, { -h, out, h }, red },       { { h, -out, -h }, { out, out, h }, green },
+        { { -h, -out, -h }, { h, -h, h }, white },         { { -h, h, -h }, { h, out, h }, white },
+        { { -out, -out, -out }, { out, out, -h }, white },
+    };
+    for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
+        double low[3], high[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = center[k] + walls[i].low[k];
+            high[k] = center[k] + walls[i].high[k];
+        }
+        light_add_box(t, low, high, walls[i].albedo, 0);
+    }
+    const struct sdfgi_light_desc lamp =
+        light_point(center[0] + 0.2, center[1] + 0.7 * half, center[2] - 0.1, 20);
+    light_create(t, &lamp);
 }
 
 void scroll_stand(struct gi_test *t, const double position[static 3])

@@ -5,11 +5,17 @@
 
 #include "gi_test.h"
 
+/* 64, or with SDFGI_TEST_FULL the default, 128: for the rows of HARD_CASES. */
+uint32_t scroll_resolution(void);
+
 /* Two cascades of `resolution` cells, 0.25 m, that settle in few frames. */
 struct sdfgi_settings scroll_settings(uint32_t resolution);
 
 /* Ground, boxes, lamps and loose triangles within `reach` metres of `center`, a sun, a point light and a sky. */
 void scroll_world(struct gi_test *t, const double center[static 3], double reach);
+
+/* A box that is `2 half` wide inside, red, green and white, open towards +z, with a lamp. */
+void scroll_colored_box(struct gi_test *t, const double center[static 3], double half);
 
 /* Moves the camera; the host's origin stays, so that lights are rounded alike. */
 void scroll_stand(struct gi_test *t, const double position[static 3]);

@@ -82,7 +82,7 @@ static void hard_26_far_away_is_the_same(void **state)
 {
     (void)state;
     static struct gi_test here, there;
-    const struct sdfgi_settings settings = scroll_settings(64);
+    const struct sdfgi_settings settings = scroll_settings(scroll_resolution());
     open_at(&here, &settings, 0);
     float near_light[POINTS][3], far_light[POINTS][3];
     look(&here, near_light);

@@ -84,11 +84,11 @@ static double walk_range(const struct walk *w)
     return range;
 }
 
-/* Three cascades of cells of 0.2, 0.4 and 0.8 m, of which the first is 6.4 m wide. */
+/* Three cascades, of which the first is 6.4 m wide. */
 static void walk_open(struct walk *w)
 {
     memset(w, 0, sizeof *w);
-    struct sdfgi_settings settings = light_settings(32, 0.2f);
+    struct sdfgi_settings settings = light_settings(scroll_resolution(), 6.4f / (float)scroll_resolution());
     settings.cascades = 3;
     gi_test_open(&w->t, &settings);
 }
@@ -105,7 +105,9 @@ static void furnace_walk(double half, double wall)
             walk_add_wall(&w, center, half, axis, sign);
     memcpy(w.camera, (double[]){ -1.6, 0.4, -0.3 }, sizeof w.camera);
     walk_start(&w);
-    walk_steps(&w, 34, 0.1);
+    /* At 6 m/s a frame is half a cell of the defaults long: never more than one here. */
+    const double way = fmin(0.1, w.t.gi->settings.min_cell_size_m);
+    walk_steps(&w, (int)(3.4 / way + 0.5), way);
     walk_steps(&w, 20, 0.001);
     printf("furnace of %.1f m, walls of %.2f m: at most %.2f %% a step, %.2f %% over the walk; light %.4f to "
            "%.4f\n",
@@ -130,26 +132,12 @@ static void hard_54_thin_walls_too(void **state)
     furnace_walk(2.5, 0.1);
 }
 
-static void add_colored_box(struct gi_test *t, double half)
-{
-    const float red[3] = { 0.63f, 0.065f, 0.05f }, green[3] = { 0.14f, 0.45f, 0.09f },
-                white[3] = { 0.73f, 0.71f, 0.68f };
-    const double h = half, out = half + 0.3;
-    light_add_box(t, (double[]){ -out, -out, -h }, (double[]){ -h, out, h }, red, 0);
-    light_add_box(t, (double[]){ h, -out, -h }, (double[]){ out, out, h }, green, 0);
-    light_add_box(t, (double[]){ -h, -out, -h }, (double[]){ h, -h, h }, white, 0);
-    light_add_box(t, (double[]){ -h, h, -h }, (double[]){ h, out, h }, white, 0);
-    light_add_box(t, (double[]){ -out, -out, -out }, (double[]){ out, out, -h }, white, 0);
-    const struct sdfgi_light_desc lamp = light_point(0.2, 0.7 * half, -0.1, 20);
-    light_create(t, &lamp);
-}
-
 /* A box of 5 m with a lamp, from settled light. */
 static void walk_in_colored_box(struct walk *w, const double camera[static 3])
 {
     walk_open(w);
     const double center[3] = { 0, 0, 0 }, half = 2.5;
-    add_colored_box(&w->t, half);
+    scroll_colored_box(&w->t, center, half);
     for (int axis = 0; axis < 3; axis++)
         for (int sign = -1; sign <= 1; sign += 2)
             if (axis != 2 || sign < 0)
@@ -163,12 +151,13 @@ static void hard_54_a_colored_box_does_not_jump_in_the_blend(void **state)
 {
     (void)state;
     static struct walk w;
-    walk_in_colored_box(&w, (double[]){ 0.15, 0.4, 1.3 });
+    /* From here the wall at -2.5 m is in the blend, whose width is that of a probe's spacing. */
+    walk_in_colored_box(&w, (double[]){ scroll_resolution() > 64 ? 0.55 : 0.15, 0.4, 1.3 });
     walk_steps(&w, 20, 0.001);
-    const double mm = w.worst_step;
-    walk_steps(&w, 40, 0.01);
-    printf("coloured box: at most %.2f %% a step of 1 mm, %.2f %% of 1 cm; %.1f %% over the walk\n", 100 * mm,
-           100 * w.worst_step, 100 * walk_range(&w));
+    const double mm = w.worst_step, way = 0.05 * w.t.gi->settings.min_cell_size_m;
+    walk_steps(&w, 40, way);
+    printf("coloured box: at most %.2f %% a step of 1 mm, %.2f %% of %.1f mm; %.1f %% over the walk\n",
+           100 * mm, 100 * w.worst_step, 1000 * way, 100 * walk_range(&w));
     REQUIRE_CMP(w.t.gi->schedule.steps_begun, ==, 0ul);
     REQUIRE_CMP(w.worst_step, <=, 0.02);
     gi_test_close(&w.t);
@@ -197,16 +186,17 @@ static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state
     (void)state;
     static struct walk w;
     walk_in_colored_box(&w, (double[]){ 0.79, 0.4, 1.3 });
+    const double way = 0.05 * w.t.gi->settings.min_cell_size_m;
     for (int i = 0; w.t.gi->schedule.steps_begun == 0 && i < 200; i++)
-        walk_steps(&w, 1, 0.01);
-    walk_steps(&w, 20, 0.01);
-    const double step = w.worst_step, walking = walk_behind_border(&w, 0.01),
+        walk_steps(&w, 1, way);
+    walk_steps(&w, 20, way);
+    const double step = w.worst_step, walking = walk_behind_border(&w, way),
                  resting = walk_behind_border(&w, 0);
     printf("coloured box: at most %.2f %% a frame while a cascade steps; by its border alone %.2f %% with a "
            "camera that "
            "walks, %.2f %% with one that rests\n",
            100 * step, 100 * walking, 100 * resting);
-    REQUIRE_CMP(w.t.gi->schedule.steps_begun, ==, 1ul);
+    REQUIRE_CMP(w.t.gi->schedule.steps_begun, >=, 1ul);
     REQUIRE_CMP(step, <=, 0.02);
     REQUIRE_CMP(walking, <=, 0.02);
     REQUIRE_CMP(resting, <=, 0.01);

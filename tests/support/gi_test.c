@@ -27,10 +27,8 @@ struct sdfgi_settings gi_test_settings(void)
     return s;
 }
 
-void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
+static void create(struct gi_test *t, const struct sdfgi_settings *settings)
 {
-    memset(t, 0, sizeof *t);
-    gpu_test_open(&t->gpu, sdfgi_get_requirements);
     const struct sdfgi_desc desc = {
         .vulkan = { t->gpu.instance, t->gpu.physical_device, t->gpu.device, t->gpu.queue_family_index,
                     vkGetInstanceProcAddr, NULL },
@@ -41,11 +39,32 @@ void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
     REQUIRE_CMP(sdfgi_create(&desc, &t->gi), ==, SDFGI_OK);
 }
 
-void gi_test_close(struct gi_test *t)
+static void destroy(struct gi_test *t)
 {
     sdfgi_destroy(t->gi);
     for (uint32_t i = 0; i < t->buffer_count; i++)
         gpu_test_buffer_destroy(&t->gpu, &t->buffers[i]);
+    t->buffer_count = 0;
+}
+
+void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    memset(t, 0, sizeof *t);
+    gpu_test_open(&t->gpu, sdfgi_get_requirements);
+    create(t, settings);
+}
+
+void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    destroy(t);
+    memset(&t->frame, 0, sizeof t->frame);
+    memset(t->messages, 0, sizeof t->messages);
+    create(t, settings);
+}
+
+void gi_test_close(struct gi_test *t)
+{
+    destroy(t);
     gpu_test_close(&t->gpu);
 }
 

@@ -24,6 +24,8 @@ struct gi_test {
  * stay where it is until it is closed. */
 void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings);
 void gi_test_close(struct gi_test *t);
+/* Another context, without a scene, on the same device: drivers may run out of instances after some sixty. */
+void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings);
 
 /* Small and quick: 64 cells a side, one cascade, 0.25 m, enabled. */
 struct sdfgi_settings gi_test_settings(void);
