@@ -78,22 +78,38 @@ static double stored_radiance_up(struct gi_test *t, const double position[static
     return radiance;
 }
 
-/* What a host's own shader says of a sunlit Lambertian plane, and so must the light cells above it. */
-static void sunlit_plane_has_radiance_albedo_e_over_pi(void **state)
+/* What a host's own shader says of a Lambertian plane under so many suns that shine as one, and so must the
+ * light cells above it. */
+static void require_sunlit_plane(uint32_t suns)
 {
-    (void)state;
     struct gi_test t;
     open_scene(&t);
     light_add_box(&t, (double[]){ -7, -1, -7 }, (double[]){ 7, -0.05, 7 }, white, 0);
-    const struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, 0.36f, 10);
-    light_create(&t, &sun);
+    for (uint32_t i = 0; i < suns; i++) {
+        struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, 0.36f, 10.0f / (float)suns);
+        sun.casts_shadow = i % 2 == 0;
+        light_create(&t, &sun);
+    }
     gi_test_converge(&t, 80);
     for (int i = 0; i < 3; i++) {
         const double ratio = stored_radiance_up(&t, (double[]){ 1.1 * i, 0.1, -0.7 * i }) / (10 * 0.8 / PI);
-        printf("sunlit plane, point %d: ratio %.4f\n", i, ratio);
+        printf("plane under %u suns, point %d: ratio %.4f\n", suns, i, ratio);
         REQUIRE_NEAR(ratio, 1, 0.01);
     }
     gi_test_close(&t);
+}
+
+static void sunlit_plane_has_radiance_albedo_e_over_pi(void **state)
+{
+    (void)state;
+    require_sunlit_plane(1);
+}
+
+/* More than are lit in one round, with and without shadows. */
+static void many_suns_add_up(void **state)
+{
+    (void)state;
+    require_sunlit_plane(70);
 }
 
 /* Two plates: a sunlit floor of 14 m and a small black ceiling 3 m above it, whose shadow falls beside the
@@ -269,6 +285,7 @@ int main(void)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sunlit_plane_has_radiance_albedo_e_over_pi),
+        cmocka_unit_test(many_suns_add_up),
         cmocka_unit_test(sunlit_floor_lights_a_ceiling),
         cmocka_unit_test(sun_reaches_every_cascade),
         cmocka_unit_test(lamps_reach_every_cascade),
