@@ -136,6 +136,51 @@ static void blocks_tell_what_they_hold(void **state)
     gi_test_close(&t);
 }
 
+/* A plate that emits on both sides, two sub-voxels before a dark wall in the same block. */
+static void add_plate_before_wall(struct gi_test *t, int axis)
+{
+    static const float none[3] = { 0, 0, 0 };
+    const bool low = axis % 2;
+    for (int wall = 0; wall < 2; wall++) {
+        double center[3] = { 0.25, 0.25, 0.25 }, u[3] = { 0 }, v[3] = { 0 };
+        center[axis / 2] = low == (bool)wall ? 0.3 : 0.17;
+        u[(axis / 2 + 1) % 3] = 3;
+        v[(axis / 2 + 2) % 3] = 3;
+        struct test_mesh mesh = test_mesh_plane(center, u, v, 1);
+        gi_test_add(t, &mesh, gi_test_material(t, albedo, wall ? none : emission));
+        test_mesh_destroy(&mesh);
+    }
+}
+
+/* Only what is seen first counts: nothing of the plate from behind the wall. */
+static void plates_emit_away_from_the_wall_behind_them(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = gi_test_settings();
+    gi_test_open(&t, &settings);
+    for (int axis = 0; axis < 6; axis++) {
+        gi_test_restart(&t, &settings);
+        add_plate_before_wall(&t, axis);
+        gi_test_update(&t, 1);
+        struct sdfgi_inspect_cascade where;
+        REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
+        uint32_t cell[3];
+        for (int i = 0; i < 3; i++)
+            cell[i] = (uint32_t)floor((0.25 - where.origin_m[i]) / where.cell_m[i]);
+        const uint64_t block = sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]);
+        uint32_t *words = read_volume(&t, 0, SDFGI_VOLUME_EMISSION);
+        struct sdfgi_inspect_surface s;
+        sdfgi_inspect_decode_block(0, words + 2 * block, 0, where.emission_unit, &s);
+        for (int i = 0; i < 3; i++)
+            REQUIRE_NEAR((double)s.emission[i], (double)emission[i], 0.02);
+        for (int other = 0; other < 6; other++)
+            REQUIRE_CMP(s.emitting[other], ==, (other == axis ? 31 : 0));
+        free(words);
+    }
+    gi_test_close(&t);
+}
+
 /* Before the first update, out of range, with no buffer: refused, and nothing is written. */
 static void wrong_requests_are_refused(void **state)
 {
@@ -174,6 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_are_where_the_header_says),
         cmocka_unit_test(blocks_tell_what_they_hold),
+        cmocka_unit_test(plates_emit_away_from_the_wall_behind_them),
         cmocka_unit_test(wrong_requests_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
