@@ -30,16 +30,6 @@ bool changed_holds(uint cascade, ivec3 cell)
     return false;
 }
 
-/* True if anything new is within `margin` cells of `pos` along each axis. */
-bool changed_touches(uint cascade, vec3 pos, float margin)
-{
-    for (int i = 0; i < changed_count(cascade); i++)
-        if (all(greaterThanEqual(pos, vec3(sdfgi_frame.cascades[cascade].changed[2 * i].xyz) - margin)) &&
-            all(lessThanEqual(pos, vec3(sdfgi_frame.cascades[cascade].changed[2 * i + 1].xyz) + margin)))
-            return true;
-    return false;
-}
-
 /* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing is new. */
 float changed_distance(uint cascade, vec3 pos, float margin)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows, reflected by the
  * surface's albedo, one value per axis along which a surface faces. A thread per axis of each light cell that args name finds
- * out which lights arrive; then all threads of a workgroup trace one shadow ray each from its cells to those lights, so that
- * none follows several while others wait. Lights are added in their order. */
+ * out which lights arrive; then all threads of a workgroup share out the shadow rays from its cells to those lights, so that none
+ * follows several while others wait. Lights are added in their order. Shared memory: 4 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
@@ -62,7 +62,8 @@ surface surface_behind(ivec3 cell, uint axis)
     const ivec3 step = surface_axis_step(axis);
     const float depth = clamp(cell_distance(args.cascade, cell), 0.5, 1.0);
     const uint block = surface_block(args.cascade, cell - step);
-    return surface(position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth), surface_normal(block, axis), block);
+    const vec3 position = position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
+    return surface(position, surface_normal(block, axis), block);
 }
 
 vec3 light_on(uint light, surface s)

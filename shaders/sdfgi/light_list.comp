@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks; their
- * numbers, and the indirect arguments of passes over the latter. Cells that were light
- * cells before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A row of
- * blocks is shared by the workgroups of a column, a cell to a thread in turn. */
+ * numbers, and the indirect arguments of passes over the latter. Cells that were light cells before keep their light, outside
+ * renewed blocks their direct light and masks too; new ones begin dark. A row of blocks is shared by the workgroups of a column,
+ * a cell to a thread in turn. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT

@@ -110,7 +110,7 @@ bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 prob
             return false;
         const vec3 end = cascade_from_first(cascade, first_from_cascade(hit, vec3(cell) + 0.5));
         const float margin = MARGIN * exp2(float(hit - cascade));
-        if (changed_touches(cascade, end, MARGIN + margin))
+        if (changed_near(cascade, ivec3(floor(end)), ivec3(ceil(end)), int(ceil(MARGIN + margin))))
             return true;
         range = length(metric_from_cells(end - start.pos)) + margin;
     }
@@ -140,9 +140,8 @@ void main()
         for (uint k = 0u; k < AT_ONCE; k++) {
             samples[k] = start + k * uint(SDFGI_GROUP_RAYS) + gl_LocalInvocationIndex;
             codes[k] = samples[k] < sdfgi_frame.ring.z ? sdfgi_rays[cache + samples[k]] : SDFGI_RAY_UNKNOWN;
-        }
-        for (uint k = 0u; k < AT_ONCE; k++)
             forget[k] = all_rays;
+        }
         for (uint c = own_cascade(); c < sdfgi_frame.size.w; c++) {
             if (changed_count(c) == 0)
                 continue;
