@@ -124,22 +124,56 @@ bool trace_is_light_cell(uint cascade, ivec3 cell)
     return cell_served(cascade, cell) && (sdfgi_light[cell_index(cascade, cell)].y & SDFGI_LIGHT_VALID) != 0u;
 }
 
-/* The light cell of a hit: from the cell that was hit back along the ray to the first empty one. That shares a face with an
- * occupied one, and is on the ray's side of however thin a wall. Steps of the distance field may have passed over it. `first`
- * is the parameter at which the ray began, below 0 if it did in a finer cascade. */
-bool trace_light_cell(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir, float first, inout ivec3 cell)
+bool trace_is_empty(uint cascade, ivec3 cell)
 {
-    const ivec3 backward = ivec3(lessThan(inv_dir, vec3(0.0))) * 2 - 1;
-    for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
-        float back;
-        const int axis = trace_exit(origin, -inv_dir, vec3(cell), 1.0, back);
-        cell[axis] += backward[axis];
-        if (-back < first || !cell_served(cascade, cell + base))
-            return false;
-        if (cell_bits(cascade, cell + base) == uvec2(0u))
+    return cell_served(cascade, cell) && cell_bits(cascade, cell) == uvec2(0u);
+}
+
+/* An empty cell beside an occupied one, on the side from which a ray comes that enters it at `here`, with nothing of what is
+ * in the cell between the two; along `face` if there. */
+bool trace_beside(uint cascade, ivec3 base, ivec3 cell, vec3 here, ivec3 backward, int face, out ivec3 beside)
+{
+    const ivec3 sub = clamp(ivec3(floor(here * 4.0)) - cell * SDFGI_SUBVOXELS, ivec3(0), ivec3(3));
+    const uvec2 bits = cell_bits(cascade, cell + base);
+    for (int i = 0; i < 3; i++) {
+        const int k = (face + i) % 3;
+        ivec3 low = sub, high = sub;
+        low[k] = backward[k] < 0 ? 0 : sub[k] + 1;
+        high[k] = backward[k] < 0 ? sub[k] - 1 : 3;
+        beside = cell;
+        beside[k] += backward[k];
+        const bool open = low[k] > high[k] || (bits & trace_box_bits(uvec3(low), uvec3(high))) == uvec2(0u);
+        if (open && trace_is_empty(cascade, beside + base))
             return true;
     }
     return false;
+}
+
+/* The light cell of a hit: from the cell that was hit back along the ray to the first empty one. That shares a face with an
+ * occupied one, and is on the ray's side of however thin a wall. Steps of the distance field may have passed over it. `first`
+ * is the parameter at which the ray began, below 0 if it did in a finer cascade: there it may have come so close to a wall that
+ * all its cells of this one are occupied. Then the first cell beside them will do. */
+bool trace_light_cell(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir, float first, int face, inout ivec3 cell)
+{
+    const ivec3 backward = ivec3(lessThan(inv_dir, vec3(0.0))) * 2 - 1;
+    ivec3 at = cell;
+    bool found = false;
+    for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
+        float back;
+        const ivec3 occupied = at;
+        const int axis = trace_exit(origin, -inv_dir, vec3(at), 1.0, back);
+        at[axis] += backward[axis];
+        const bool ends = -back < first || !cell_served(cascade, at + base);
+        if (!ends && cell_bits(cascade, at + base) == uvec2(0u)) {
+            cell = at;
+            return true;
+        }
+        if (!found)
+            found = trace_beside(cascade, base, occupied, origin - back / inv_dir, backward, face, cell);
+        if (ends)
+            return found;
+    }
+    return found;
 }
 
 /* Parameter at which a ray leaves the cells of a cascade that may be read; below 0 if it starts beyond them. */
@@ -209,7 +243,7 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             result.hit = true;
             result.cascade = cascade;
             result.axis = trace_face(axis, dir_cell);
-            result.has_cell = trace_light_cell(cascade, base, origin, inv_dir, -travelled / scale, cell);
+            result.has_cell = trace_light_cell(cascade, base, origin, inv_dir, -travelled / scale, axis, cell);
             result.cell = cell + base;
             return result;
         }
