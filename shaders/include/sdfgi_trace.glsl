@@ -10,7 +10,7 @@
 struct trace_hit {
     bool hit;
     bool capped;     /* ran out of steps: counted as a hit */
-    bool has_cell;   /* cell is an empty cell next to the surface that was hit */
+    bool has_cell;   /* cell is an empty cell next to the surface that was hit; else the one that was */
     uint cascade;
     ivec3 cell;
     uint axis;       /* of the face that was hit: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z */
@@ -149,31 +149,73 @@ bool trace_beside(uint cascade, ivec3 base, ivec3 cell, vec3 here, ivec3 backwar
     return false;
 }
 
-/* The light cell of a hit: from the cell that was hit back along the ray to the first empty one. That shares a face with an
- * occupied one, and is on the ray's side of however thin a wall. Steps of the distance field may have passed over it. `first`
- * is the parameter at which the ray began, below 0 if it did in a finer cascade: there it may have come so close to a wall that
- * all its cells of this one are occupied. Then the first cell beside them will do. */
-bool trace_light_cell(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir, float first, int face, inout ivec3 cell)
+/* How a ray went through the cascade in which it ended: where it began there, in cells from `base`, at parameter 0, and the
+ * parameter at which it had begun, below 0 if in a finer cascade. */
+struct trace_way {
+    vec3 origin, inv_dir;
+    ivec3 base;
+    float first;
+};
+
+/* From a cell to the one through which the ray came, and the parameter at which it did. False before the ray's beginning. */
+bool trace_step_back(uint cascade, trace_way way, inout ivec3 cell, out float t)
 {
-    const ivec3 backward = ivec3(lessThan(inv_dir, vec3(0.0))) * 2 - 1;
-    ivec3 at = cell;
-    bool found = false;
-    for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
-        float back;
-        const ivec3 occupied = at;
-        const int axis = trace_exit(origin, -inv_dir, vec3(at), 1.0, back);
-        at[axis] += backward[axis];
-        const bool ends = -back < first || !cell_served(cascade, at + base);
-        if (!ends && cell_bits(cascade, at + base) == uvec2(0u)) {
-            cell = at;
+    const int axis = trace_exit(way.origin, -way.inv_dir, vec3(cell), 1.0, t);
+    t = -t;
+    cell[axis] += way.inv_dir[axis] < 0.0 ? 1 : -1;
+    return t >= way.first && cell_served(cascade, cell + way.base);
+}
+
+/* An empty cell beside an occupied one, on the side from which the ray came that entered it at `here`, with nothing of what is
+ * in the cell between the two; along `face` if there. */
+bool trace_beside(uint cascade, trace_way way, ivec3 cell, vec3 here, int face, out ivec3 beside)
+{
+    const ivec3 sub = clamp(ivec3(floor(here * 4.0)) - cell * SDFGI_SUBVOXELS, ivec3(0), ivec3(3));
+    const uvec2 bits = cell_bits(cascade, cell + way.base);
+    for (int i = 0; i < 3; i++) {
+        const int k = (face + i) % 3;
+        const bool forward = way.inv_dir[k] > 0.0;
+        ivec3 low = sub, high = sub;
+        low[k] = forward ? 0 : sub[k] + 1;
+        high[k] = forward ? sub[k] - 1 : 3;
+        beside = cell;
+        beside[k] += forward ? -1 : 1;
+        const bool open = low[k] > high[k] || (bits & trace_box_bits(uvec3(low), uvec3(high))) == uvec2(0u);
+        if (open && trace_is_empty(cascade, beside + way.base))
+            return true;
+    }
+    return false;
+}
+
+/* The light cell of a hit where a ray that began in a finer cascade came so close along a wall that all its cells of this one
+ * are occupied: the first beside them. */
+bool trace_cell_along(uint cascade, trace_way way, int face, inout ivec3 cell)
+{
+    bool more = true;
+    for (int i = 0; more && i < SDFGI_TRACE_STEP_CAP; i++) {
+        const ivec3 occupied = cell;
+        float t;
+        more = trace_step_back(cascade, way, cell, t);
+        ivec3 beside;
+        if (trace_beside(cascade, way, occupied, way.origin + t / way.inv_dir, face, beside)) {
+            cell = beside;
             return true;
         }
-        if (!found)
-            found = trace_beside(cascade, base, occupied, origin - back / inv_dir, backward, face, cell);
-        if (ends)
-            return found;
     }
-    return found;
+    return false;
+}
+
+/* The light cell of a hit: from the cell that was hit back along the ray to the first empty one. That shares a face with an
+ * occupied one, and is on the ray's side of however thin a wall. Steps of the distance field may have passed over it. */
+bool trace_light_cell(uint cascade, trace_way way, int face, inout ivec3 cell)
+{
+    const ivec3 hit = cell;
+    float t;
+    for (int i = 0; i < SDFGI_TRACE_STEP_CAP && trace_step_back(cascade, way, cell, t); i++)
+        if (cell_bits(cascade, cell + way.base) == uvec2(0u))
+            return true;
+    cell = hit;
+    return trace_cell_along(cascade, way, face, cell);
 }
 
 /* Parameter at which a ray leaves the cells of a cascade that may be read; below 0 if it starts beyond them. */
@@ -187,8 +229,10 @@ float trace_leave(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir)
 
 /* Follows a ray from `pos` for at most `range` cell widths of its cascade, walking on into coarser cascades up to
  * `last_cascade`. `pos` and all cells in the first cascade count from the cell `base`, so that rounding can be made the same
- * wherever a cascade stands; no step is longer than `longest` cells. */
-trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3 dir, float range, float longest)
+ * wherever a cascade stands; no step is longer than `longest` cells. The hit has no light cell yet, but that it hit, from
+ * way.base. */
+trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3 dir, float range, float longest,
+                     out trace_way way)
 {
     trace_hit result = trace_hit(false, false, false, cascade, ivec3(0), 0u, range);
     vec3 dir_cell = cells_from_metric(dir);
@@ -243,8 +287,8 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             result.hit = true;
             result.cascade = cascade;
             result.axis = trace_face(axis, dir_cell);
-            result.has_cell = trace_light_cell(cascade, base, origin, inv_dir, -travelled / scale, axis, cell);
-            result.cell = cell + base;
+            result.cell = cell;
+            way = trace_way(origin, inv_dir, base, -travelled / scale);
             return result;
         }
         cell[axis] += dir_cell[axis] > 0.0 ? 1 : -1;
@@ -256,10 +300,23 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
     return result;
 }
 
-/* The same from `pos` in cell space of `cascade`. */
+/* The same from `pos` in cell space of `cascade`: what is hit, and where. */
+trace_hit trace_solid(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
+{
+    trace_way unused;
+    return trace_from(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, unused);
+}
+
+/* With the light cell of the hit. */
 trace_hit trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
 {
-    return trace_from(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9);
+    trace_way way;
+    trace_hit result = trace_from(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, way);
+    if (result.hit && !result.capped) {
+        result.has_cell = trace_light_cell(result.cascade, way, int(result.axis >> 1u), result.cell);
+        result.cell += way.base;
+    }
+    return result;
 }
 
 /* Longest step, in cells, of rays whose outcome is kept while a cascade scrolls: distances further off may have changed where
@@ -272,7 +329,8 @@ bool trace_visible_from(uint cascade, ivec3 base, vec3 from, vec3 to)
 {
     const vec3 way = metric_from_cells(to - from);
     const float range = length(way);
-    return range < 1e-4 || !trace_from(cascade, cascade, base, from, way / range, range, TRACE_KEPT_STEP).hit;
+    trace_way unused;
+    return range < 1e-4 || !trace_from(cascade, cascade, base, from, way / range, range, TRACE_KEPT_STEP, unused).hit;
 }
 
 /* True if no set sub-voxel lies between two points of a cascade's cell space. */
@@ -280,7 +338,7 @@ bool trace_visible(uint cascade, vec3 from, vec3 to)
 {
     const vec3 way = metric_from_cells(to - from);
     const float range = length(way);
-    return range < 1e-4 || !trace_ray(cascade, cascade, from, way / range, range).hit;
+    return range < 1e-4 || !trace_solid(cascade, cascade, from, way / range, range).hit;
 }
 
 #endif

@@ -81,7 +81,7 @@ bool light_reaches(ivec3 cell, uint light)
     float range_m;
     light_arriving(sdfgi_lights[light], position_from_cascade(args.cascade, pos), to_light, range_m);
     const float cell_m = sdfgi_frame.cascades[args.cascade].origin_rel.w;
-    return !trace_ray(args.cascade, sdfgi_frame.size.w - 1u, pos, to_light, range_m / cell_m).hit;
+    return !trace_solid(args.cascade, sdfgi_frame.size.w - 1u, pos, to_light, range_m / cell_m).hit;
 }
 
 /* Bits of the lights from `first` on that would light a surface. */

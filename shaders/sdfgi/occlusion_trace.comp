@@ -21,7 +21,7 @@ shared float depth[TEXELS];
 float trace_depth(vec3 pos, uint texel)
 {
     const vec2 uv = (vec2(texel % uint(N), texel / uint(N)) + 0.5) * (2.0 / float(N)) - 1.0;
-    return min(trace_ray(args.cascade, args.cascade, pos, octahedral_decode(uv), SDFGI_OCCLUSION_RANGE).distance,
+    return min(trace_solid(args.cascade, args.cascade, pos, octahedral_decode(uv), SDFGI_OCCLUSION_RANGE).distance,
                SDFGI_OCCLUSION_RANGE);
 }
 
