@@ -93,6 +93,7 @@ struct gpu_device {
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
     uint32_t timestamp_bits; /* of the queue family; 0: no timestamps */
+    bool is_cpu;             /* a software driver: few threads run at once */
 };
 
 /* Loads functions of an instance; false if one is missing. */

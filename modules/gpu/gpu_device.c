@@ -52,6 +52,7 @@ VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysi
     VkPhysicalDeviceProperties properties;
     device->fn.GetPhysicalDeviceProperties(physical, &properties);
     device->limits = properties.limits;
+    device->is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     device->timestamp_bits = timestamp_bits(&device->fn, physical, queue_family);
     return VK_SUCCESS;
 }

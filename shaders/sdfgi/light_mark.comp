@@ -114,7 +114,7 @@ bool in_earlier_box(int box, ivec3 cell)
 bool renewed_block(uint n, out uint block, out bool more)
 {
     block = n;
-    more = n < light_block_count();
+    more = searches_all() && n < light_block_count();
     if (searches_all())
         return more && is_renewed(n);
     for (int i = 0; i < changed_count(args.cascade); i++) {
@@ -125,11 +125,11 @@ bool renewed_block(uint n, out uint block, out bool more)
         if (n < blocks) {
             const ivec3 cell = low + 4 * ivec3(n % size.x, n / size.x % size.y, n / (size.x * size.y));
             block = light_block_from_coords(cell_texel(args.cascade, cell) / 4u);
+            more = true;
             return !in_earlier_box(i, cell);
         }
         n -= blocks;
     }
-    more = false;
     return false;
 }
 

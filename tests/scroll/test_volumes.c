@@ -147,13 +147,12 @@ static void a_step_over_a_plain_searches_little(void **state)
     gi_test_close(&t);
 }
 
-/* Steps of one cascade, one a frame, anywhere within a world: nothing adds up, and nothing is left behind. A
- * step takes 0.2 s at 64^3 on lavapipe with two cores: half the cells where the default suite runs. */
+/* Steps of one cascade, one a frame, anywhere within a world: nothing adds up, and nothing is left behind. */
 static void hard_19_a_journey_of_a_thousand_steps_leaves_no_trace(void **state)
 {
     (void)state;
     static struct gi_test t;
-    struct sdfgi_settings settings = getenv("SDFGI_TEST_FULL") ? volume_settings() : coarse_settings();
+    struct sdfgi_settings settings = volume_settings();
     settings.cascades = 1;
     open_world(&t, &settings, home);
     struct test_random random = { 19 };
