@@ -67,6 +67,9 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     const char *problem = gather_problem(gi, desc);
     if (problem)
         return invalid(gi, "sdfgi_gather: %s", problem);
+    const VkResult made = pipelines_make_gather(gi);
+    if (made != VK_SUCCESS)
+        return message_vulkan(gi, made, "sdfgi_gather");
     struct frame frame = { .gi = gi, .slot = (uint32_t)(gi->frame % gi->frames_in_flight) };
     const VkDescriptorSet set = gi->resources->gather_sets[frame.slot][gi->gathers++];
     write_set(gi, set, desc);

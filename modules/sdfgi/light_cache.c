@@ -7,9 +7,10 @@
 #define SPARE_SHARE 8
 /* Workgroups that share a row of 64 blocks: along the ground it holds a thousand cells. */
 #define LIST_SHARES 4
-/* Workgroups that share the blocks to be marked on a CPU, where looking for the next one in vain takes as
- * long as marking it: with one for each block a step of 64^3 takes 42 ms there instead of 16. */
-#define MARK_GROUPS_CPU 64
+/* Blocks of which a workgroup marks the light cells. On a CPU looking for the next one in vain takes as long
+ * as marking it: with one for each a step of 64^3 takes 42 ms there instead of 17. */
+#define MARK_BLOCKS     1
+#define MARK_BLOCKS_CPU 16
 /* Of frames that all complete a step one in so many lights cells again that stay. */
 #define RELIGHT_PATIENCE 4
 
@@ -168,9 +169,9 @@ void light_cache_mark_record(struct frame *frame, uint32_t c)
     const struct sdfgi_pass_args args = { .cascade = c, .fresh = light_cache_is_new(gi, c) };
     const uint64_t cells = renewed_cells(gi, c), room = gi->resources->extent.light_cells;
     pass_begin(frame, PASS_LIGHT_MARK);
-    const uint32_t groups = one_row(groups_for(cells > room ? cells : room, SDFGI_GROUP_LINEAR));
-    pass_dispatch(frame, PASS_LIGHT_MARK, &args,
-                  gi->device.is_cpu && groups > MARK_GROUPS_CPU ? MARK_GROUPS_CPU : groups, 1, 1);
+    const uint32_t per_group = SDFGI_GROUP_LINEAR * (gi->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
+    pass_dispatch(frame, PASS_LIGHT_MARK, &args, one_row(groups_for(cells > room ? cells : room, per_group)),
+                  1, 1);
     gi->passes[PASS_LIGHT_MARK].work += cells;
     pass_end(frame);
 }

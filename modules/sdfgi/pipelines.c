@@ -170,20 +170,34 @@ static VkPipelineLayout layout_of(const struct pipelines *p, enum pass pass)
                                  : p->layout;
 }
 
-static VkResult compute_pipelines(struct sdfgi *gi)
+static VkResult make_pass(struct sdfgi *gi, enum pass pass)
 {
     struct pipelines *p = &gi->pipelines;
-    for (int i = 0; i < PASS_COUNT; i++) {
-        if (i == PASS_VOXELIZE_RASTER)
-            continue;
-        const VkResult result = gpu_compute_pipeline_create(
-            &gi->device, passes[i].shader, layout_of(p, (enum pass)i), passes[i].name, &p->passes[i]);
-        if (result != VK_SUCCESS)
-            return result;
-    }
-    const struct gpu_shader textured = { voxelize_textured_comp, sizeof voxelize_textured_comp };
-    return gpu_compute_pipeline_create(&gi->device, textured, p->voxelize_layout, "voxelize textured",
-                                       &p->voxelize_textured);
+    return gpu_compute_pipeline_create(&gi->device, passes[pass].shader, layout_of(p, pass),
+                                       passes[pass].name, &p->passes[pass]);
+}
+
+VkResult pipelines_make_gather(struct sdfgi *gi)
+{
+    return gi->pipelines.passes[PASS_GATHER] ? VK_SUCCESS : make_pass(gi, PASS_GATHER);
+}
+
+VkResult pipelines_make_textured(struct sdfgi *gi)
+{
+    struct pipelines *p = &gi->pipelines;
+    const struct gpu_shader shader = { voxelize_textured_comp, sizeof voxelize_textured_comp };
+    return p->voxelize_textured ? VK_SUCCESS
+                                : gpu_compute_pipeline_create(&gi->device, shader, p->voxelize_layout,
+                                                              "voxelize textured", &p->voxelize_textured);
+}
+
+static VkResult compute_pipelines(struct sdfgi *gi)
+{
+    VkResult result = VK_SUCCESS;
+    for (int i = 0; i < PASS_COUNT && result == VK_SUCCESS; i++)
+        if (i != PASS_VOXELIZE_RASTER && i != PASS_GATHER)
+            result = make_pass(gi, (enum pass)i);
+    return result;
 }
 
 static VkResult sampler(const struct gpu_device *device, VkFilter filter, VkSampler *out)

@@ -107,7 +107,9 @@ VkResult scene_sets_material(struct sdfgi *gi, struct material *material)
                                *emission = &material->desc.emission_texture;
     if (!albedo->view && !emission->view)
         return VK_SUCCESS;
-    const VkResult result = allocate(gi, gi->pipelines.material_layout, &material->set, &material->pool);
+    VkResult result = pipelines_make_textured(gi);
+    if (result == VK_SUCCESS)
+        result = allocate(gi, gi->pipelines.material_layout, &material->set, &material->pool);
     if (result != VK_SUCCESS)
         return result;
     /* Where only one texture exists it stands in for the other, which shaders then do not read. */

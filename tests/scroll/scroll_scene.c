@@ -37,10 +37,15 @@ static void add_boxes(struct gi_test *t, const double center[static 3], double r
 
 void scroll_world(struct gi_test *t, const double center[static 3], double reach)
 {
-    const double c[3] = { center[0], center[1], center[2] };
-    const double ground[3] = { c[0], c[1] - 2.1, c[2] }, u[3] = { 0, 0.4, 2 * reach },
+    const double ground[3] = { center[0], center[1] - 2.1, center[2] }, u[3] = { 0, 0.4, 2 * reach },
                  v[3] = { 2 * reach, 0, 0 };
     light_add(t, test_mesh_plane(ground, u, v, 4), 0.5f, 0);
+    scroll_air(t, center, reach);
+}
+
+void scroll_air(struct gi_test *t, const double center[static 3], double reach)
+{
+    const double c[3] = { center[0], center[1], center[2] };
     add_boxes(t, c, reach);
     const double low[3] = { c[0] - reach, c[1] - 3, c[2] - reach },
                  high[3] = { c[0] + reach, c[1] + 3, c[2] + reach };
