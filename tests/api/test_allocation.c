@@ -352,6 +352,38 @@ static void no_failure_while_the_light_list_grows_is_fatal(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
+/* Those for sdfgi_gather and for textures, which are made when they are asked for. */
+static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
+{
+    (void)state;
+    struct counting counting = { 0 };
+    sdfgi *gi = create_on(&counting);
+    add_a_triangle(gi);
+    update_twice(gi);
+    const VkImageView view = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
+    const VkSampler sampler = (VkSampler)(uintptr_t)1;
+    const struct sdfgi_gather_desc gather = {
+        .depth = view, .normal = view, .output = view, .width = 1, .height = 1
+    };
+    const struct sdfgi_material_desc material = { .albedo = { 1, 1, 1 },
+                                                  .albedo_texture = { .view = view, .sampler = sampler } };
+    for (uint32_t k = 1; k <= 2; k++) { /* its shader module, itself */
+        sdfgi_material handle = { 77 };
+        memset(messages, 0, sizeof messages);
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        REQUIRE_CMP((int)sdfgi_gather(gi, VK_NULL_HANDLE, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP(failing_vulkan_calls(), ==, k);
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        REQUIRE_CMP((int)sdfgi_material_create(gi, &material, &handle), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP(failing_vulkan_calls(), ==, k);
+        REQUIRE_CMP(handle.id, ==, 77u);
+        REQUIRE_CMP(memory_messages(), ==, 2u);
+    }
+    failing_vulkan_reset(0, VK_SUCCESS);
+    sdfgi_destroy(gi);
+    REQUIRE_CMP(counting.live, ==, 0);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -363,6 +395,7 @@ int main(void)
         cmocka_unit_test(no_vulkan_failure_while_creating_is_fatal),
         cmocka_unit_test(no_vulkan_failure_while_adding_a_mesh_is_fatal),
         cmocka_unit_test_setup(no_failure_while_the_light_list_grows_is_fatal, keep_shaders),
+        cmocka_unit_test_setup(no_failure_to_make_a_late_pipeline_is_fatal, keep_shaders),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
