@@ -255,11 +255,6 @@ lookup_visibility lookup_traced(uint cascade, ivec3 cage, vec3 pos)
     return v;
 }
 
-bool lookup_cell_empty(uint cascade, ivec3 cell)
-{
-    return cell_served(cascade, cell) && cell_bits(cascade, cell) == uvec2(0u);
-}
-
 /* The light cell that stands for a surface point: the one that holds the biased position, else the nearest of its
  * neighbours from which `open`, a point on the way to the viewer, can be seen. The viewer tells the two sides of a thin wall
  * apart, which the point alone, lying inside the wall's sub-voxels, cannot. */
@@ -301,9 +296,9 @@ lookup_visibility lookup_cell_masks(uint cascade, ivec3 cage, ivec3 anchor, vec3
     const ivec3 base = ivec3(floor(p));
     const vec3 f = p - vec3(base);
     const ivec3 side = 2 * base + 1 - 2 * anchor; /* -1 or 1: where the other cells of the support lie */
-    const bvec3 open = bvec3(lookup_cell_empty(cascade, anchor + ivec3(side.x, 0, 0)),
-                             lookup_cell_empty(cascade, anchor + ivec3(0, side.y, 0)),
-                             lookup_cell_empty(cascade, anchor + ivec3(0, 0, side.z)));
+    const bvec3 open = bvec3(trace_is_empty(cascade, anchor + ivec3(side.x, 0, 0)),
+                             trace_is_empty(cascade, anchor + ivec3(0, side.y, 0)),
+                             trace_is_empty(cascade, anchor + ivec3(0, 0, side.z)));
     for (int i = 0; i < 8; i++) {
         const ivec3 cell = base + lookup_corner(i);
         const bvec3 moved = notEqual(cell, anchor);

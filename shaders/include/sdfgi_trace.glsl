@@ -129,26 +129,6 @@ bool trace_is_empty(uint cascade, ivec3 cell)
     return cell_served(cascade, cell) && cell_bits(cascade, cell) == uvec2(0u);
 }
 
-/* An empty cell beside an occupied one, on the side from which a ray comes that enters it at `here`, with nothing of what is
- * in the cell between the two; along `face` if there. */
-bool trace_beside(uint cascade, ivec3 base, ivec3 cell, vec3 here, ivec3 backward, int face, out ivec3 beside)
-{
-    const ivec3 sub = clamp(ivec3(floor(here * 4.0)) - cell * SDFGI_SUBVOXELS, ivec3(0), ivec3(3));
-    const uvec2 bits = cell_bits(cascade, cell + base);
-    for (int i = 0; i < 3; i++) {
-        const int k = (face + i) % 3;
-        ivec3 low = sub, high = sub;
-        low[k] = backward[k] < 0 ? 0 : sub[k] + 1;
-        high[k] = backward[k] < 0 ? sub[k] - 1 : 3;
-        beside = cell;
-        beside[k] += backward[k];
-        const bool open = low[k] > high[k] || (bits & trace_box_bits(uvec3(low), uvec3(high))) == uvec2(0u);
-        if (open && trace_is_empty(cascade, beside + base))
-            return true;
-    }
-    return false;
-}
-
 /* How a ray went through the cascade in which it ended: where it began there, in cells from `base`, at parameter 0, and the
  * parameter at which it had begun, below 0 if in a finer cascade. */
 struct trace_way {

@@ -312,8 +312,8 @@ struct sdfgi_gather_desc {
 
 /* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must be
  * made visible to compute shader reads by the host; the output is made visible to later compute and fragment
- * reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its pipeline, as does the first
- * material with a texture: better before the first frame than in one. */
+ * reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its pipeline, as the first
+ * material with a texture makes one: better before the first frame than in one. */
 SDFGI_API enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc);
 
 /* ---- Report ----------------------------------------------------------------------------------------- */
