@@ -10,7 +10,7 @@
 struct trace_hit {
     bool hit;
     bool capped;     /* ran out of steps: counted as a hit */
-    bool has_cell;   /* cell is an empty cell next to the surface that was hit; else the one that was */
+    bool has_cell;   /* cell is an empty cell next to the surface that was hit */
     uint cascade;
     ivec3 cell;
     uint axis;       /* of the face that was hit: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z */
@@ -209,8 +209,8 @@ float trace_leave(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir)
 
 /* Follows a ray from `pos` for at most `range` cell widths of its cascade, walking on into coarser cascades up to
  * `last_cascade`. `pos` and all cells in the first cascade count from the cell `base`, so that rounding can be made the same
- * wherever a cascade stands; no step is longer than `longest` cells. The hit has no light cell yet, but that it hit, from
- * way.base. */
+ * wherever a cascade stands; no step is longer than `longest` cells. The cell of the result is the occupied one that was hit,
+ * counted from way.base. */
 trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3 dir, float range, float longest,
                      out trace_way way)
 {

@@ -114,9 +114,11 @@ bool in_earlier_box(int box, ivec3 cell)
 bool renewed_block(uint n, out uint block, out bool more)
 {
     block = n;
-    more = searches_all() && n < light_block_count();
-    if (searches_all())
+    more = false;
+    if (searches_all()) {
+        more = n < light_block_count();
         return more && is_renewed(n);
+    }
     for (int i = 0; i < changed_count(args.cascade); i++) {
         ivec3 low, high;
         renewed_cells(i, low, high);
