@@ -52,7 +52,7 @@ static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *a
     pass_end(frame);
 }
 
-/* Some layers of blocks, for whose planes there is room. */
+/* Some layers of blocks. */
 static void record_search(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
 {
     const uint32_t n = frame->gi->settings.resolution;
@@ -72,13 +72,12 @@ static void record_search(struct frame *frame, uint32_t c, uint32_t first, uint3
 
 static void record_exact(struct frame *frame, uint32_t c, const struct distance_part *part)
 {
-    const uint32_t n = frame->gi->settings.resolution, room = n / 8, end = part->first + part->count;
+    const uint32_t n = frame->gi->settings.resolution;
     const struct sdfgi_stale_args stale = stale_args(n, c, part);
     if (part->changed_count > 0 && stale.box_count == 0)
         return; /* boxes without a cell */
     record_prepare(frame, &stale, part->count);
-    for (uint32_t first = part->first; first < end; first += room)
-        record_search(frame, c, first, first + room < end ? room : end - first);
+    record_search(frame, c, part->first, part->count);
 }
 
 static void flood_step(struct frame *frame, struct sdfgi_pass_args *args, uint32_t length)

@@ -92,7 +92,13 @@ float distance_steps()
     return float(32768u >> sdfgi_frame.size.y);
 }
 
-/* Never more than 0.1 cell above the distance to the nearest set sub-voxel. */
+/* The stored form of the longest. */
+uint distance_reach()
+{
+    return uint(SDFGI_DISTANCE_REACH) << 15u - sdfgi_frame.size.y;
+}
+
+/* Never more than 0.1 cell above the distance to the nearest set sub-voxel, nor more than SDFGI_DISTANCE_REACH. */
 float cell_distance(uint cascade, ivec3 cell)
 {
     const uint index = cell_index(cascade, cell);

@@ -14,7 +14,8 @@ const uint BATCH = 260u; /* few, for many workgroups at once; a village's layers
 
 layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
-const uint PER_THREAD = (BATCH * LINES - 1u) / SDFGI_GROUP_LINES + 1u;
+const uint PAIRS = LINES / 2u;
+const uint PER_THREAD = (BATCH * PAIRS - 1u) / SDFGI_GROUP_LINES + 1u;
 
 int common_bits; /* of what squares along y count, 4, 9 or 16, and what planes store, 16: powers of 2 in common */
 
@@ -22,8 +23,8 @@ void begin()
 {
     const int weight = int(distance_y_weight());
     common_bits = findLSB(weight);
-    /* Sums are below (weight + 2 * 16) / 8 (8 N)^2, less what is common: 23 bits at most, 25 where N is 256 and the weight 9. */
-    line_begin(weight >> common_bits, common_bits == 0 && sdfgi_frame.size.x > 128u ? 7u : 9u);
+    /* Planes bring up to 2^20, and sums are below weight / 8 (8 N)^2 more, less what is common: 23 bits at most. */
+    line_begin(weight >> common_bits, 9u);
 }
 
 uint first_x()
@@ -36,12 +37,6 @@ uint first_z()
     return 2u * gl_WorkGroupID.x;
 }
 
-uvec2 stale_blocks()
-{
-    const uint slot = stale_slot(first_x() >> 2u, first_z() >> 2u);
-    return uvec2(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u]);
-}
-
 bool block_is_stale(uvec2 stale, uint y)
 {
     return (stale[y >> 7u] >> (y >> 2u & 31u) & 1u) != 0u;
@@ -50,27 +45,34 @@ bool block_is_stale(uvec2 stale, uint y)
 void mark_all(uvec2 stale)
 {
     for (uint y = gl_LocalInvocationIndex; y < sdfgi_frame.size.x; y += SDFGI_GROUP_LINES) {
-        line_mark(y, four_layers(y));
+        if (layer_in_reach(stale, int(y >> 2u)))
+            line_mark(y, four_layers(y));
         if (block_is_stale(stale, y))
             atomicOr(line_wanted, 1u << y / line_cells_per_slot());
     }
     line_count();
 }
 
-/* What the planes hold of a batch; a workgroup's lines lie side by side there. All is read before any is written: one wait. */
+int plane_sum(uint place, uint plane)
+{
+    return line_sum(place, int(plane) * (16 >> common_bits));
+}
+
+/* What the planes hold of a batch; a workgroup's lines lie side by side there, two in a word. All is read before any is written:
+ * one wait. */
 void put_planes(uint count)
 {
-    int sums[PER_THREAD];
+    uint planes[PER_THREAD];
     [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
-        const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * LINES - 1u);
-        const uint place = line_batch[i / LINES];
-        const uint slot = plane_slot(place, first_x() - args.step, first_z()) + (i & (LINES - 1u));
-        sums[k] = line_sum(place, int(sdfgi_scratch[slot]) * (16 >> common_bits));
+        const uint i = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * PAIRS - 1u);
+        planes[k] = sdfgi_scratch[plane_slot(line_batch[i / PAIRS], first_x(), first_z()) + (i & (PAIRS - 1u))];
     }
     [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) {
-        const uint i = gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES;
-        if (i < count * LINES)
-            line_sums[(i & (LINES - 1u)) * BATCH + i / LINES] = sums[k];
+        const uint i = gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, at = i / PAIRS, own = 2u * (i & (PAIRS - 1u));
+        if (at < count) {
+            line_sums[own * BATCH + at] = plane_sum(line_batch[at], planes[k] & 0xffffu);
+            line_sums[(own + 1u) * BATCH + at] = plane_sum(line_batch[at], planes[k] >> 16u);
+        }
     }
     barrier();
 }
@@ -78,7 +80,7 @@ void put_planes(uint count)
 uint encoded(uint y, uint own)
 {
     const uint length2 = uint((8 * line_result(y, own) + line_weight) << common_bits) + 32u;
-    return line_candidates() == 0u ? 0xffffu : distance_encode(length2);
+    return line_candidates() == 0u ? distance_reach() : distance_encode(length2);
 }
 
 /* Two cells share a word. */
@@ -94,7 +96,7 @@ void store_lines(uvec2 stale)
 
 void main()
 {
-    const uvec2 stale = stale_blocks();
+    const uvec2 stale = stale_blocks(first_x() >> 2u, first_z() >> 2u);
     if (stale == uvec2(0u))
         return;
     begin();

@@ -26,10 +26,12 @@ uint first_x()
     return (args.step & ~7u) + LINES * gl_WorkGroupID.x;
 }
 
-/* The runs in which a row holds bits. */
+/* The runs within reach in which a row holds bits. */
 uint runs_of(uint place)
 {
-    return runs_of_row(layer(), place);
+    const int run = int(first_x() >> 3u), runs = SDFGI_DISTANCE_REACH / 8;
+    const int low = max(run - runs, 0), high = min(run + runs, 31);
+    return runs_of_row(layer(), place) & 0xffffffffu << low & 0xffffffffu >> (31 - high);
 }
 
 bool layer_holds_any()
@@ -37,24 +39,38 @@ bool layer_holds_any()
     return (four_layers(layer() >> 2u) >> (layer() & 3u) & 1u) != 0u;
 }
 
+/* Slots with cells of stale blocks to which this layer may matter. A run has two columns of blocks. */
+void mark_wanted()
+{
+    for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.size.x >> 1u; i += SDFGI_GROUP_LINES) {
+        const uint x = first_x() + 4u * (i & 1u), z = 2u * (i & ~1u), first = z / line_cells_per_slot();
+        const uint slots = (2u << (z + 3u) / line_cells_per_slot()) - (1u << first);
+        if (x >= args.step && x < args.source && layer_in_reach(stale_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
+            atomicOr(line_wanted, slots);
+    }
+    barrier();
+}
+
+/* Slots within reach of those. */
+uint slots_in_reach()
+{
+    const uint reach = (SDFGI_DISTANCE_REACH - 1u) / line_cells_per_slot() + 1u;
+    uint slots = line_wanted;
+    for (uint i = 0u; i < reach; i++)
+        slots |= slots << 1u | slots >> 1u;
+    return slots;
+}
+
 void mark_rows()
 {
+    const uint slots = slots_in_reach();
     for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x; z += SDFGI_GROUP_LINES) {
+        if ((slots >> z / line_cells_per_slot() & 1u) == 0u)
+            continue;
         uint rows = 0u;
         [[unroll]] for (uint i = 0u; i < 4u; i++)
             rows |= uint(runs_of(4u * z + i) != 0u) << i;
         line_mark(z, rows);
-    }
-}
-
-/* Slots with cells of stale blocks. A run has two columns of blocks, each two words: a thread looks at one of the four. */
-void mark_wanted()
-{
-    for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
-        const uint x = first_x() + 2u * (i & 2u), z = i & ~3u, first = z / line_cells_per_slot();
-        const uint slots = (2u << (z + 3u) / line_cells_per_slot()) - (1u << first);
-        if (x >= args.step && x < args.source && sdfgi_scratch[stale_slot(x >> 2u, z >> 2u) + (i & 1u)] != 0u)
-            atomicOr(line_wanted, slots);
     }
 }
 
@@ -114,13 +130,20 @@ void put_rows(uint count)
     barrier();
 }
 
+/* What no row is in reach of is as far as anything can be, or 16 bits hold. */
+uint encoded(uint z, uint own)
+{
+    const uint most = min(16u * sdfgi_frame.size.x * sdfgi_frame.size.x - 1u, 0xffffu);
+    return line_candidates() == 0u ? most : min(uint(line_result(z, own)), most);
+}
+
 /* In the order in which the words lie: four cells along x, two along z, then along x again. */
 void store_lines()
 {
-    for (uint i = gl_LocalInvocationIndex; i < LINES * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
-        const uint own = i & 3u | i >> 1u & 4u, z = i >> 2u & 1u | i >> 4u << 1u, x = first_x() + own;
+    for (uint i = gl_LocalInvocationIndex; i < LINES / 2u * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
+        const uint own = i << 1u & 2u | i & 4u, z = i >> 1u & 1u | i >> 3u << 1u, x = first_x() + own;
         if (line_slot_wanted(z / line_cells_per_slot()) && x >= args.step && x < args.source)
-            sdfgi_scratch[plane_slot(layer(), x - args.step, z)] = uint(line_result(z, own));
+            sdfgi_scratch[plane_slot(layer(), x, z)] = encoded(z, own) | encoded(z, own + 1u) << 16u;
     }
 }
 
@@ -130,10 +153,9 @@ void main()
         return;
     line_begin(1, NUMBER_BITS);
     mark_wanted();
-    mark_rows();
-    barrier();
     if (line_wanted == 0u)
         return;
+    mark_rows();
     line_count();
     const uint count = line_candidates();
     for (uint first = 0u; first < count; first += line_room()) {

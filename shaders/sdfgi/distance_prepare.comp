@@ -127,14 +127,15 @@ bool block_changed(ivec3 block)
     return false;
 }
 
-/* Whether a sub-voxel of a box may be as near to the centre of a cell of [first, last] as `stored` says. Further than the
- * cascade is wide is as good as that: nearer than it is only costs a search. */
+/* Whether a sub-voxel of a box may be as near to the centre of a cell of [first, last] as `stored` says, and within reach.
+ * Further than the cascade is wide is as good as that: nearer than it is only costs a search. */
 bool content_reaches(uint box, ivec3 first, ivec3 last, uint stored)
 {
     const ivec3 way = clamp(max(8 * (content_lows[box] - last) - 3, 8 * (first - content_highs[box]) + 5), 1,
                             8 * space_resolution() - 1);
     const uvec3 square = uvec3(way * way);
-    return distance_square(16u * (square.x + square.z) + distance_y_weight() * square.y) <= stored * (stored + 2u);
+    const uint most = min(stored, distance_reach() - 1u);
+    return distance_square(16u * (square.x + square.z) + distance_y_weight() * square.y) <= most * (most + 2u);
 }
 
 /* A layer of 4x4 cells. */

@@ -9,7 +9,7 @@ uint encode_distance(ivec3 cell)
 {
     const uint pointer = sdfgi_scratch[flood_slot(args.source, cell)];
     if (pointer == NEAREST_NONE)
-        return 0xffffu;
+        return distance_reach();
     return encode_nearest(nearest_distance2(cell, nearest_unpack(pointer)));
 }
 

@@ -78,7 +78,7 @@ void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
 /* Stored form of a squared distance: rounded down, by a hair more than floats may have rounded up. */
 uint encode_nearest(float d2)
 {
-    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * distance_steps()), 0xffffu) : 0xffffu;
+    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * distance_steps()), distance_reach()) : distance_reach();
 }
 
 #endif

@@ -14,6 +14,8 @@
 /* Probes after which hashed places repeat: a scene moved by so many probes has the same light to the bit. */
 #define SDFGI_HASH_PERIOD 64
 #define SDFGI_SUBVOXELS 4     /* sub-voxels along a side of a cell: 64 bits per cell */
+/* Cells: what is further away than this is stored as this. Eight or a multiple. */
+#define SDFGI_DISTANCE_REACH 16
 
 /* Probes: an octahedron of this many texels a side, plus a border of one for bilinear filtering. */
 #define SDFGI_IRRADIANCE_TEXELS 5

@@ -74,7 +74,7 @@ struct pass_distance_error pass_distance_error(struct gi_test *t, double y_scale
     const uint32_t n = t->gi->settings.resolution, cells = n * n * n;
     struct pass_distance_error e = { -INFINITY, 0, INFINITY };
     for (uint32_t i = 0; i < cells; i++) {
-        const double over = (double)stored[i] - (double)exact[i];
+        const double over = (double)stored[i] - fmin((double)exact[i], SDFGI_DISTANCE_REACH);
         e.max = fmax(e.max, over);
         e.min = fmin(e.min, over);
         e.mean += over / cells;
