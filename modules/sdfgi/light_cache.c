@@ -118,11 +118,18 @@ static uint32_t one_row(uint32_t groups)
     return groups < SDFGI_MAX_GROUPS ? groups : SDFGI_MAX_GROUPS;
 }
 
+/* Of light_direct. Where few threads run at once none should be idle. */
+static uint32_t threads_per_ray(const struct frame *frame)
+{
+    return frame->gi->device.is_cpu ? 1 : SDFGI_GROUP_SURFACES;
+}
+
 static void record_range(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
 {
     const struct sdfgi_pass_args args = { .low.x = (int32_t)first,
                                           .high.x = (int32_t)(first + count),
-                                          .cascade = c };
+                                          .cascade = c,
+                                          .source = threads_per_ray(frame) };
     pass_begin(frame, PASS_LIGHT_DIRECT);
     const uint32_t groups = groups_for(count, SDFGI_CELLS_OF_SURFACES);
     pass_dispatch(frame, PASS_LIGHT_DIRECT, &args, one_row(groups),
@@ -199,7 +206,7 @@ static void record_renewed(struct frame *frame, enum pass pass, const struct sdf
 
 void light_cache_renew_record(struct frame *frame, uint32_t c)
 {
-    const struct sdfgi_pass_args args = { .cascade = c, .step = 1 };
+    const struct sdfgi_pass_args args = { .cascade = c, .step = 1, .source = threads_per_ray(frame) };
     record_renewed(frame, PASS_LIGHT_DIRECT, &args);
     record_renewed(frame, PASS_CELL_MASK, &args);
 }

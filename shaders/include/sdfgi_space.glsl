@@ -99,11 +99,15 @@ uint distance_reach()
 }
 
 /* Never more than 0.1 cell above the distance to the nearest set sub-voxel, nor more than SDFGI_DISTANCE_REACH. */
+float stored_distance(uint index)
+{
+    const uint pair = sdfgi_distances[index >> 1u];
+    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) * (float(sdfgi_frame.size.x) / 32768.0);
+}
+
 float cell_distance(uint cascade, ivec3 cell)
 {
-    const uint index = cell_index(cascade, cell);
-    const uint pair = sdfgi_distances[index >> 1u];
-    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) / distance_steps();
+    return stored_distance(cell_index(cascade, cell));
 }
 
 uint cell_mask(uint cascade, ivec3 cell)

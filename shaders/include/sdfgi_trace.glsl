@@ -20,6 +20,8 @@ struct trace_hit {
 /* Distances are between centres: from the nearest sub-voxel's centre to its corner it is at most sqrt(3) / 8, and the
  * flood may overstep by 0.1. */
 #define TRACE_MARGIN 0.32
+/* A cell with sub-voxels of its own has one this near, flood included: sqrt(3) 3 / 8 and 0.1. */
+#define TRACE_OWN 0.75
 /* Shorter steps than this are not worth leaving the cell walk for. */
 #define TRACE_MIN_STEP 0.5
 
@@ -101,17 +103,39 @@ uvec2 trace_near(ivec3 cell, vec3 origin, vec3 dir, float t, float t_exit)
     return trace_box_bits(uvec3(min(from, to)), uvec3(max(from, to)));
 }
 
-/* From parameter t to where a ray leaves a cell or, returning true, hits a sub-voxel in it. `distance` is that of the cell. */
-bool trace_through(uint cascade, ivec3 base, ivec3 cell, float distance, vec3 origin, vec3 dir, vec3 inv_dir, inout float t,
-                   inout int axis)
+/* What it takes to find the cells of a cascade, which count from `base`: which are served, and where they are stored. Loaded
+ * once per ray and cascade, not once per step. */
+struct trace_volume {
+    ivec3 low, high, wrap;
+    uint first;
+};
+
+trace_volume trace_volume_of(uint cascade, ivec3 base)
+{
+    return trace_volume(sdfgi_frame.cascades[cascade].window_low.xyz - base, sdfgi_frame.cascades[cascade].window_high.xyz - base,
+                        sdfgi_frame.cascades[cascade].wrap.xyz + base, cascade << (3u * sdfgi_frame.size.y));
+}
+
+bool trace_serves(trace_volume volume, ivec3 cell)
+{
+    return all(greaterThanEqual(cell, volume.low)) && all(lessThan(cell, volume.high));
+}
+
+uint trace_index(trace_volume volume, ivec3 cell)
+{
+    return texel_index(uvec3(cell + volume.wrap) & (sdfgi_frame.size.x - 1u)) | volume.first;
+}
+
+/* From parameter t to where a ray leaves a cell or, returning true, hits a sub-voxel in it. The cell is stored at `index`,
+ * `distance` is its distance. */
+bool trace_through(uint index, ivec3 cell, float distance, vec3 origin, vec3 dir, vec3 inv_dir, inout float t, inout int axis)
 {
     float t_exit;
     const int exit_axis = trace_exit(origin, inv_dir, vec3(cell), 1.0, t_exit);
     t_exit = max(t, t_exit);
-    /* What is near is found whether or not there are bits: threads of a subgroup stay together. Cells whose nearest sub-voxel is
-     * further than half their diagonal have none of their own. */
-    const uvec2 near = trace_near(cell, origin, dir, t, t_exit);
-    const uvec2 bits = distance < 1.0 ? cell_bits(cascade, cell + base) & near : uvec2(0u);
+    uvec2 bits = uvec2(0u);
+    if (distance < TRACE_OWN)
+        bits = sdfgi_bits[index] & trace_near(cell, origin, dir, t, t_exit);
     if (bits != uvec2(0u))
         return trace_cell(bits, cell, origin, dir, inv_dir, t, axis);
     axis = exit_axis;
@@ -199,11 +223,9 @@ bool trace_light_cell(uint cascade, trace_way way, int face, inout ivec3 cell)
 }
 
 /* Parameter at which a ray leaves the cells of a cascade that may be read; below 0 if it starts beyond them. */
-float trace_leave(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir)
+float trace_leave(trace_volume volume, vec3 origin, vec3 inv_dir)
 {
-    const vec3 low = vec3(sdfgi_frame.cascades[cascade].window_low.xyz - base);
-    const vec3 high = vec3(sdfgi_frame.cascades[cascade].window_high.xyz - base);
-    const vec3 far = (mix(low, high, greaterThan(inv_dir, vec3(0.0))) - origin) * inv_dir;
+    const vec3 far = (mix(vec3(volume.low), vec3(volume.high), greaterThan(inv_dir, vec3(0.0))) - origin) * inv_dir;
     return min(far.x, min(far.y, far.z));
 }
 
@@ -223,7 +245,8 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
     float t = 0.0;
     float scale = 1.0;     /* cell widths of the first cascade per cell width of this one */
     float travelled = 0.0; /* before `origin`, in the first cascade's cell widths */
-    float leave = trace_leave(cascade, base, origin, inv_dir);
+    trace_volume volume = trace_volume_of(cascade, base);
+    float leave = trace_leave(volume, origin, inv_dir);
     bool left = false;
     ivec3 cell = ivec3(floor(origin));
     int axis = 0;
@@ -233,7 +256,7 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             return result;
 
         /* Leave for the next coarser cascade, or for the sky. */
-        if (left || !cell_served(cascade, cell + base)) {
+        if (left || !trace_serves(volume, cell)) {
             if (cascade >= last_cascade)
                 return result;
             travelled += t * scale;
@@ -243,13 +266,15 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             base = ivec3(0);
             origin = cascade_from_first(cascade, first);
             t = 0.0;
-            leave = trace_leave(cascade, base, origin, inv_dir);
+            volume = trace_volume_of(cascade, base);
+            leave = trace_leave(volume, origin, inv_dir);
             left = false;
             cell = ivec3(floor(origin));
             continue;
         }
 
-        const float distance = cell_distance(cascade, cell + base);
+        const uint index = trace_index(volume, cell);
+        const float distance = stored_distance(index);
         const vec3 here = origin + dir_cell * t;
         const float free = min(distance - length(metric_from_cells(here - vec3(cell) - 0.5)) - TRACE_MARGIN, longest);
         if (free > TRACE_MIN_STEP) {
@@ -260,7 +285,7 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             continue;
         }
 
-        if (trace_through(cascade, base, cell, distance, origin, dir_cell, inv_dir, t, axis)) {
+        if (trace_through(index, cell, distance, origin, dir_cell, inv_dir, t, axis)) {
             result.distance = travelled + t * scale;
             if (result.distance >= range)
                 return trace_hit(false, false, false, cascade, ivec3(0), 0u, range);

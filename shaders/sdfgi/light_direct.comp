@@ -123,9 +123,11 @@ vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
     barrier();
     list_rays(own, axis, first);
     barrier();
-    for (uint ray = gl_LocalInvocationIndex; ray < ray_count; ray += SDFGI_GROUP_SURFACES) {
-        const uint cell = rays[ray] / ROUND, light = rays[ray] % ROUND;
-        if (light_reaches(cells[cell], first + light))
+    /* Rays of one subgroup wait for each other: fewer than there are threads go to threads as far apart as can be. */
+    const uint apart = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.source);
+    for (uint i = gl_LocalInvocationIndex; i < ray_count * apart; i += SDFGI_GROUP_SURFACES) {
+        const uint cell = rays[i / apart] / ROUND, light = rays[i / apart] % ROUND;
+        if (i % apart == 0u && light_reaches(cells[cell], first + light))
             atomicOr(reaching[cell], 1u << light);
     }
     barrier();
