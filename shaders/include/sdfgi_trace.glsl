@@ -201,7 +201,8 @@ bool trace_cell_along(uint cascade, trace_way way, int face, inout ivec3 cell)
         float t;
         more = trace_step_back(cascade, way, cell, t);
         ivec3 beside;
-        if (trace_beside(cascade, way, occupied, way.origin + t / way.inv_dir, face, beside)) {
+        /* Before the ray's beginning there may be another side of a wall. */
+        if (trace_beside(cascade, way, occupied, way.origin + max(t, way.first) / way.inv_dir, face, beside)) {
             cell = beside;
             return true;
         }

@@ -18,7 +18,8 @@ enum { RAYS = 100000 };
 
 struct ray {
     float origin[3], range; /* cells */
-    float direction[4];     /* metric, unit; w unused */
+    float direction[3];     /* metric, unit */
+    float light_cell;       /* along x, in the cascade of the hit; -1: none */
     float distance, hit, capped, axis;
 };
 
@@ -215,6 +216,51 @@ static void hard_10_grazing_rays_arrive(void **state)
     gi_test_close(&t);
 }
 
+/* ---- Light cells */
+
+/* A thin wall across x, and one across z where it ends, in the second cascade. */
+static void open_beside_wall(struct gi_test *t)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.cascades = 2;
+    const double cell = (double)settings.min_cell_size_m, end = 41 * cell;
+    struct test_mesh wall = test_mesh_plane((double[]){ 0.8 * cell, 0, end / 2 },
+                                            (double[]){ 0, 12 * cell, 0 }, (double[]){ 0, 0, end / 2 }, 1);
+    struct test_mesh back = test_mesh_plane((double[]){ 0, 0, end }, (double[]){ 12 * cell, 0, 0 },
+                                            (double[]){ 0, 12 * cell, 0 }, 1);
+    test_mesh_append(&wall, &back);
+    pass_scene_open(t, &settings, &wall);
+    test_mesh_destroy(&back);
+    test_mesh_destroy(&wall);
+}
+
+/* Rays that come from the first cascade so close along the wall that all their cells of the second are
+ * occupied, down to where they began. Cells beyond the wall lie beside those too. */
+static void no_light_comes_from_beyond_a_thin_wall(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    open_beside_wall(&t);
+    struct test_random random = { 54 };
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const double from = test_random_real(&random, 1.1, 1.9), to = test_random_real(&random, 1.1, 1.9),
+                     z = test_random_real(&random, 28, 31), length = hypot(41 - z, to - from);
+        const double origin[3] = { 32 + from, 32 + test_random_real(&random, -8, 8), 32 + z };
+        aim(&rays[i], origin, (double[]){ (to - from) / length, 0, (41 - z) / length }, 500);
+    }
+    trace(&t);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < RAYS; i++) {
+        REQUIRE_CMP(rays[i].hit, !=, 0.0f);
+        REQUIRE_TRUE(rays[i].light_cell == -1 || rays[i].light_cell == 33); /* beyond the wall is 31 */
+        found += rays[i].light_cell == 33;
+        if (rays[i].direction[0] < 0) /* the ray comes from that side */
+            REQUIRE_CMP(rays[i].light_cell, ==, 33.0f);
+    }
+    printf("%u of %u rays find a light cell\n", found, RAYS);
+    gi_test_close(&t);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -225,6 +271,7 @@ int main(void)
         cmocka_unit_test(hard_10_grazing_rays_arrive),
         cmocka_unit_test(hard_12_no_ray_leaves_a_closed_bumpy_sphere),
         cmocka_unit_test(hard_12_no_ray_slips_through_an_edge),
+        cmocka_unit_test(no_light_comes_from_beyond_a_thin_wall),
     };
     return cmocka_run_group_tests_name("trace", tests, NULL, NULL);
 }
