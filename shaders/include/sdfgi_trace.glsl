@@ -50,9 +50,27 @@ int trace_exit(vec3 origin, vec3 inv_dir, vec3 low, float size, out float t)
     return far.x <= t ? 0 : (far.y <= t ? 1 : 2);
 }
 
+/* A vector's component. Indexed by what differs between threads, vectors go through memory. */
+float trace_along(vec3 v, int axis)
+{
+    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
+/* The signs of a direction. */
+ivec3 trace_forward(vec3 dir)
+{
+    return 2 * ivec3(greaterThan(dir, vec3(0.0))) - 1;
+}
+
+/* The way to the next cell along an axis. */
+ivec3 trace_step(ivec3 forward, int axis)
+{
+    return ivec3(axis == 0, axis == 1, axis == 2) * forward;
+}
+
 uint trace_face(int axis, vec3 dir)
 {
-    return uint(2 * axis) + (dir[axis] > 0.0 ? 1u : 0u);
+    return uint(2 * axis) + (trace_along(dir, axis) > 0.0 ? 1u : 0u);
 }
 
 /* Walks the sub-voxels of one cell from parameter t. Returns true at a set one; else t and axis tell where it left. Others of a
@@ -166,7 +184,7 @@ bool trace_step_back(uint cascade, trace_way way, inout ivec3 cell, out float t)
 {
     const int axis = trace_exit(way.origin, -way.inv_dir, vec3(cell), 1.0, t);
     t = -t;
-    cell[axis] += way.inv_dir[axis] < 0.0 ? 1 : -1;
+    cell += trace_step(trace_forward(-way.inv_dir), axis);
     return t >= way.first && cell_served(cascade, cell + way.base);
 }
 
@@ -249,6 +267,7 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
     trace_volume volume = trace_volume_of(cascade, base);
     float leave = trace_leave(volume, origin, inv_dir);
     bool left = false;
+    const ivec3 forward = trace_forward(dir_cell);
     ivec3 cell = ivec3(floor(origin));
     int axis = 0;
 
@@ -297,7 +316,7 @@ trace_hit trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3
             way = trace_way(origin, inv_dir, base, -travelled / scale);
             return result;
         }
-        cell[axis] += dir_cell[axis] > 0.0 ? 1 : -1;
+        cell += trace_step(forward, axis);
     }
     result.hit = true;
     result.capped = true;

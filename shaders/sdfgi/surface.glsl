@@ -37,9 +37,8 @@ const uint SURFACE_NO_NORMAL = 31u;
 
 ivec3 surface_axis_step(uint axis)
 {
-    ivec3 result = ivec3(0);
-    result[axis >> 1u] = (axis & 1u) == 0u ? 1 : -1;
-    return result;
+    const uint major = axis >> 1u;
+    return ivec3(major == 0u, major == 1u, major == 2u) * ((axis & 1u) == 0u ? 1 : -1);
 }
 
 /* Mean unit normal of class `axis` / 2 turned towards `axis`; false if the block has no such triangles. */
@@ -51,10 +50,7 @@ bool surface_class_normal(uint packed, uint axis, out vec3 normal)
     if ((slopes & 31u) == SURFACE_NO_NORMAL)
         return false;
     const vec2 slope = vec2(slopes & 31u, slopes >> 5u & 31u) / 15.0 - 1.0;
-    vec3 n = vec3(0.0);
-    n[major] = 1.0;
-    n[(major + 1u) % 3u] = slope.x;
-    n[(major + 2u) % 3u] = slope.y;
+    const vec3 n = major == 0u ? vec3(1.0, slope) : (major == 1u ? vec3(slope.y, 1.0, slope.x) : vec3(slope, 1.0));
     normal = normalize((axis & 1u) == 0u ? n : -n);
     return true;
 }
