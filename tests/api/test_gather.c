@@ -61,14 +61,6 @@ static struct gpu_test_image image_create(struct gi_test *t, VkFormat format, ui
     return gpu_test_image_create(&t->gpu, &desc);
 }
 
-static float float_from_half(uint16_t half)
-{
-    const int exponent = half >> 10 & 31, mantissa = half & 1023;
-    const float value =
-        exponent ? ldexpf((float)(mantissa + 1024), exponent - 25) : ldexpf((float)mantissa, -24);
-    return half & 0x8000 ? -value : value;
-}
-
 static void open_scene(struct gi_test *t)
 {
     struct sdfgi_settings settings = gi_test_settings();
@@ -118,7 +110,7 @@ static void gather_equals_the_lookup_in_a_shader(void **state)
     for (int i = 0; i < PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double want = s.depth[i] < 1 ? (double)expected[i][k] : 0,
-                         have = (double)float_from_half(found[i][k]);
+                         have = (double)gi_test_half(found[i][k]);
             worst = fmax(worst, fabs(have - want) / fmax(want, 0.1));
             brightest = fmax(brightest, want);
         }

@@ -132,6 +132,77 @@ static void hard_23_flying_leaves_nothing_black(void **state)
     gi_test_close(&t);
 }
 
+/* ---- New probes */
+
+/* Those whose memory says that they were born in this frame (probe_common.glsl). */
+struct newborn {
+    uint32_t count, seeded;
+    float low, high; /* brightest texel of those that have a seed */
+};
+
+static float brightest_texel(const uint16_t (*texels)[4])
+{
+    float brightest = 0;
+    for (int i = 0; i < SDFGI_IRRADIANCE_COUNT; i++)
+        brightest = fmaxf(brightest, gi_test_half(texels[i][0]));
+    return brightest;
+}
+
+static struct newborn find_newborn(struct gi_test *t, uint32_t cascade)
+{
+    const uint32_t probes = (uint32_t)t->gi->resources->extent.probes;
+    const float(*sums)[SDFGI_SUMS_STRIDE][4] = gi_test_read(t, RESOURCE_SUMS, NULL);
+    const uint16_t(*previous)[SDFGI_IRRADIANCE_COUNT][4] = gi_test_read(t, RESOURCE_PREVIOUS, NULL);
+    struct newborn n = { 0, 0, INFINITY, 0 };
+    for (uint32_t i = cascade * probes; i < (cascade + 1) * probes; i++) {
+        if (sums[i][SDFGI_IRRADIANCE_COUNT][2] != -2)
+            continue;
+        n.count++;
+        if (gi_test_half(previous[i][0][3]) <= 0)
+            continue;
+        n.seeded++;
+        n.low = fminf(n.low, brightest_texel(previous[i]));
+        n.high = fmaxf(n.high, brightest_texel(previous[i]));
+    }
+    free((void *)sums);
+    free((void *)previous);
+    return n;
+}
+
+/* In the frame that completes a step no rays are sent: what its new probes know is what the next cascade's
+ * told them, and the last one's know nothing. */
+static void new_probes_start_with_the_next_cascades_light(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = light_walk_settings(25);
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -40, -3, -40 }, (double[]){ 40, -2, 40 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    light_set_uniform_sky(&t, 1);
+    double camera[3] = { 0.1, 0.2, 0.3 };
+    scroll_stand(&t, camera);
+    gi_test_converge(&t, 400);
+    struct newborn n[2] = { { 0 }, { 0 } };
+    for (int frame = 0; frame < 200 && (n[0].count == 0 || n[1].count == 0); frame++) {
+        camera[0] += 0.1;
+        scroll_stand(&t, camera);
+        gi_test_update(&t, 1);
+        for (uint32_t c = 0; c < 2; c++)
+            if (n[c].count == 0 && t.gi->light_waits)
+                n[c] = find_newborn(&t, c);
+    }
+    for (uint32_t c = 0; c < 2; c++)
+        printf("cascade %u: %u new probes, %u of them with a seed, %.3f to %.3f\n", c, n[c].count,
+               n[c].seeded, (double)n[c].low, (double)n[c].high);
+    REQUIRE_CMP(n[0].count, >=, 20u);
+    REQUIRE_CMP(n[0].seeded, ==, n[0].count);
+    REQUIRE_NEAR((double)n[0].low, 1, 0.01);
+    REQUIRE_NEAR((double)n[0].high, 1, 0.01);
+    REQUIRE_CMP(n[1].count, >=, 20u);
+    REQUIRE_CMP(n[1].seeded, ==, 0u);
+    gi_test_close(&t);
+}
+
 /* A sealed room, the camera to and fro in it for a hundred steps of cascades: its light does not add up. */
 static void hard_39_a_furnace_does_not_drift(void **state)
 {
@@ -172,6 +243,7 @@ int main(void)
         cmocka_unit_test(light_after_a_journey_is_that_of_a_fresh_start),
         cmocka_unit_test(a_fixed_point_hardly_notices),
         cmocka_unit_test(hard_23_flying_leaves_nothing_black),
+        cmocka_unit_test(new_probes_start_with_the_next_cascades_light),
         cmocka_unit_test(hard_39_a_furnace_does_not_drift),
     };
     return cmocka_run_group_tests_name("scroll_light", tests, NULL, NULL);

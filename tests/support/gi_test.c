@@ -155,6 +155,14 @@ uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uin
            n * (((y + (uint32_t)wrap.y) & mask) + n * (((z + (uint32_t)wrap.z) & mask) + n * cascade));
 }
 
+float gi_test_half(uint16_t half)
+{
+    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    const float value =
+        exponent ? ldexpf((float)(mantissa + 1024), exponent - 25) : ldexpf((float)mantissa, -24);
+    return half & 0x8000 ? -value : value;
+}
+
 struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade)
 {
     const uint32_t n = t->gi->settings.resolution;

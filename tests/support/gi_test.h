@@ -43,6 +43,8 @@ uint32_t gi_test_converge(struct gi_test *t, uint32_t limit);
 
 /* A copy of a buffer; the caller frees it. */
 void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size);
+/* The value of a half float that is finite. */
+float gi_test_half(uint16_t half);
 /* Solid bits of a cascade in cell space, whatever texels they are stored at. */
 struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade);
 /* World space to sub-voxels of a cascade. */
