@@ -115,8 +115,8 @@ static const struct row rows[] = {
     RECREATE(sdf_method, "sdfgi_sdf_method", ENUM, SDFGI_SDF_EXACT, 0, 1, "", "exact,flood",
         "nothing: the two differ in kind",
         "flood oversteps by up to 0.14 cell, and its cost does not fall where a cascade is empty",
-        "How distances are made: exact searches the solid bits by branch and bound; flood is a jump flood with a "
-        "closing pair of passes."),
+        "How distances are made: exact searches the solid bits axis by axis, as far as 16 cells; flood is a "
+        "jump flood with a closing pair of passes."),
     RECREATE(voxelizer, "sdfgi_voxelizer", ENUM, SDFGI_VOXELIZER_COMPUTE, 0, 1, "", "compute,raster",
         "nothing: the two differ in kind",
         "raster needs a queue with graphics, and depends on the rasteriser's rules",

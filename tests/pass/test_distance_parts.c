@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { N = 64, BLOCKS = N / 4, CELLS = N * N * N, MAX_EDITS = 8 };
+enum { N = 64, BLOCKS = N / 4, CELLS = N * N * N, MAX_EDITS = 20, ONE_BIT = 100 };
 
 /* As stored. */
 enum { FARTHEST = SDFGI_DISTANCE_REACH * 32768 / N };
@@ -67,6 +67,8 @@ static uint64_t world_cell(const struct world *w, uint32_t x, uint32_t y, uint32
     for (uint32_t i = 0; i < w->edit_count; i++)
         if (inside(at, w->edits[i].low, w->edits[i].high))
             seed = w->edits[i].seed;
+    if (seed == ONE_BIT)
+        return UINT64_C(1) << 21; /* in the middle */
     return seed ? random_cell(at[0], at[1], at[2], seed) : 0;
 }
 
@@ -287,6 +289,22 @@ static void require_parts_equal_whole(struct gi_test *t, const struct world *w,
     free(whole);
 }
 
+/* Two bits 29 cells apart, one of which goes: cells halfway between them find the other almost as far away as
+ * distances reach. */
+static void play_apart(struct gi_test *t, struct world *w, int axis)
+{
+    static const int32_t one[3] = { 1, 1, 1 };
+    int32_t a[3] = { 30, 30, 30 }, b[3] = { 30, 30, 30 };
+    a[axis] = 20;
+    b[axis] = 49;
+    struct cell_box changed[2] = { edit(w, a, one, ONE_BIT), edit(w, b, one, ONE_BIT) };
+    require_parts_equal_whole(t, w, changed, 2, "two bits");
+    changed[0] = edit(w, a, one, 0);
+    require_parts_equal_whole(t, w, changed, 1, "one of them gone");
+    changed[0] = edit(w, b, one, 0);
+    require_parts_equal_whole(t, w, changed, 1, "both gone");
+}
+
 static void play(struct gi_test *t, struct world *w)
 {
     static const int32_t ways[][3] = { { 8, 0, 0 },   { 0, -8, 0 }, { 0, 0, 16 },  { 0, 8, 0 },
@@ -306,6 +324,8 @@ static void play(struct gi_test *t, struct world *w)
     require_parts_equal_whole(t, w, changed, 1, "almost nothing left");
     changed[0] = edit(w, (int32_t[]){ -8, -8, -8 }, (int32_t[]){ 80, 80, 80 }, 0);
     require_parts_equal_whole(t, w, changed, 1, "nothing left");
+    for (int axis = 0; axis < 3; axis++)
+        play_apart(t, w, axis);
     changed[0] = edit(w, (int32_t[]){ 61, 2, 33 }, (int32_t[]){ 1, 1, 1 }, 4);
     require_parts_equal_whole(t, w, changed, 1, "one cell in nothing");
 }
