@@ -52,7 +52,7 @@ static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *a
     pass_end(frame);
 }
 
-/* Some layers of blocks. */
+/* Layers of blocks along x. */
 static void record_search(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
 {
     const uint32_t n = frame->gi->settings.resolution;

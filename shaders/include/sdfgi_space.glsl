@@ -98,7 +98,8 @@ uint distance_reach()
     return uint(SDFGI_DISTANCE_REACH) << 15u - sdfgi_frame.size.y;
 }
 
-/* Never more than 0.1 cell above the distance to the nearest set sub-voxel, nor more than SDFGI_DISTANCE_REACH. */
+/* Of the cell that is stored at `index`: never more than 0.1 cell above the distance to the nearest set sub-voxel, nor more
+ * than SDFGI_DISTANCE_REACH. */
 float stored_distance(uint index)
 {
     const uint pair = sdfgi_distances[index >> 1u];
