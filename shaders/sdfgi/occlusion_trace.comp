@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Depth to the nearest set sub-voxel in 16x16 directions around each probe, then mean and mean of squares over each
  * texel and its neighbours, as unorm16 of the range (half floats lose the variance, HARD_CASES row 43). One workgroup per
- * probe; those that nothing new comes near keep theirs. Shared memory: 256 depths. */
+ * probe; of those that were there before, only texels that look into what is new are made again. Shared memory: 256 depths. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_OCCLUSION
@@ -14,14 +14,77 @@ layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
 
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
-/* Range of depths, and how far a probe may have moved. */
-const int NEAR = int(SDFGI_OCCLUSION_RANGE) + 4;
-shared float depth[TEXELS];
+/* Cells beside a ray in which nothing may have changed if its steps are to be the same: the longest of them, its margin, and
+ * from a ray to the centre of its cell, twice. */
+const float BESIDE = TRACE_KEPT_STEP + TRACE_MARGIN + 1.74;
+const float MOVED = 4.0; /* cells: how far a probe stands from its corner at most */
 
-float trace_depth(vec3 pos, uint texel)
+shared float depth[TEXELS];
+/* Sets of texels, a bit each: those that look into what is new, those that these are a part of, and those that are a part of
+ * these in turn. */
+const uint LOOKING = 0u, STORED = 1u, TRACED = 2u, WORDS = TEXELS / 32u;
+shared uint sets[3u][WORDS];
+
+vec3 texel_direction(uint texel)
 {
-    const vec2 uv = (vec2(texel % uint(N), texel / uint(N)) + 0.5) * (2.0 / float(N)) - 1.0;
-    return min(trace_solid(args.cascade, args.cascade, pos, octahedral_decode(uv), SDFGI_OCCLUSION_RANGE).distance,
+    return octahedral_decode((vec2(texel % uint(N), texel / uint(N)) + 0.5) * (2.0 / float(N)) - 1.0);
+}
+
+bool looks_into_news(vec3 pos, uint texel)
+{
+    return changed_crosses(args.cascade, pos, cells_from_metric(texel_direction(texel)), SDFGI_OCCLUSION_RANGE,
+                           BESIDE / space_y_scale());
+}
+
+bool set_holds(uint set, ivec2 coord)
+{
+    const ivec2 source = octahedral_border_source(coord, N);
+    const uint texel = uint(source.x + N * source.y);
+    return (sets[set][texel >> 5u] >> (texel & 31u) & 1u) != 0u;
+}
+
+void set_add(uint set, uint texel)
+{
+    atomicOr(sets[set][texel >> 5u], 1u << (texel & 31u));
+}
+
+/* The next set gets all texels of this one and their neighbours. Called by the whole workgroup. */
+void widen(uint set)
+{
+    for (uint texel = gl_LocalInvocationIndex; texel < TEXELS; texel += uint(SDFGI_GROUP_OCCLUSION)) {
+        const ivec2 coord = ivec2(texel % uint(N), texel / uint(N));
+        bool holds = false;
+        for (int i = 0; i < 9 && !holds; i++)
+            holds = set_holds(set, coord + ivec2(i % 3, i / 3) - 1);
+        if (holds)
+            set_add(set + 1u, texel);
+    }
+    barrier();
+}
+
+void find_texels(vec3 pos, bool all)
+{
+    if (gl_LocalInvocationIndex < WORDS)
+        for (uint set = 0u; set < 3u; set++)
+            sets[set][gl_LocalInvocationIndex] = all ? 0xffffffffu : 0u;
+    barrier();
+    if (all)
+        return;
+    for (uint texel = gl_LocalInvocationIndex; texel < TEXELS; texel += uint(SDFGI_GROUP_OCCLUSION))
+        if (looks_into_news(pos, texel))
+            set_add(LOOKING, texel);
+    barrier();
+    widen(LOOKING);
+    widen(STORED);
+}
+
+/* As far from the probe's corner: the same wherever the cascade stands. */
+float trace_depth(ivec3 corner, vec3 pos, uint texel)
+{
+    trace_way unused;
+    return min(trace_from(args.cascade, args.cascade, corner, pos, texel_direction(texel), SDFGI_OCCLUSION_RANGE,
+                          TRACE_KEPT_STEP, unused)
+                   .distance,
                SDFGI_OCCLUSION_RANGE);
 }
 
@@ -46,19 +109,21 @@ vec2 filtered_moments(ivec2 coord)
 
 void main()
 {
-    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const uint slot = probe_index(args.cascade, probe);
-    const uint state = sdfgi_probes[slot];
-    const ivec3 corner = probe * SDFGI_PROBE_SPACING;
-    if (probe_is_dead(state) || !changed_near(args.cascade, corner, corner, NEAR))
+    const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
+    const uint slot = probe_index(args.cascade, probe), state = sdfgi_probes[slot];
+    const int near = int(ceil((SDFGI_OCCLUSION_RANGE + BESIDE) / space_y_scale() + MOVED));
+    if (probe_is_dead(state) || !changed_near(args.cascade, corner, corner, near))
         return;
     const vec3 pos = probe_position(probe, state);
+    find_texels(pos, (state & SDFGI_PROBE_NEW) != 0u);
     for (uint i = gl_LocalInvocationIndex; i < TEXELS; i += uint(SDFGI_GROUP_OCCLUSION))
-        depth[i] = trace_depth(pos, i);
+        if (set_holds(TRACED, ivec2(i % uint(N), i / uint(N))))
+            depth[i] = trace_depth(corner, pos - vec3(corner), i);
     barrier();
     const uint stride = uint(SDFGI_OCCLUSION_STRIDE);
     for (uint i = gl_LocalInvocationIndex; i < stride * stride; i += uint(SDFGI_GROUP_OCCLUSION)) {
         const ivec2 coord = octahedral_border_source(ivec2(i % stride, i / stride) - 1, N);
-        sdfgi_occlusion[slot * stride * stride + i] = packUnorm2x16(filtered_moments(coord));
+        if (set_holds(STORED, coord))
+            sdfgi_occlusion[slot * stride * stride + i] = packUnorm2x16(filtered_moments(coord));
     }
 }

@@ -171,6 +171,22 @@ static void require_same_list(struct gi_test *a, struct gi_test *b, const char *
     free(n);
 }
 
+/* Those of probes that are dead are not read. */
+static void require_same_depths(struct gi_test *a, struct gi_test *b, const char *what)
+{
+    enum { WORDS = SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE };
+    const uint64_t probes = a->gi->resources->extent.probes * a->gi->settings.cascades;
+    uint32_t *x = gi_test_read(a, RESOURCE_OCCLUSION, NULL), *y = gi_test_read(b, RESOURCE_OCCLUSION, NULL);
+    uint32_t *states = gi_test_read(a, RESOURCE_PROBES, NULL);
+    for (uint64_t i = 0; i < probes * WORDS; i++)
+        if (!(states[i / WORDS] & SDFGI_PROBE_DEAD) && x[i] != y[i])
+            require_fail(__FILE__, __LINE__, "%s: probe %llu, texel %llu of its depths: %#x and %#x", what,
+                         (unsigned long long)(i / WORDS), (unsigned long long)(i % WORDS), x[i], y[i]);
+    free(x);
+    free(y);
+    free(states);
+}
+
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what)
 {
     for (uint32_t c = 0; c < walked->gi->settings.cascades; c++)
@@ -184,4 +200,6 @@ void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const c
     require_same_words(walked, fresh, RESOURCE_LIGHT, 2, 1, SDFGI_LIGHT_VALID, what);
     require_same_bytes(walked, fresh, RESOURCE_MASKS, what);
     require_same_list(walked, fresh, what);
+    if (walked->gi->settings.visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
+        require_same_depths(walked, fresh, what);
 }

@@ -29,7 +29,7 @@ void scroll_place_as(struct gi_test *fresh, const struct gi_test *walked);
 uint32_t scroll_settle(struct gi_test *t);
 
 /* What cascades hold, light aside: bits, distances, albedo, emission, normals, masks, where probes stand,
- * which cells are light cells, their list with direct light, and depths around probes. */
+ * which cells are light cells, their list with direct light, and, where there are any, depths around probes. */
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what);
 
 #endif

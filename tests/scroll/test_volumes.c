@@ -224,11 +224,89 @@ static void hard_20_a_closed_loop_ends_where_it_began(void **state)
     gi_test_close(&t);
 }
 
+/* ---- Depths around probes, where lookups read those */
+
+static struct sdfgi_settings depth_settings(enum sdfgi_y_scale y_scale)
+{
+    struct sdfgi_settings settings = coarse_settings();
+    settings.visibility = SDFGI_VISIBILITY_PROBE_DEPTH;
+    settings.y_scale = y_scale;
+    return settings;
+}
+
+static void depths_scroll_too(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    for (int scale = SDFGI_Y_SCALE_50; scale <= SDFGI_Y_SCALE_100; scale += 2) {
+        const struct sdfgi_settings settings = depth_settings((enum sdfgi_y_scale)scale);
+        open_world(&t, &settings, home);
+        one_step(&t, 1, 0, 0, "depths, +x");
+        one_step(&t, 0, -1, 0, "depths, -y");
+        one_step(&t, 1, 1, -1, "depths, all axes");
+        gi_test_close(&t);
+    }
+}
+
+enum { POISON = 0x5a5a5a5a, DEPTHS = SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE };
+
+/* Depths are overwritten behind the library's back: after a step it has made those again that look into what
+ * is new, and no others. */
+static void only_depths_that_look_into_news_are_made_again(void **state)
+{
+    (void)state;
+    static struct gi_test t, fresh;
+    const struct sdfgi_settings settings = depth_settings(SDFGI_Y_SCALE_100);
+    open_world(&t, &settings, home);
+    const struct gpu_buffer *buffer = &t.gi->resources->buffers[RESOURCE_OCCLUSION];
+    uint32_t *depths = test_array_alloc(buffer->size, 1);
+    for (uint64_t i = 0; i < buffer->size / 4; i++)
+        depths[i] = POISON;
+    gpu_test_buffer_write(&t.gpu, buffer->handle, 0, buffer->size, depths);
+    free(depths);
+    const double to[3] = { home[0] + 12 * (double)settings.min_cell_size_m, home[1], home[2] };
+    walk_to(&t, to);
+    gi_test_open(&fresh, &settings);
+    scroll_world(&fresh, home, world_reach());
+    scroll_stand(&fresh, to);
+    scroll_place_as(&fresh, &t);
+    scroll_settle(&fresh);
+    uint32_t *again = gi_test_read(&t, RESOURCE_OCCLUSION, NULL),
+             *expected = gi_test_read(&fresh, RESOURCE_OCCLUSION, NULL),
+             *states = gi_test_read(&t, RESOURCE_PROBES, NULL);
+    uint32_t probes = 0, whole = 0, texels = 0;
+    for (uint64_t probe = 0; probe < t.gi->resources->extent.probes; probe++) { /* of the first cascade */
+        if (states[probe] & SDFGI_PROBE_DEAD)
+            continue;
+        uint32_t made = 0;
+        for (uint64_t i = probe * DEPTHS; i < (probe + 1) * DEPTHS; i++) {
+            made += again[i] != POISON;
+            if (again[i] != POISON)
+                REQUIRE_CMP(again[i], ==, expected[i]);
+        }
+        probes++;
+        whole += made == DEPTHS;
+        texels += made < DEPTHS ? made : 0;
+    }
+    printf("depths made again: all of %u probes of %u, %.0f %% of the others\n", whole, probes,
+           100.0 * texels / (double)DEPTHS / (probes - whole));
+    REQUIRE_CMP(whole, >, 0u); /* those that are new */
+    REQUIRE_CMP(texels, >, 0u);
+    REQUIRE_CMP(texels, <, (probes - whole) * DEPTHS * 3 / 4);
+    free(again);
+    free(expected);
+    free(states);
+    gi_test_close(&fresh);
+    gi_test_close(&t);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(depths_scroll_too),
+        cmocka_unit_test(only_depths_that_look_into_news_are_made_again),
         cmocka_unit_test(hard_18_a_step_along_each_axis_equals_a_fresh_start),
         cmocka_unit_test(hard_21_all_axes_in_one_frame_equal_a_fresh_start),
         cmocka_unit_test(hard_19_a_journey_of_a_thousand_steps_leaves_no_trace),
