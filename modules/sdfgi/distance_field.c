@@ -52,11 +52,12 @@ static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *a
     pass_end(frame);
 }
 
-/* Layers of blocks along x. */
-static void record_search(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
+static void record_search(struct frame *frame, uint32_t c, const struct distance_part *part)
 {
-    const uint32_t n = frame->gi->settings.resolution;
-    const struct sdfgi_pass_args args = { .cascade = c, .step = 4 * first, .source = 4 * (first + count) };
+    const uint32_t n = frame->gi->settings.resolution, count = part->count;
+    const struct sdfgi_pass_args args = { .cascade = c,
+                                          .step = 4 * part->first,
+                                          .source = 4 * (part->first + count) };
     const uint32_t first_run = args.step / SDFGI_LINES,
                    end_run = (args.source + SDFGI_LINES - 1) / SDFGI_LINES;
     pass_begin(frame, PASS_DISTANCE_PLANE);
@@ -77,7 +78,7 @@ static void record_exact(struct frame *frame, uint32_t c, const struct distance_
     if (part->changed_count > 0 && stale.box_count == 0)
         return; /* boxes without a cell */
     record_prepare(frame, &stale, part->count);
-    record_search(frame, c, part->first, part->count);
+    record_search(frame, c, part);
 }
 
 static void flood_step(struct frame *frame, struct sdfgi_pass_args *args, uint32_t length)

@@ -50,10 +50,10 @@ struct sdfgi_pass_args {
     ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high); x: the light cells, likewise */
     ivec4 before;         /* xyz: low corner of the cells whose storage the box takes; w: axis of content.glsl's strips, -1: none */
     uint cascade;
-    uint step;            /* flood: jump length in cells; distance_plane: first cell along x; probe_blend: 1 at the end of a ring; light cells: 1 for those in
-                             renewed blocks */
-    uint source;          /* flood: which of the two pointer halves is read; distance_plane: where the cells along x end;
-                             light_direct: how many threads there are to a ray at most */
+    uint step;            /* flood: jump length in cells; distance_plane, distance_exact: first cell along x; probe_blend: 1 at
+                             the end of a ring; light cells: 1 for those in renewed blocks */
+    uint source;          /* flood: which of the two pointer halves is read; distance_plane, distance_exact: where the cells
+                             along x end; light_direct: how many threads there are to a ray at most */
     uint fresh;           /* 1: light_mark, no earlier list counts; bit per cascade: probe_blend, no earlier ring counts;
                              light_bounce, no probe has a value yet */
 };

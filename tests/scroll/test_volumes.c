@@ -52,15 +52,22 @@ static void open_world(struct gi_test *t, const struct sdfgi_settings *settings,
     open_scene(t, scroll_world, settings, position);
 }
 
+/* A start from nothing where `walked` is. */
+static void open_fresh(struct gi_test *fresh, struct gi_test *walked, scroll_scene *scene,
+                       const double position[static 3])
+{
+    gi_test_open(fresh, &walked->gi->settings);
+    scene(fresh, home, world_reach());
+    scroll_stand(fresh, position);
+    scroll_place_as(fresh, walked);
+    scroll_settle(fresh);
+}
+
 static void require_fresh_scene(struct gi_test *walked, scroll_scene *scene, const double position[static 3],
                                 const char *what)
 {
     static struct gi_test fresh;
-    gi_test_open(&fresh, &walked->gi->settings);
-    scene(&fresh, home, world_reach());
-    scroll_stand(&fresh, position);
-    scroll_place_as(&fresh, walked);
-    scroll_settle(&fresh);
+    open_fresh(&fresh, walked, scene, position);
     scroll_require_equal(walked, &fresh, what);
     gi_test_close(&fresh);
 }
@@ -266,11 +273,7 @@ static void only_depths_that_look_into_news_are_made_again(void **state)
     free(depths);
     const double to[3] = { home[0] + 12 * (double)settings.min_cell_size_m, home[1], home[2] };
     walk_to(&t, to);
-    gi_test_open(&fresh, &settings);
-    scroll_world(&fresh, home, world_reach());
-    scroll_stand(&fresh, to);
-    scroll_place_as(&fresh, &t);
-    scroll_settle(&fresh);
+    open_fresh(&fresh, &t, scroll_world, to);
     uint32_t *again = gi_test_read(&t, RESOURCE_OCCLUSION, NULL),
              *expected = gi_test_read(&fresh, RESOURCE_OCCLUSION, NULL),
              *states = gi_test_read(&t, RESOURCE_PROBES, NULL);
