@@ -24,22 +24,17 @@ static void pack_box(const struct cell_box *box, uint32_t resolution, uint corne
     }
 }
 
-static bool box_is_empty(const struct cell_box *box)
+static struct sdfgi_distance_prepare_args prepare_args(uint32_t resolution, uint32_t c, const struct distance_part *part)
 {
-    return box->low[0] >= box->high[0] || box->low[1] >= box->high[1] || box->low[2] >= box->high[2];
-}
-
-static struct sdfgi_stale_args stale_args(uint32_t resolution, uint32_t c, const struct distance_part *part)
-{
-    struct sdfgi_stale_args args = { .cascade = c, .first = part->first };
-    for (uint32_t i = 0; i < part->changed_count; i++)
-        if (!box_is_empty(&part->changed[i]))
+    struct sdfgi_distance_prepare_args args = { .cascade = c, .first_block = part->first };
+    for (uint32_t i = 0; i < part->dirty_count; i++)
+        if (!cell_box_empty(&part->changed[i]))
             pack_box(&part->changed[i], resolution, args.corners + 3 * args.box_count++);
     return args;
 }
 
 /* Workgroups for all columns of cells, and one per column of blocks to look at. */
-static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *args, uint32_t count)
+static void record_prepare(struct frame *frame, const struct sdfgi_distance_prepare_args *args, uint32_t count)
 {
     const uint32_t n = frame->gi->settings.resolution;
     pass_begin(frame, PASS_DISTANCE_PREPARE);
@@ -55,18 +50,18 @@ static void record_prepare(struct frame *frame, const struct sdfgi_stale_args *a
 static void record_search(struct frame *frame, uint32_t c, const struct distance_part *part)
 {
     const uint32_t n = frame->gi->settings.resolution, count = part->count;
-    const struct sdfgi_pass_args args = { .cascade = c,
-                                          .step = 4 * part->first,
-                                          .source = 4 * (part->first + count) };
-    const uint32_t first_run = args.step / SDFGI_LINES,
-                   end_run = (args.source + SDFGI_LINES - 1) / SDFGI_LINES;
+    const struct sdfgi_distance_search_args args = { .cascade = c,
+                                                     .first_x = 4 * part->first,
+                                                     .end_x = 4 * (part->first + count) };
+    const uint32_t first_run = args.first_x / SDFGI_LINES,
+                   end_run = (args.end_x + SDFGI_LINES - 1) / SDFGI_LINES;
     pass_begin(frame, PASS_DISTANCE_PLANE);
-    pass_dispatch(frame, PASS_DISTANCE_PLANE, &args, end_run - first_run, 4 * n, 1);
+    pass_dispatch(frame, PASS_DISTANCE_PLANE, PASS_ARGS(args), end_run - first_run, 4 * n, 1);
     count_cells(frame, PASS_DISTANCE_PLANE, count);
     pass_end(frame);
 
     pass_begin(frame, PASS_DISTANCE_EXACT);
-    pass_dispatch(frame, PASS_DISTANCE_EXACT, &args, n / 2, count, 1);
+    pass_dispatch(frame, PASS_DISTANCE_EXACT, PASS_ARGS(args), n / 2, count, 1);
     count_cells(frame, PASS_DISTANCE_EXACT, count);
     pass_end(frame);
 }
@@ -74,17 +69,17 @@ static void record_search(struct frame *frame, uint32_t c, const struct distance
 static void record_exact(struct frame *frame, uint32_t c, const struct distance_part *part)
 {
     const uint32_t n = frame->gi->settings.resolution;
-    const struct sdfgi_stale_args stale = stale_args(n, c, part);
-    if (part->changed_count > 0 && stale.box_count == 0)
+    const struct sdfgi_distance_prepare_args prepare = prepare_args(n, c, part);
+    if (part->dirty_count > 0 && prepare.box_count == 0)
         return; /* boxes without a cell */
-    record_prepare(frame, &stale, part->count);
+    record_prepare(frame, &prepare, part->count);
     record_search(frame, c, part);
 }
 
-static void flood_step(struct frame *frame, struct sdfgi_pass_args *args, uint32_t length)
+static void flood_step(struct frame *frame, struct sdfgi_flood_args *args, uint32_t jump)
 {
-    args->step = length;
-    pass_dispatch_cells(frame, PASS_FLOOD_STEP, args);
+    args->jump = jump;
+    pass_dispatch_cells(frame, PASS_FLOOD_STEP, PASS_ARGS(*args));
     args->source = 1 - args->source;
 }
 
@@ -92,9 +87,9 @@ static void flood_step(struct frame *frame, struct sdfgi_pass_args *args, uint32
  * a cell to about 0.1 (HARD_CASES, jump flood facts). */
 static void record_flood(struct frame *frame, uint32_t c)
 {
-    struct sdfgi_pass_args args = { .cascade = c };
+    struct sdfgi_flood_args args = { .cascade = c };
     pass_begin(frame, PASS_FLOOD_SEED);
-    pass_dispatch_cells(frame, PASS_FLOOD_SEED, &args);
+    pass_dispatch_cells(frame, PASS_FLOOD_SEED, PASS_ARGS(args));
     pass_end(frame);
 
     pass_begin(frame, PASS_FLOOD_STEP);
@@ -105,7 +100,7 @@ static void record_flood(struct frame *frame, uint32_t c)
     pass_end(frame);
 
     pass_begin(frame, PASS_FLOOD_DISTANCE);
-    pass_dispatch_cells(frame, PASS_FLOOD_DISTANCE, &args);
+    pass_dispatch_cells(frame, PASS_FLOOD_DISTANCE, PASS_ARGS(args));
     pass_end(frame);
 }
 

@@ -263,10 +263,28 @@ static void light_probes(struct frame *frame)
     }
 }
 
-static void clear_counters(struct frame *frame, uint32_t first, uint32_t count)
+enum cleared { CLEARED_CHANGE, CLEARED_CYCLE };
+
+static const struct {
+    uint32_t counter;
+    enum cleared cleared;
+} counters[] = {
+#define ROW(id, cleared, health) { SDFGI_COUNTER_##id, CLEARED_##cleared },
+    SDFGI_COUNTERS(ROW)
+#undef ROW
+};
+
+/* Clears the counters of this row and all later ones; a voxelising frame clears all rows. */
+static void clear_counters(struct frame *frame, enum cleared when)
 {
+    uint32_t first = SDFGI_COUNTER_SINGLE_COUNT, end = 0;
+    for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
+        if (counters[i].cleared >= when) {
+            first = counters[i].counter < first ? counters[i].counter : first;
+            end = counters[i].counter + 1 > end ? counters[i].counter + 1 : end;
+        }
     gpu_use(&frame->rec, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(COUNTERS));
-    gpu_fill(&frame->rec, &frame->gi->resources->buffers[RESOURCE_COUNTERS], 4 * first, 4 * count, 0);
+    gpu_fill(&frame->rec, &frame->gi->resources->buffers[RESOURCE_COUNTERS], 4 * first, 4 * (end - first), 0);
 }
 
 static void prepare_atlas(struct frame *frame)
@@ -299,9 +317,9 @@ static void record_work(struct frame *frame)
     struct sdfgi *gi = frame->gi;
     prepare_atlas(frame);
     if (gi->plan[PASS_REGION_CLEAR].run)
-        clear_counters(frame, 0, SDFGI_COUNTER_LIGHT_CELLS);
+        clear_counters(frame, CLEARED_CHANGE);
     else if (gi->ring_frame == 0)
-        clear_counters(frame, SDFGI_COUNTER_VALUES_CLAMPED, SDFGI_COUNTER_MAX_IRRADIANCE);
+        clear_counters(frame, CLEARED_CYCLE);
     generate(frame);
     if (gi->plan[PASS_LIGHT_LIST].run)
         complete(frame);

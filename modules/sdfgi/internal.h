@@ -13,7 +13,9 @@
 #include "shaders/shared/args.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/counters.h"
 #include "shaders/shared/frame.h"
+#include "shaders/shared/scratch.h"
 
 enum {
     SDFGI_MAX_LIGHTS = 1024,
@@ -404,6 +406,14 @@ struct frame {
     bool grouped, group_timed; /* between pass_group_begin and _end; the group's first pass has begun */
 };
 
+/* Push constants of a pass. */
+struct pass_args {
+    uint32_t size;
+    const void *data;
+};
+#define PASS_ARGS(args) ((struct pass_args){ sizeof(args), &(args) })
+#define NO_ARGS         ((struct pass_args){ 0, NULL })
+
 void pass_begin(struct frame *frame, enum pass pass);
 void pass_end(struct frame *frame);
 /* Passes that touch nothing in common run side by side. Timestamps between them would have each wait for the one before: a group
@@ -411,17 +421,17 @@ void pass_end(struct frame *frame);
 void pass_group_begin(struct frame *frame);
 void pass_group_end(struct frame *frame);
 /* Barrier, push constants and dispatch of one step of a pass that has begun. */
-void pass_dispatch(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args, uint32_t x,
+void pass_dispatch(struct frame *frame, enum pass pass, struct pass_args args, uint32_t x,
                    uint32_t y, uint32_t z);
-void pass_dispatch_cells(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
-/* One thread per `per_thread` cells of args' box. */
-void pass_dispatch_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+void pass_dispatch_cells(struct frame *frame, enum pass pass, struct pass_args args);
+/* One thread per `per_thread` cells of a box. */
+void pass_dispatch_box(struct frame *frame, enum pass pass, struct pass_args args, const struct cell_box *box,
                        uint32_t per_thread);
 /* With the workgroups of a record of indirect arguments. */
-void pass_dispatch_indirect(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+void pass_dispatch_indirect(struct frame *frame, enum pass pass, struct pass_args args,
                             uint32_t record);
 /* Over the light cells in the blocks of a cascade that were renewed last. */
-void pass_dispatch_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args);
+void pass_dispatch_dirty(struct frame *frame, enum pass pass, struct pass_args args, uint32_t cascade);
 /* Zeroes a part of a buffer. */
 void pass_clear(struct frame *frame, enum resource resource, uint64_t offset, uint64_t bytes);
 uint64_t pass_reads(enum pass pass);
@@ -430,8 +440,8 @@ const char *pass_name(enum pass pass);
 const char *pass_unit(enum pass pass);
 
 void voxelize_record(struct frame *frame, uint32_t cascade, const struct cell_box *box);
-/* Axis across which boxes around what goes and comes lie in strips (content.glsl); -1: nobody asks for any. */
-int32_t voxelize_content_axis(const struct change *change);
+/* Axis across which boxes around what goes and comes lie in strips (dirty_bounds.glsl); -1: nobody asks for any. */
+int32_t change_bounds_axis(const struct change *change);
 
 /* Layers of blocks of 4^3 cells along x whose distances to make. Where anything is known of how bits changed, cells outside
  * `changed` have the bits that their stored distances were made from, and hold those distances; inside, the bits are new and
@@ -439,7 +449,7 @@ int32_t voxelize_content_axis(const struct change *change);
 struct distance_part {
     uint32_t first, count;
     const struct cell_box *changed; /* up to SDFGI_MAX_CHANGES */
-    uint32_t changed_count;         /* 0: everything is new */
+    uint32_t dirty_count;         /* 0: everything is new */
 };
 
 /* Makes distances equal, bit for bit, to those made of the same bits as a whole. Searches only blocks that a change may have

@@ -126,20 +126,20 @@ static uint32_t threads_per_ray(const struct frame *frame)
 
 static void record_range(struct frame *frame, uint32_t c, uint32_t first, uint32_t count)
 {
-    const struct sdfgi_pass_args args = { .low.x = (int32_t)first,
-                                          .high.x = (int32_t)(first + count),
-                                          .cascade = c,
-                                          .source = threads_per_ray(frame) };
+    const struct sdfgi_light_direct_args args = { .cascade = c,
+                                                  .first = first,
+                                                  .end = first + count,
+                                                  .threads_per_ray = threads_per_ray(frame) };
     pass_begin(frame, PASS_LIGHT_DIRECT);
     const uint32_t groups = groups_for(count, SDFGI_CELLS_OF_SURFACES);
-    pass_dispatch(frame, PASS_LIGHT_DIRECT, &args, one_row(groups),
+    pass_dispatch(frame, PASS_LIGHT_DIRECT, PASS_ARGS(args), one_row(groups),
                   (groups + SDFGI_MAX_GROUPS - 1) / SDFGI_MAX_GROUPS, 1);
     frame->gi->passes[PASS_LIGHT_DIRECT].work += count;
     pass_end(frame);
 }
 
 /* Cells of the blocks that a change renews, some of them more than once: those in cages that touch it. */
-static uint64_t renewed_cells(const struct sdfgi *gi, uint32_t c)
+static uint64_t dirty_cells(const struct sdfgi *gi, uint32_t c)
 {
     if (light_cache_is_new(gi, c))
         return gi->resources->extent.cells;
@@ -163,21 +163,20 @@ static uint64_t list_blocks(const struct sdfgi *gi)
     return gi->resources->extent.cells / 64;
 }
 
-/* Blocks of 4^3 cells get four words, rows of blocks two: see light_blocks.glsl. */
 void light_cache_clear_record(struct frame *frame)
 {
-    const uint64_t blocks = list_blocks(frame->gi), rows = blocks / SDFGI_GROUP_LINEAR;
-    pass_clear(frame, RESOURCE_SCRATCH, 0, 16 * blocks + 8 * rows);
+    const uint64_t words = sdfgi_scratch_light_before(frame->gi->params.resolution_log2);
+    pass_clear(frame, RESOURCE_SCRATCH, 0, 4 * words);
 }
 
 void light_cache_mark_record(struct frame *frame, uint32_t c)
 {
     struct sdfgi *gi = frame->gi;
-    const struct sdfgi_pass_args args = { .cascade = c, .fresh = light_cache_is_new(gi, c) };
-    const uint64_t cells = renewed_cells(gi, c), room = gi->resources->extent.light_cells;
+    const struct sdfgi_light_mark_args args = { .cascade = c, .rebuild = light_cache_is_new(gi, c) };
+    const uint64_t cells = dirty_cells(gi, c), room = gi->resources->extent.light_cells;
     pass_begin(frame, PASS_LIGHT_MARK);
     const uint32_t per_group = SDFGI_GROUP_LINEAR * (gi->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
-    pass_dispatch(frame, PASS_LIGHT_MARK, &args, one_row(groups_for(cells > room ? cells : room, per_group)),
+    pass_dispatch(frame, PASS_LIGHT_MARK, PASS_ARGS(args), one_row(groups_for(cells > room ? cells : room, per_group)),
                   1, 1);
     gi->passes[PASS_LIGHT_MARK].work += cells;
     pass_end(frame);
@@ -186,36 +185,40 @@ void light_cache_mark_record(struct frame *frame, uint32_t c)
 void light_cache_list_record(struct frame *frame, uint32_t c)
 {
     struct sdfgi *gi = frame->gi;
-    const struct sdfgi_pass_args args = { .cascade = c };
+    const struct sdfgi_cascade_args args = { .cascade = c };
     pass_begin(frame, PASS_LIGHT_LIST);
-    pass_dispatch(frame, PASS_LIGHT_LIST, &args, (uint32_t)(list_blocks(gi) / SDFGI_GROUP_LINEAR),
+    pass_dispatch(frame, PASS_LIGHT_LIST, PASS_ARGS(args), (uint32_t)(list_blocks(gi) / SDFGI_GROUP_LINEAR),
                   LIST_SHARES, 1);
     gi->passes[PASS_LIGHT_LIST].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
     pass_end(frame);
 }
 
 /* A pass over the cells in renewed blocks. */
-static void record_renewed(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args)
+static void record_dirty(struct frame *frame, enum pass pass, struct pass_args args, uint32_t c)
 {
     if (!frame->gi->plan[pass].run)
         return;
     pass_begin(frame, pass);
-    pass_dispatch_renewed(frame, pass, args);
+    pass_dispatch_dirty(frame, pass, args, c);
     pass_end(frame);
 }
 
 void light_cache_renew_record(struct frame *frame, uint32_t c)
 {
-    const struct sdfgi_pass_args args = { .cascade = c, .step = 1, .source = threads_per_ray(frame) };
-    record_renewed(frame, PASS_LIGHT_DIRECT, &args);
-    record_renewed(frame, PASS_CELL_MASK, &args);
+    const struct sdfgi_light_direct_args direct = { .cascade = c,
+                                                    .only_dirty = 1,
+                                                    .threads_per_ray = threads_per_ray(frame) };
+    const struct sdfgi_cascade_args mask = { c };
+    record_dirty(frame, PASS_LIGHT_DIRECT, PASS_ARGS(direct), c);
+    record_dirty(frame, PASS_CELL_MASK, PASS_ARGS(mask), c);
 }
 
 void light_cache_renew_bounce_record(struct frame *frame, uint32_t c)
 {
-    const uint32_t fresh = (uint32_t)!frame->gi->cascades[c].published << c;
-    record_renewed(frame, PASS_LIGHT_BOUNCE,
-                   &(struct sdfgi_pass_args){ .cascade = c, .step = 1, .fresh = fresh });
+    const struct sdfgi_light_bounce_args args = { .cascade = c,
+                                                  .only_dirty = 1,
+                                                  .without_probes = !frame->gi->cascades[c].published };
+    record_dirty(frame, PASS_LIGHT_BOUNCE, PASS_ARGS(args), c);
 }
 
 /* Goes on with a cascade, at most to the end of its list; returns how many cells that was. */
@@ -259,17 +262,16 @@ void light_cache_direct_record(struct frame *frame, uint32_t c)
 void light_cache_bounce_record(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    struct sdfgi_pass_args args = { 0 };
+    struct sdfgi_light_bounce_args args = { .without_probes = !gi->cascades[0].published };
     uint32_t most = 0;
     for (uint32_t c = 0; c < gi->settings.cascades; c++) {
         const uint32_t cells = listed_cells(gi, c);
         most = cells > most ? cells : most;
-        args.fresh |= (uint32_t)!gi->cascades[c].published << c;
         gi->passes[PASS_LIGHT_BOUNCE].work += gi->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
     }
-    args.high.x = (int32_t)most;
+    args.end = most;
     pass_begin(frame, PASS_LIGHT_BOUNCE);
-    pass_dispatch(frame, PASS_LIGHT_BOUNCE, &args, groups_for(most, SDFGI_GROUP_LINEAR),
+    pass_dispatch(frame, PASS_LIGHT_BOUNCE, PASS_ARGS(args), groups_for(most, SDFGI_GROUP_LINEAR),
                   gi->settings.cascades, 1);
     pass_end(frame);
 }

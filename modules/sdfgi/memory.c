@@ -38,6 +38,31 @@ static uint64_t light_cells_max(uint64_t cells)
     return share < cells ? share : cells;
 }
 
+static uint32_t log2_of(uint64_t power)
+{
+    uint32_t bits = 0;
+    while (power >> (bits + 1))
+        bits++;
+    return bits;
+}
+
+/* Bytes that the largest tenant needs: shared/scratch.h. */
+static uint64_t scratch_size(const struct extent *e, uint32_t rays_per_frame)
+{
+    const uint32_t bits = log2_of(e->cells) / 3;
+    const uint64_t tenants[] = {
+        sdfgi_scratch_accumulators_end(bits),
+        sdfgi_scratch_distance_end(bits),
+        sdfgi_scratch_flood_end(bits),
+        sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells_max),
+        e->probes * e->cascades * rays_per_frame,
+    };
+    uint64_t most = 0;
+    for (size_t i = 0; i < sizeof tenants / sizeof *tenants; i++)
+        most = tenants[i] > most ? tenants[i] : most;
+    return 4 * most;
+}
+
 struct extent extent_from_settings(const struct sdfgi_settings *settings)
 {
     const uint64_t n = settings->resolution;
@@ -55,14 +80,7 @@ struct extent extent_from_settings(const struct sdfgi_settings *settings)
         .atlas_width = (uint32_t)side * SDFGI_IRRADIANCE_STRIDE,
         .atlas_height = (uint32_t)(side * side) * SDFGI_IRRADIANCE_STRIDE,
     };
-    const uint64_t pointers = 2 * 4 * e.cells, accumulators = (uint64_t)SDFGI_ACCUM_PLANES * 4 * e.blocks;
-    /* light_blocks.glsl: four words a block of 4^3 cells, two a row of blocks, four an entry. */
-    const uint64_t listing =
-        4 * (4 * e.cells / 64 + 2 * e.cells / (64 * SDFGI_GROUP_LINEAR) + 4 * e.light_cells_max);
-    e.scratch = pointers > accumulators ? pointers : accumulators;
-    e.scratch = listing > e.scratch ? listing : e.scratch;
-    const uint64_t rays = 4 * e.probes * e.cascades * settings->ray_count; /* ray_queue.glsl */
-    e.scratch = rays > e.scratch ? rays : e.scratch;
+    e.scratch = scratch_size(&e, settings->ray_count);
     if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
         e.occlusion = e.probes * e.cascades * SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE * 4;
     return e;

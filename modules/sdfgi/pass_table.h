@@ -13,11 +13,11 @@
 
 /* clang-format off */
 #define SDFGI_PASSES(X)                                                                                              \
-    X(REGION_CLEAR,    region_clear,    "cells",       0, R(BITS) | R(LIGHT) | R(MASKS) | R(SCRATCH) | R(CONTENT), GENERATE) \
+    X(REGION_CLEAR,    region_clear,    "cells",       0, R(BITS) | R(LIGHT) | R(MASKS) | R(SCRATCH) | R(BOUNDS), GENERATE) \
     X(VOXELIZE,        voxelize,        "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS)   \
     X(VOXELIZE_RASTER, voxelize_raster, "triangles",   R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS), VOXELS_RASTER) \
-    X(VOXEL_RESOLVE,   voxel_resolve,   "blocks",      R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(CONTENT), GENERATE) \
-    X(DISTANCE_PREPARE, distance_prepare, "cells",     R(BITS) | R(DISTANCE) | R(CONTENT), R(SCRATCH) | R(COUNTERS), EXACT) \
+    X(VOXEL_RESOLVE,   voxel_resolve,   "blocks",      R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS), GENERATE) \
+    X(DISTANCE_PREPARE, distance_prepare, "cells",     R(BITS) | R(DISTANCE) | R(BOUNDS), R(SCRATCH) | R(COUNTERS), EXACT) \
     X(DISTANCE_PLANE,  distance_plane,  "cells",       R(BITS) | R(SCRATCH), R(SCRATCH), EXACT)                      \
     X(DISTANCE_EXACT,  distance_exact,  "cells",       R(SCRATCH), R(DISTANCE), EXACT)                               \
     X(FLOOD_SEED,      flood_seed,      "cells",       R(BITS), R(SCRATCH), FLOOD)                                   \
@@ -29,7 +29,7 @@
     X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \
     X(LIGHT_LIST,      light_list,      "light cells", 0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST) \
     X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH) | R(INDIRECT), R(MASKS), MASKS) \
-    X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES) | R(CONTENT), R(RAYS), SEED)                                     \
+    X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES) | R(BOUNDS), R(RAYS), SEED)                                     \
     X(LIGHT_DIRECT,    light_direct,    "light cells", R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS), DIRECT) \
     X(LIGHT_BOUNCE,    light_bounce,    "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS), LIGHT) \
     X(RAY_LIST,        ray_list,        "rays",        R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT), RAYS) \

@@ -153,7 +153,7 @@ static VkResult pipeline_layouts(struct sdfgi *gi)
     const VkDescriptorSetLayout voxelize[3] = { p->set_layout, p->mesh_layout, p->material_layout };
     const VkDescriptorSetLayout gather[2] = { p->set_layout, p->gather_layout };
     VkResult result =
-        pipeline_layout(&gi->device, &p->set_layout, 1, sizeof(struct sdfgi_stale_args), &p->layout);
+        pipeline_layout(&gi->device, &p->set_layout, 1, sizeof(struct sdfgi_distance_prepare_args), &p->layout);
     if (result == VK_SUCCESS)
         result = pipeline_layout(&gi->device, voxelize, 3, sizeof(struct sdfgi_voxelize_args),
                                  &p->voxelize_layout);

@@ -7,7 +7,8 @@ static void record_probes(struct frame *frame, enum pass pass, uint32_t c, uint6
 {
     const uint32_t probes = (uint32_t)frame->gi->resources->extent.probes;
     pass_begin(frame, pass);
-    pass_dispatch(frame, pass, &(struct sdfgi_pass_args){ .cascade = c }, probes, 1, 1);
+    const struct sdfgi_cascade_args args = { c };
+    pass_dispatch(frame, pass, PASS_ARGS(args), probes, 1, 1);
     frame->gi->passes[pass].work += work;
     pass_end(frame);
 }
@@ -38,13 +39,13 @@ void ray_forget_record(struct frame *frame, uint32_t cascades)
 {
     const struct extent *e = &frame->gi->resources->extent;
     pass_begin(frame, PASS_RAY_FORGET);
-    pass_dispatch(frame, PASS_RAY_FORGET, &(struct sdfgi_pass_args){ 0 }, (uint32_t)e->probes, cascades, 1);
+    pass_dispatch(frame, PASS_RAY_FORGET, NO_ARGS, (uint32_t)e->probes, cascades, 1);
     frame->gi->passes[PASS_RAY_FORGET].work += e->probes * e->ring_samples * cascades;
     pass_end(frame);
 }
 
 /* All cascades at once: rays of one do not wait for the longest of another. */
-static void record_cascades(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
+static void record_cascades(struct frame *frame, enum pass pass, struct pass_args args,
                             uint32_t groups, uint64_t work)
 {
     struct sdfgi *gi = frame->gi;
@@ -57,8 +58,8 @@ static void record_cascades(struct frame *frame, enum pass pass, const struct sd
 void ray_list_record(struct frame *frame)
 {
     const struct sdfgi *gi = frame->gi;
-    const uint32_t rays = (uint32_t)gi->resources->extent.probes * gi->params.ring.x;
-    record_cascades(frame, PASS_RAY_LIST, &(struct sdfgi_pass_args){ 0 },
+    const uint32_t rays = (uint32_t)gi->resources->extent.probes * gi->params.rays_per_frame;
+    record_cascades(frame, PASS_RAY_LIST, NO_ARGS,
                     (rays + SDFGI_GROUP_RAYS - 1) / SDFGI_GROUP_RAYS, rays);
 }
 
@@ -66,7 +67,7 @@ void probe_trace_record(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
     pass_begin(frame, PASS_PROBE_TRACE);
-    pass_dispatch_indirect(frame, PASS_PROBE_TRACE, &(struct sdfgi_pass_args){ 0 }, SDFGI_INDIRECT_RAYS);
+    pass_dispatch_indirect(frame, PASS_PROBE_TRACE, NO_ARGS, SDFGI_INDIRECT_RAYS);
     /* Comes back frames later: as many as the newest frame known has traced. */
     gi->passes[PASS_PROBE_TRACE].work += gi->counters[SDFGI_COUNTER_RAYS_TRACED];
     pass_end(frame);
@@ -76,16 +77,15 @@ void probe_sum_record(struct frame *frame)
 {
     const struct sdfgi *gi = frame->gi;
     const uint32_t probes = (uint32_t)gi->resources->extent.probes;
-    record_cascades(frame, PASS_PROBE_SUM, &(struct sdfgi_pass_args){ 0 }, probes,
-                    probes * gi->params.ring.x);
+    record_cascades(frame, PASS_PROBE_SUM, NO_ARGS, probes,
+                    probes * gi->params.rays_per_frame);
 }
 
 void probe_blend_record(struct frame *frame, bool ring_ends)
 {
     const struct sdfgi *gi = frame->gi;
     const uint32_t probes = (uint32_t)gi->resources->extent.probes;
-    struct sdfgi_pass_args args = { .step = ring_ends };
-    for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        args.fresh |= (uint32_t)gi->cascades[c].fresh << c;
-    record_cascades(frame, PASS_PROBE_BLEND, &args, probes, probes);
+    const struct sdfgi_probe_blend_args args = { .cycle_ends = ring_ends,
+                                                 .without_history = gi->cascades[0].fresh };
+    record_cascades(frame, PASS_PROBE_BLEND, PASS_ARGS(args), probes, probes);
 }

@@ -31,7 +31,7 @@
     X(OCCLUSION,   PROBES,  s->occlusion,                                         "as BITS; 4 bytes unless probe_depth is chosen") \
     X(COUNTERS,    LISTS,   4 * SDFGI_COUNTER_COUNT,                              "one ring or one generation")            \
     X(INDIRECT,    LISTS,   16 * SDFGI_INDIRECT_RECORDS,                          "as LIGHT_CELLS")                        \
-    X(CONTENT,     LISTS,   SDFGI_CONTENT_BYTES * SDFGI_MAX_CASCADES,             "from the start of a change to its end")
+    X(BOUNDS,      LISTS,   SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES,             "from the start of a change to its end")
 /* clang-format on */
 
 enum resource {

@@ -14,9 +14,14 @@ static uint32_t log2_of(uint32_t power)
     return bits;
 }
 
-static ivec4 corner(const int32_t at[3], int32_t w)
+static ivec3 cell_of(const int32_t at[3])
 {
-    return (ivec4){ at[0], at[1], at[2], w };
+    return (ivec3){ at[0], at[1], at[2] };
+}
+
+static vec3 point_of(const double at[3])
+{
+    return (vec3){ (float)at[0], (float)at[1], (float)at[2] };
 }
 
 /* What shaders may read of a cascade, and what became new in this frame. */
@@ -27,17 +32,17 @@ static void fill_change(const struct sdfgi *gi, uint32_t c, struct sdfgi_cascade
     const bool completes = schedule_completes(gi, c);
     const struct cell_box *kept = completes ? &change->kept : &cascade->window;
     const uint32_t count = completes ? change->count : 0;
-    p->window_low = corner(cascade->window.low, (int32_t)count);
-    p->window_high = corner(cascade->window.high, 0);
-    p->share_low =
-        (vec4){ (float)cascade->share_low[0], (float)cascade->share_low[1], (float)cascade->share_low[2], 0 };
-    p->share_high = (vec4){ (float)cascade->share_high[0], (float)cascade->share_high[1],
-                            (float)cascade->share_high[2], 0 };
-    p->kept_low = corner(kept->low, voxelize_content_axis(change));
-    p->kept_high = corner(kept->high, 0);
+    p->valid_low = cell_of(cascade->window.low);
+    p->valid_high = cell_of(cascade->window.high);
+    p->dirty_count = (int32_t)count;
+    p->blend_low = point_of(cascade->share_low);
+    p->blend_high = point_of(cascade->share_high);
+    p->kept_low = cell_of(kept->low);
+    p->kept_high = cell_of(kept->high);
+    p->bounds_axis = change_bounds_axis(change);
     for (uint32_t i = 0; i < count; i++) {
-        p->changed[2 * i] = corner(change->boxes[i].low, 0);
-        p->changed[2 * i + 1] = corner(change->boxes[i].high, 0);
+        p->dirty[i].low = cell_of(change->boxes[i].low);
+        p->dirty[i].high = cell_of(change->boxes[i].high);
     }
 }
 
@@ -57,19 +62,21 @@ static struct sdfgi_cascade_params cascade_params(const struct sdfgi *gi, uint32
         shift[i] = ldexp((double)first->origin[i], -(int)c) - (double)cascade->origin[i];
     }
     struct sdfgi_cascade_params p = {
-        .origin_rel = { (float)origin[0], (float)origin[1], (float)origin[2], (float)cascade->cell_size[0] },
-        .wrap = { wrap[0], wrap[1], wrap[2], 0 },
-        .probe_wrap = { probe_wrap[0], probe_wrap[1], probe_wrap[2], 0 },
-        .from_first = { (float)shift[0], (float)shift[1], (float)shift[2], ldexpf(1.0f, -(int)c) },
-        .probe_base = { probe_base[0], probe_base[1], probe_base[2], 0 },
+        .origin_rel = point_of(origin),
+        .cell_m = (float)cascade->cell_size[0],
+        .wrap = cell_of(wrap),
+        .probe_wrap = cell_of(probe_wrap),
+        .from_first = point_of(shift),
+        .from_first_scale = ldexpf(1.0f, -(int)c),
+        .probe_base = cell_of(probe_base),
     };
     fill_change(gi, c, &p);
     return p;
 }
 
-static vec4 scaled(const float color[3], float factor)
+static vec3 scaled(const float color[3], float factor)
 {
-    return (vec4){ color[0] * factor, color[1] * factor, color[2] * factor, 0 };
+    return (vec3){ color[0] * factor, color[1] * factor, color[2] * factor };
 }
 
 static uint32_t shader_visibility(const struct sdfgi_settings *settings)
@@ -93,21 +100,33 @@ void upload_params(struct sdfgi *gi)
     p.sky_zenith = scaled(gi->scene.sky.zenith, sky);
     p.sky_horizon = scaled(gi->scene.sky.horizon, sky);
     p.sky_ground = scaled(gi->scene.sky.ground, sky);
-    p.scale = (vec4){ (float)y_scale_factor(s->y_scale), gi->exposure, 1.0f / gi->exposure, s->energy };
-    p.bias = (vec4){ s->normal_bias_cells, s->probe_bias_cells, s->bounce_feedback,
-                     gi->emission_unit * gi->exposure };
-    p.size = (uvec4){ s->resolution, log2_of(s->resolution), s->resolution / SDFGI_PROBE_SPACING + 1,
-                      s->cascades };
-    p.light =
-        (uvec4){ gi->scene.lights.count, gi->resources ? (uint32_t)gi->resources->extent.light_cells : 0,
-                 shader_visibility(s), gi->seed };
-    const uint32_t samples = ring_samples(s), first = gi->ring_frame * s->ray_count;
-    uint32_t brightest;
-    memcpy(&brightest, &gi->known_brightest, sizeof brightest);
-    p.ring = (uvec4){ first + s->ray_count <= samples ? s->ray_count : samples - first, first, samples,
-                      brightest };
-    if (gi->converged)
-        p.ring = gi->params.ring; /* nobody reads it: no reason to upload anything */
+    p.y_scale = (float)y_scale_factor(s->y_scale);
+    p.exposure = gi->exposure;
+    p.exposure_inverse = 1.0f / gi->exposure;
+    p.energy = s->energy;
+    p.normal_bias = s->normal_bias_cells;
+    p.probe_bias = s->probe_bias_cells;
+    p.bounce_feedback = s->bounce_feedback;
+    p.emission_scale = gi->emission_unit * gi->exposure;
+    p.resolution = s->resolution;
+    p.resolution_log2 = log2_of(s->resolution);
+    p.probes_per_side = s->resolution / SDFGI_PROBE_SPACING + 1;
+    p.cascade_count = s->cascades;
+    p.light_count = gi->scene.lights.count;
+    p.light_cell_room = gi->resources ? (uint32_t)gi->resources->extent.light_cells : 0;
+    p.visibility = shader_visibility(s);
+    p.seed = gi->seed;
+    p.cycle_samples = ring_samples(s);
+    p.first_sample = gi->ring_frame * s->ray_count;
+    p.rays_per_frame = s->ray_count < p.cycle_samples - p.first_sample ? s->ray_count : p.cycle_samples - p.first_sample;
+    p.brightest_texel = gi->known_brightest;
+    if (gi->converged) {
+        /* Nobody reads these: they are no reason to upload anything. */
+        p.cycle_samples = gi->params.cycle_samples;
+        p.first_sample = gi->params.first_sample;
+        p.rays_per_frame = gi->params.rays_per_frame;
+        p.brightest_texel = gi->params.brightest_texel;
+    }
     if (memcmp(&p, &gi->params, sizeof p) != 0) {
         gi->params = p;
         gi->params_changed = true;
@@ -120,15 +139,16 @@ static struct sdfgi_light_params light_params(const struct sdfgi *gi, const stru
     const double x = (double)l->direction[0], y = (double)l->direction[1], z = (double)l->direction[2];
     const double length = sqrt(x * x + y * y + z * z), unit = length > 0 ? 1 / length : 0;
     const float cos_inner = cosf(l->inner_angle_rad), cos_outer = cosf(l->outer_angle_rad);
-    struct sdfgi_light_params p = {
+    return (struct sdfgi_light_params){
         .position = { (float)(l->position[0] - gi->origin[0]), (float)(l->position[1] - gi->origin[1]),
-                      (float)(l->position[2] - gi->origin[2]), l->range_m },
-        .direction = { (float)(x * unit), (float)(y * unit), (float)(z * unit), cos_outer },
+                      (float)(l->position[2] - gi->origin[2]) },
+        .range_m = l->range_m,
+        .direction = { (float)(x * unit), (float)(y * unit), (float)(z * unit) },
+        .cos_outer = cos_outer,
         .intensity = scaled(l->intensity, l->indirect_energy * gi->exposure),
-        .kind = { (uint32_t)l->type | (l->casts_shadow ? SDFGI_LIGHT_CASTS_SHADOW : 0), 0, 0, 0 },
+        .cone_scale = 1 / fmaxf(cos_inner - cos_outer, 1e-4f),
+        .kind = (uint32_t)l->type | (l->casts_shadow ? SDFGI_LIGHT_CASTS_SHADOW : 0),
     };
-    p.intensity.w = 1 / fmaxf(cos_inner - cos_outer, 1e-4f);
-    return p;
 }
 
 static void record_lights(struct sdfgi *gi, struct gpu_recorder *rec)
@@ -164,14 +184,14 @@ static struct sdfgi_material_params material_params(const struct sdfgi *gi,
                                                     const struct sdfgi_material_desc *m)
 {
     struct sdfgi_material_params p = {
-        .albedo = { m->albedo[0], m->albedo[1], m->albedo[2], m->alpha },
+        .albedo = { m->albedo[0], m->albedo[1], m->albedo[2] },
+        .alpha = m->alpha,
         .emission = scaled(m->emission, gi->emission_unit > 0 ? 1 / gi->emission_unit : 0),
-        .flags = { (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
-                       (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
-                       (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0),
-                   0, 0, 0 },
+        .alpha_cutoff = m->alpha_cutoff,
+        .flags = (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
+                 (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
+                 (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0),
     };
-    p.emission.w = m->alpha_cutoff;
     uv_rows(m->albedo_texture.uv_transform, p.albedo_uv);
     uv_rows(m->emission_texture.uv_transform, p.emission_uv);
     return p;

@@ -68,9 +68,7 @@ static void fill_rows(const struct cascade *cascade, const struct sdfgi_transfor
         args->rows[i] = (vec4){ (float)(t->basis[i] * scale), (float)(t->basis[3 + i] * scale),
                                 (float)(t->basis[6 + i] * scale), (float)part };
     }
-    args->anchor.x = anchor[0];
-    args->anchor.y = anchor[1];
-    args->anchor.z = anchor[2];
+    args->anchor = (ivec3){ anchor[0], anchor[1], anchor[2] };
 }
 
 static uint32_t packed_corner(const int32_t corner[3])
@@ -112,7 +110,7 @@ static struct sdfgi_voxelize_args voxelize_args(const struct sdfgi *gi, uint32_t
         .index_offset = (uint32_t)(d->index_offset / 4),
         .vertex_count = d->vertex_count,
         .group_width = GROUP_WIDTH,
-        .anchor.w = (int32_t)packed_corner(box->low),
+        .box_low = packed_corner(box->low),
         .box_high = packed_corner(box->high),
     };
     fill_rows(&gi->cascades[c], &instance->desc.transform, &args);
@@ -217,17 +215,17 @@ static void record_raster(struct frame *frame, uint32_t c, const struct cell_box
     pass_end(frame);
 }
 
-static void record_box(struct frame *frame, enum pass pass, const struct sdfgi_pass_args *args,
-                       uint32_t per_thread)
+static void record_box(struct frame *frame, enum pass pass, const struct sdfgi_region_args *args,
+                       const struct cell_box *box, uint32_t per_thread)
 {
     pass_begin(frame, pass);
-    pass_dispatch_box(frame, pass, args, per_thread);
+    pass_dispatch_box(frame, pass, PASS_ARGS(*args), box, per_thread);
     pass_end(frame);
 }
 
 /* Boxes around what goes and comes lie in strips along z, or where cells moved along z alone, along x: slabs
  * are cut across. Where nothing is kept, nobody asks. */
-int32_t voxelize_content_axis(const struct change *change)
+int32_t change_bounds_axis(const struct change *change)
 {
     if (cell_box_empty(&change->kept))
         return -1;
@@ -235,11 +233,11 @@ int32_t voxelize_content_axis(const struct change *change)
 }
 
 /* Before the first box of a change. */
-static void forget_content(struct frame *frame, uint32_t c)
+static void clear_bounds(struct frame *frame, uint32_t c)
 {
     struct change *change = &frame->gi->cascades[c].change;
-    if (!change->begun && voxelize_content_axis(change) >= 0)
-        pass_clear(frame, RESOURCE_CONTENT, (uint64_t)c * SDFGI_CONTENT_BYTES, SDFGI_CONTENT_BYTES);
+    if (!change->begun && change_bounds_axis(change) >= 0)
+        pass_clear(frame, RESOURCE_BOUNDS, (uint64_t)c * SDFGI_BOUNDS_BYTES, SDFGI_BOUNDS_BYTES);
     change->begun = true;
 }
 
@@ -247,17 +245,18 @@ void voxelize_record(struct frame *frame, uint32_t c, const struct cell_box *box
 {
     struct sdfgi *gi = frame->gi;
     const struct change *change = &gi->cascades[c].change;
-    const struct sdfgi_pass_args args = {
-        .low = { box->low[0], box->low[1], box->low[2], 0 },
-        .high = { box->high[0], box->high[1], box->high[2], 0 },
-        .before = { change->before[0], change->before[1], change->before[2], voxelize_content_axis(change) },
+    const struct sdfgi_region_args args = {
+        .low = { box->low[0], box->low[1], box->low[2] },
         .cascade = c,
+        .high = { box->high[0], box->high[1], box->high[2] },
+        .bounds_axis = change_bounds_axis(change),
+        .before = { change->before[0], change->before[1], change->before[2] },
     };
-    forget_content(frame, c);
-    record_box(frame, PASS_REGION_CLEAR, &args, 4);
+    clear_bounds(frame, c);
+    record_box(frame, PASS_REGION_CLEAR, &args, box, 4);
     if (gi->plan[PASS_VOXELIZE].run)
         record_compute(frame, c, box);
     if (gi->plan[PASS_VOXELIZE_RASTER].run)
         record_raster(frame, c, box);
-    record_box(frame, PASS_VOXEL_RESOLVE, &args, 8);
+    record_box(frame, PASS_VOXEL_RESOLVE, &args, box, 8);
 }

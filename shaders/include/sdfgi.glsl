@@ -17,7 +17,7 @@
  * arriving directly are not. */
 vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
 {
-    const float to_watts = 3.14159265 * sdfgi_frame.scale.z * sdfgi_frame.scale.w;
+    const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
     return lookup_irradiance(first_from_position(position), normal, to_eye) * to_watts;
 }
 

@@ -32,8 +32,8 @@ ivec3 lookup_corner(int k)
 /* The cage that holds a position, or the nearest one that is complete. */
 ivec3 lookup_cage(uint cascade, vec3 pos)
 {
-    const ivec3 low = sdfgi_frame.cascades[cascade].window_low.xyz / SDFGI_PROBE_SPACING;
-    const ivec3 high = sdfgi_frame.cascades[cascade].window_high.xyz / SDFGI_PROBE_SPACING - 1;
+    const ivec3 low = sdfgi_frame.cascades[cascade].valid_low / SDFGI_PROBE_SPACING;
+    const ivec3 high = sdfgi_frame.cascades[cascade].valid_high / SDFGI_PROBE_SPACING - 1;
     return clamp(ivec3(floor(pos / float(SDFGI_PROBE_SPACING))), low, max(low, high));
 }
 
@@ -214,7 +214,7 @@ vec4 lookup_sloped(uint cascade, ivec3 cage, vec3 pos, vec3 normal, float height
 vec3 lookup_ray_light(trace_hit hit, vec3 dir)
 {
     if (!hit.hit)
-        return sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
+        return sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground);
     if (!hit.has_cell)
         return vec3(0.0);
     return light_unpack_axis(sdfgi_light[cell_index(hit.cascade, hit.cell)], hit.axis);
@@ -231,7 +231,7 @@ vec4 lookup_rays(uint cascade, vec3 pos, vec3 normal)
     for (int i = 0; i < RAYS; i++) {
         const float r2 = (float(i) + 0.5) / float(RAYS), turn = float(i) * 2.39996323; /* golden angle */
         const vec3 dir = sqrt(r2) * (cos(turn) * side + sin(turn) * up) + sqrt(1.0 - r2) * normal;
-        sum += lookup_ray_light(trace_ray(cascade, sdfgi_frame.size.w - 1u, pos, dir, 1e9), dir);
+        sum += lookup_ray_light(trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9), dir);
     }
     return vec4(sum / float(RAYS), 1.0);
 }
@@ -338,7 +338,7 @@ float lookup_chebyshev(uint probe, vec3 dir, float range)
     const vec2 low = mix(lookup_depth_texel(probe, base), lookup_depth_texel(probe, base + ivec2(1, 0)), f.x);
     const vec2 high = mix(lookup_depth_texel(probe, base + ivec2(0, 1)), lookup_depth_texel(probe, base + ivec2(1)), f.x);
     const vec2 moments = mix(low, high, f.y) * vec2(SDFGI_OCCLUSION_RANGE, SDFGI_OCCLUSION_RANGE * SDFGI_OCCLUSION_RANGE);
-    const float gap = range - sdfgi_frame.bias.y - moments.x;
+    const float gap = range - sdfgi_frame.probe_bias - moments.x;
     if (gap <= 0.0)
         return 1.0;
     /* unorm16 of the range resolves variances of 0.02 cells^2 (HARD_CASES row 43). */
@@ -389,10 +389,10 @@ vec4 lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
 {
     const float range = length(to_eye);
     const vec3 eye = to_eye / max(range, 1e-6);
-    const vec3 biased = pos + cells_from_metric(normal + 0.5 * eye) * sdfgi_frame.bias.x;
+    const vec3 biased = pos + cells_from_metric(normal + 0.5 * eye) * sdfgi_frame.normal_bias;
     const vec3 open = lookup_open(cascade, pos, normal, eye, range);
     const ivec3 cage = lookup_cage(cascade, biased);
-    const uint method = sdfgi_frame.light.z;
+    const uint method = sdfgi_frame.visibility;
     lookup_visibility v;
     ivec3 anchor;
     vec3 seen_from = open;
@@ -415,8 +415,8 @@ vec4 lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
 vec4 lookup_light_cell(uint cascade, ivec3 cell, vec3 normal, uint mask)
 {
     const vec3 first = first_from_cascade(cascade, vec3(cell) + 0.5);
-    const uint method = sdfgi_frame.light.z;
-    for (uint c = cascade; c < sdfgi_frame.size.w; c++) {
+    const uint method = sdfgi_frame.visibility;
+    for (uint c = cascade; c < sdfgi_frame.cascade_count; c++) {
         const vec3 pos = cascade_from_first(c, first);
         const ivec3 at = ivec3(floor(pos));
         if (c > cascade && !trace_is_light_cell(c, at))
@@ -436,8 +436,8 @@ vec4 lookup_light_cell(uint cascade, ivec3 cell, vec3 normal, uint mask)
  * moves smoothly while the cascade steps. */
 float lookup_cascade_share(uint cascade, vec3 pos)
 {
-    const vec3 edge = min(pos - sdfgi_frame.cascades[cascade].share_low.xyz,
-                          sdfgi_frame.cascades[cascade].share_high.xyz - pos);
+    const vec3 edge = min(pos - sdfgi_frame.cascades[cascade].blend_low,
+                          sdfgi_frame.cascades[cascade].blend_high - pos);
     return clamp((min(edge.x, min(edge.y, edge.z)) - 1.0) / float(SDFGI_PROBE_SPACING), 0.0, 1.0);
 }
 
@@ -445,20 +445,20 @@ float lookup_cascade_share(uint cascade, vec3 pos)
  * border the next coarser one takes over; outside the last the sky does. */
 vec3 lookup_irradiance(vec3 pos_first, vec3 normal, vec3 to_eye)
 {
-    const vec3 eye_first = to_eye / sdfgi_frame.cascades[0].origin_rel.w;
+    const vec3 eye_first = to_eye / sdfgi_frame.cascades[0].cell_m;
     vec3 result = vec3(0.0);
     float rest = 1.0;
-    for (uint c = 0u; c < sdfgi_frame.size.w && rest > 0.0; c++) {
+    for (uint c = 0u; c < sdfgi_frame.cascade_count && rest > 0.0; c++) {
         const vec3 pos = cascade_from_first(c, pos_first);
         const float share = lookup_cascade_share(c, pos);
         if (share <= 0.0)
             continue;
-        const vec4 sum = lookup_surface(c, pos, normal, eye_first * sdfgi_frame.cascades[c].from_first.w);
+        const vec4 sum = lookup_surface(c, pos, normal, eye_first * sdfgi_frame.cascades[c].from_first_scale);
         result += rest * share * sum.rgb / sum.a;
         rest *= 1.0 - share;
     }
-    const vec3 sky = sky_irradiance(normal, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb,
-                                    sdfgi_frame.sky_ground.rgb);
+    const vec3 sky = sky_irradiance(normal, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
+                                    sdfgi_frame.sky_ground);
     return result + rest * sky;
 }
 

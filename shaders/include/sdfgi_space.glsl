@@ -7,13 +7,13 @@
 
 int space_resolution()
 {
-    return int(sdfgi_frame.size.x);
+    return int(sdfgi_frame.resolution);
 }
 
 /* Height of a cell over its width. */
 float space_y_scale()
 {
-    return sdfgi_frame.scale.x;
+    return sdfgi_frame.y_scale;
 }
 
 /* Metric lengths of a vector in cell space, in cell widths, and back. */
@@ -35,50 +35,50 @@ bool cell_inside(ivec3 cell)
 /* True for cells that are complete: while a cascade scrolls, those of both its old and its new place. */
 bool cell_served(uint cascade, ivec3 cell)
 {
-    return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].window_low.xyz)) &&
-           all(lessThan(cell, sdfgi_frame.cascades[cascade].window_high.xyz));
+    return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
+           all(lessThan(cell, sdfgi_frame.cascades[cascade].valid_high));
 }
 
 /* Texel of a local cell: volumes are toroidal. */
 uvec3 cell_texel(uint cascade, ivec3 cell)
 {
-    return uvec3(cell + sdfgi_frame.cascades[cascade].wrap.xyz) & (sdfgi_frame.size.x - 1u);
+    return uvec3(cell + sdfgi_frame.cascades[cascade].wrap) & (sdfgi_frame.resolution - 1u);
 }
 
 uint texel_index(uvec3 texel)
 {
-    const uint bits = sdfgi_frame.size.y;
+    const uint bits = sdfgi_frame.resolution_log2;
     return texel.x | texel.y << bits | texel.z << (2u * bits);
 }
 
 /* Index of a local cell in buffers with one element per cell, all cascades one after another. */
 uint cell_index(uint cascade, ivec3 cell)
 {
-    return texel_index(cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.size.y);
+    return texel_index(cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.resolution_log2);
 }
 
 ivec3 cell_from_texel(uint cascade, uvec3 texel)
 {
-    return ivec3((texel - uvec3(sdfgi_frame.cascades[cascade].wrap.xyz)) & (sdfgi_frame.size.x - 1u));
+    return ivec3((texel - uvec3(sdfgi_frame.cascades[cascade].wrap)) & (sdfgi_frame.resolution - 1u));
 }
 
 uvec3 texel_from_index(uint index)
 {
-    const uint bits = sdfgi_frame.size.y;
-    return uvec3(index, index >> bits, index >> (2u * bits)) & (sdfgi_frame.size.x - 1u);
+    const uint bits = sdfgi_frame.resolution_log2;
+    return uvec3(index, index >> bits, index >> (2u * bits)) & (sdfgi_frame.resolution - 1u);
 }
 
 /* Index of the albedo block (2x2x2 cells) that holds a cell, within its cascade. */
 uint block_index(uint cascade, ivec3 cell)
 {
     const uvec3 block = cell_texel(cascade, cell) >> 1u;
-    const uint bits = sdfgi_frame.size.y - 1u;
+    const uint bits = sdfgi_frame.resolution_log2 - 1u;
     return block.x | block.y << bits | block.z << (2u * bits);
 }
 
 uint block_count()
 {
-    return 1u << (3u * (sdfgi_frame.size.y - 1u));
+    return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));
 }
 
 uvec2 cell_bits(uint cascade, ivec3 cell)
@@ -89,13 +89,13 @@ uvec2 cell_bits(uint cascade, ivec3 cell)
 /* Steps per cell width of stored distances: the longest, N sqrt(3) cells, still fits 16 bits. */
 float distance_steps()
 {
-    return float(32768u >> sdfgi_frame.size.y);
+    return float(32768u >> sdfgi_frame.resolution_log2);
 }
 
 /* The stored form of the longest. */
 uint distance_reach()
 {
-    return uint(SDFGI_DISTANCE_REACH) << 15u - sdfgi_frame.size.y;
+    return uint(SDFGI_DISTANCE_REACH) << 15u - sdfgi_frame.resolution_log2;
 }
 
 /* Of the cell that is stored at `index`: never more than 0.1 cell above the distance to the nearest set sub-voxel, nor more
@@ -103,7 +103,7 @@ uint distance_reach()
 float stored_distance(uint index)
 {
     const uint pair = sdfgi_distances[index >> 1u];
-    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) * (float(sdfgi_frame.size.x) / 32768.0);
+    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) * (float(sdfgi_frame.resolution) / 32768.0);
 }
 
 float cell_distance(uint cascade, ivec3 cell)
@@ -119,27 +119,23 @@ uint cell_mask(uint cascade, ivec3 cell)
 
 vec3 cascade_from_first(uint cascade, vec3 pos_first)
 {
-    const vec4 map = sdfgi_frame.cascades[cascade].from_first;
-    return map.xyz + map.w * pos_first;
+    return sdfgi_frame.cascades[cascade].from_first + sdfgi_frame.cascades[cascade].from_first_scale * pos_first;
 }
 
 vec3 first_from_cascade(uint cascade, vec3 pos_cascade)
 {
-    const vec4 map = sdfgi_frame.cascades[cascade].from_first;
-    return (pos_cascade - map.xyz) / map.w;
+    return (pos_cascade - sdfgi_frame.cascades[cascade].from_first) / sdfgi_frame.cascades[cascade].from_first_scale;
 }
 
 /* Position relative to the host's origin in metres to cell space of cascade 0. */
 vec3 first_from_position(vec3 position)
 {
-    const vec4 origin = sdfgi_frame.cascades[0].origin_rel;
-    return cells_from_metric((position - origin.xyz) / origin.w);
+    return cells_from_metric((position - sdfgi_frame.cascades[0].origin_rel) / sdfgi_frame.cascades[0].cell_m);
 }
 
 vec3 position_from_cascade(uint cascade, vec3 pos_cascade)
 {
-    const vec4 origin = sdfgi_frame.cascades[cascade].origin_rel;
-    return origin.xyz + metric_from_cells(pos_cascade) * origin.w;
+    return sdfgi_frame.cascades[cascade].origin_rel + metric_from_cells(pos_cascade) * sdfgi_frame.cascades[cascade].cell_m;
 }
 
 /* ---- Probes: probe k of a cascade stands on the corner of cells 8 k, k in [0, probes_per_side). */
@@ -147,14 +143,14 @@ vec3 position_from_cascade(uint cascade, vec3 pos_cascade)
 /* Slot of a local probe: probes are toroidal too. */
 ivec3 probe_slot(uint cascade, ivec3 probe)
 {
-    const ivec3 slot = probe + sdfgi_frame.cascades[cascade].probe_wrap.xyz;
-    const int side = int(sdfgi_frame.size.z);
+    const ivec3 slot = probe + sdfgi_frame.cascades[cascade].probe_wrap;
+    const int side = int(sdfgi_frame.probes_per_side);
     return slot - side * ivec3(greaterThanEqual(slot, ivec3(side)));
 }
 
 uint probe_index(uint cascade, ivec3 probe)
 {
-    const int side = int(sdfgi_frame.size.z);
+    const int side = int(sdfgi_frame.probes_per_side);
     const ivec3 slot = probe_slot(cascade, probe);
     return uint(slot.x + side * (slot.y + side * (slot.z + side * int(cascade))));
 }
@@ -181,9 +177,9 @@ bool probe_is_dead(uint state)
 bool probe_is_served(uint cascade, ivec3 probe)
 {
     const ivec3 cell = probe * SDFGI_PROBE_SPACING;
-    return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].window_low.xyz)) &&
-           all(lessThanEqual(cell, sdfgi_frame.cascades[cascade].window_high.xyz)) &&
-           all(lessThan(sdfgi_frame.cascades[cascade].window_low.xyz, sdfgi_frame.cascades[cascade].window_high.xyz));
+    return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
+           all(lessThanEqual(cell, sdfgi_frame.cascades[cascade].valid_high)) &&
+           all(lessThan(sdfgi_frame.cascades[cascade].valid_low, sdfgi_frame.cascades[cascade].valid_high));
 }
 
 /* Position in cell space. */
@@ -199,7 +195,7 @@ vec3 probe_position(ivec3 probe, uint state)
 ivec2 probe_atlas_corner(uint cascade, ivec3 probe)
 {
     const ivec3 slot = probe_slot(cascade, probe);
-    return ivec2(slot.x, slot.y + int(sdfgi_frame.size.z) * slot.z) * SDFGI_IRRADIANCE_STRIDE;
+    return ivec2(slot.x, slot.y + int(sdfgi_frame.probes_per_side) * slot.z) * SDFGI_IRRADIANCE_STRIDE;
 }
 
 #endif

@@ -130,8 +130,8 @@ struct trace_volume {
 
 trace_volume trace_volume_of(uint cascade, ivec3 base)
 {
-    return trace_volume(sdfgi_frame.cascades[cascade].window_low.xyz - base, sdfgi_frame.cascades[cascade].window_high.xyz - base,
-                        sdfgi_frame.cascades[cascade].wrap.xyz + base, cascade << (3u * sdfgi_frame.size.y));
+    return trace_volume(sdfgi_frame.cascades[cascade].valid_low - base, sdfgi_frame.cascades[cascade].valid_high - base,
+                        sdfgi_frame.cascades[cascade].wrap + base, cascade << (3u * sdfgi_frame.resolution_log2));
 }
 
 bool trace_serves(trace_volume volume, ivec3 cell)
@@ -141,7 +141,7 @@ bool trace_serves(trace_volume volume, ivec3 cell)
 
 uint trace_index(trace_volume volume, ivec3 cell)
 {
-    return texel_index(uvec3(cell + volume.wrap) & (sdfgi_frame.size.x - 1u)) | volume.first;
+    return texel_index(uvec3(cell + volume.wrap) & (sdfgi_frame.resolution - 1u)) | volume.first;
 }
 
 /* From parameter t to where a ray leaves a cell or, returning true, hits a sub-voxel in it. The cell is stored at `index`,

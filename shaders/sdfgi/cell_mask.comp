@@ -8,7 +8,7 @@
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
 layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
 
 const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
@@ -26,8 +26,8 @@ void main()
 {
     const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = light_group() * CELLS + lane / 8u;
     const bool listed = n < sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] &&
-                        sdfgi_scratch[light_renewed_slot(n)] < sdfgi_frame.light.y;
-    const ivec3 cell = light_cell_position(args.cascade, listed ? sdfgi_scratch[light_renewed_slot(n) + 1u] : 0u);
+                        sdfgi_scratch[light_dirty_slot(n)] < sdfgi_frame.light_cell_room;
+    const ivec3 cell = light_cell_position(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
     const uint index = cell_index(args.cascade, cell), shift = 8u * (index & 3u);
     if (k == 0u)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Distance from each cell's centre to the nearest set sub-voxel's centre, exact and rounded down: the nearest over all layers
  * of sub-voxels along y (lines.glsl) of what distance_plane found in each. Depends on nothing but the bits. Only stale blocks
- * are written; args.step and args.source as there.
+ * are written; args.first_x and args.end_x as there.
  * One workgroup per four cells along x and two along z: eight lines along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +12,7 @@ const uint BATCH = 260u; /* few, for many workgroups at once; a village's layers
 
 #include "lines.glsl"
 
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_distance_search_args args; };
 
 const uint PAIRS = LINES / 2u;
 const uint PER_THREAD = (BATCH * PAIRS - 1u) / SDFGI_GROUP_LINES + 1u;
@@ -29,7 +29,7 @@ void begin()
 
 uint first_x()
 {
-    return args.step + 4u * gl_WorkGroupID.y;
+    return args.first_x + 4u * gl_WorkGroupID.y;
 }
 
 uint first_z()
@@ -44,7 +44,7 @@ bool block_is_stale(uvec2 stale, uint y)
 
 void mark_all(uvec2 stale)
 {
-    for (uint y = gl_LocalInvocationIndex; y < sdfgi_frame.size.x; y += SDFGI_GROUP_LINES) {
+    for (uint y = gl_LocalInvocationIndex; y < sdfgi_frame.resolution; y += SDFGI_GROUP_LINES) {
         if (layer_in_reach(stale, int(y >> 2u)))
             line_mark(y, four_layers(y));
         if (block_is_stale(stale, y))
@@ -86,7 +86,7 @@ uint encoded(uint y, uint own)
 /* Two cells share a word. */
 void store_lines(uvec2 stale)
 {
-    for (uint i = gl_LocalInvocationIndex; i < 4u * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
+    for (uint i = gl_LocalInvocationIndex; i < 4u * sdfgi_frame.resolution; i += SDFGI_GROUP_LINES) {
         const uint y = i >> 2u, x = 2u * (i & 1u), z = i >> 1u & 1u, own = 4u * z + x;
         if (block_is_stale(stale, y))
             sdfgi_distances[cell_index(args.cascade, ivec3(first_x() + x, y, first_z() + z)) >> 1u] =

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along x by
  * scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8,
- * their sums as (d^2 + e^2 - 2) / 8. Cells of columns that hold stale blocks, from args.step to before args.source along x.
+ * their sums as (d^2 + e^2 - 2) / 8. Cells of columns that hold stale blocks, from args.first_x to before args.end_x along x.
  * One workgroup per layer and run of eight cells along x: eight lines along z. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,7 +11,7 @@ const uint BATCH = 324u; /* 12.3 KiB of shared memory, of the 16 that every devi
 
 #include "lines.glsl"
 
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_distance_search_args args; };
 
 /* Sums are below 2 / 8 (8 N)^2: 20 bits where N is 256. */
 const uint NUMBER_BITS = 9u;
@@ -23,7 +23,7 @@ uint layer()
 
 uint first_x()
 {
-    return (args.step & ~7u) + LINES * gl_WorkGroupID.x;
+    return (args.first_x & ~7u) + LINES * gl_WorkGroupID.x;
 }
 
 /* The runs within reach in which a row holds bits. */
@@ -42,10 +42,10 @@ bool layer_holds_any()
 /* Slots with cells of stale blocks to which this layer may matter. A run has two columns of blocks. */
 void mark_wanted()
 {
-    for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.size.x >> 1u; i += SDFGI_GROUP_LINES) {
+    for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.resolution >> 1u; i += SDFGI_GROUP_LINES) {
         const uint x = first_x() + 4u * (i & 1u), z = 2u * (i & ~1u), first = z / line_cells_per_slot();
         const uint slots = (2u << (z + 3u) / line_cells_per_slot()) - (1u << first);
-        if (x >= args.step && x < args.source && layer_in_reach(stale_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
+        if (x >= args.first_x && x < args.end_x && layer_in_reach(stale_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
             atomicOr(line_wanted, slots);
     }
     barrier();
@@ -64,7 +64,7 @@ uint slots_in_reach()
 void mark_rows()
 {
     const uint slots = slots_in_reach();
-    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.size.x; z += SDFGI_GROUP_LINES) {
+    for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.resolution; z += SDFGI_GROUP_LINES) {
         if ((slots >> z / line_cells_per_slot() & 1u) == 0u)
             continue;
         uint rows = 0u;
@@ -133,16 +133,16 @@ void put_rows(uint count)
 /* What no row is in reach of is as far as anything can be, or 16 bits hold. */
 uint encoded(uint z, uint own)
 {
-    const uint most = min(16u * sdfgi_frame.size.x * sdfgi_frame.size.x - 1u, 0xffffu);
+    const uint most = min(16u * sdfgi_frame.resolution * sdfgi_frame.resolution - 1u, 0xffffu);
     return line_candidates() == 0u ? most : min(uint(line_result(z, own)), most);
 }
 
 /* In the order in which the words lie: four cells along x, two along z, then along x again. */
 void store_lines()
 {
-    for (uint i = gl_LocalInvocationIndex; i < LINES / 2u * sdfgi_frame.size.x; i += SDFGI_GROUP_LINES) {
+    for (uint i = gl_LocalInvocationIndex; i < LINES / 2u * sdfgi_frame.resolution; i += SDFGI_GROUP_LINES) {
         const uint own = i << 1u & 2u | i & 4u, z = i >> 1u & 1u | i >> 3u << 1u, x = first_x() + own;
-        if (line_slot_wanted(z / line_cells_per_slot()) && x >= args.step && x < args.source)
+        if (line_slot_wanted(z / line_cells_per_slot()) && x >= args.first_x && x < args.end_x)
             sdfgi_scratch[plane_slot(layer(), x, z)] = encoded(z, own) | encoded(z, own + 1u) << 16u;
     }
 }

@@ -5,11 +5,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#include "content.glsl"
+#include "dirty_bounds.glsl"
 #include "occupancy.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINES) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_stale_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_distance_prepare_args args; };
 
 /* ---- Rows: a thread reads eight cells that lie side by side */
 
@@ -20,7 +20,7 @@ shared uint layers;              /* a bit per layer */
 
 uint runs_per_row()
 {
-    return sdfgi_frame.size.x >> RUN_BITS;
+    return sdfgi_frame.resolution >> RUN_BITS;
 }
 
 /* A bit per four sub-voxels along x, at the place of the first. */
@@ -55,7 +55,7 @@ void note_rows(uint rows, uint column, uint run)
 
 void find_rows(uint group)
 {
-    const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(), groups = sdfgi_frame.size.x / COLUMNS;
+    const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(), groups = sdfgi_frame.resolution / COLUMNS;
     const uint y = group / groups, first_z = COLUMNS * (group % groups), words = COLUMNS * per_row / 8u; /* of a layer */
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         runs[i] = 0u;
@@ -75,43 +75,43 @@ void find_rows(uint group)
 }
 
 /* ---- Blocks: those that touch a changed box, and those with a cell whose nearest sub-voxel may have gone, or may be one that
- * came (content.glsl). Stored lengths are rounded down and rounding keeps order: a box whose nearest sub-voxel would be stored
+ * came (dirty_bounds.glsl). Stored lengths are rounded down and rounding keeps order: a box whose nearest sub-voxel would be stored
  * as further away cannot matter. Four threads per block. */
 
-const uint BOXES = uint(2 * SDFGI_CONTENT_STRIPS);
+const uint BOXES = uint(2 * SDFGI_BOUNDS_STRIPS);
 const uint BLOCKS = uint(SDFGI_GROUP_LINES / 4);
-const int FAR = 2 * SDFGI_CONTENT_ORIGIN; /* cells: beyond all boxes */
+const int FAR = 2 * SDFGI_BOUNDS_ORIGIN; /* cells: beyond all boxes */
 
-shared ivec3 content_lows[BOXES + 2u], content_highs[BOXES + 2u]; /* the last two: around all that went, and all that came */
-shared uint content_count;
+shared ivec3 bounds_lows[BOXES + 2u], bounds_highs[BOXES + 2u]; /* the last two: around all that went, and all that came */
+shared uint bounds_count;
 shared uint stale[2];
 
-void content_keep(ivec3 low, ivec3 high, uint all)
+void bounds_keep(ivec3 low, ivec3 high, uint all)
 {
-    const uint i = atomicAdd(content_count, 1u);
-    content_lows[i] = low;
-    content_highs[i] = high;
+    const uint i = atomicAdd(bounds_count, 1u);
+    bounds_lows[i] = low;
+    bounds_highs[i] = high;
     for (int axis = 0; axis < 3; axis++) {
-        atomicMin(content_lows[all][axis], low[axis]);
-        atomicMax(content_highs[all][axis], high[axis]);
+        atomicMin(bounds_lows[all][axis], low[axis]);
+        atomicMax(bounds_highs[all][axis], high[axis]);
     }
 }
 
 /* Brings boxes that hold anything to the front, in any order. */
-void fetch_content()
+void fetch_bounds()
 {
     const uint lane = gl_LocalInvocationIndex;
     if (lane == 0u)
-        content_count = 0u;
+        bounds_count = 0u;
     if (lane < 2u) {
-        content_lows[BOXES + lane] = ivec3(FAR);
-        content_highs[BOXES + lane] = ivec3(-FAR);
+        bounds_lows[BOXES + lane] = ivec3(FAR);
+        bounds_highs[BOXES + lane] = ivec3(-FAR);
     }
     barrier();
     if (lane < BOXES) {
-        const ivec3 low = content_low(args.cascade, lane), high = content_high(args.cascade, lane);
-        if (content_any(args.cascade, lane))
-            content_keep(low, high, BOXES + uint(lane >= CONTENT_CAME));
+        const ivec3 low = bounds_low(args.cascade, lane), high = bounds_high(args.cascade, lane);
+        if (bounds_any(args.cascade, lane))
+            bounds_keep(low, high, BOXES + uint(lane >= BOUNDS_ADDED));
     }
     barrier();
 }
@@ -129,9 +129,9 @@ bool block_changed(ivec3 block)
 
 /* Whether a sub-voxel of a box may be as near to the centre of a cell of [first, last] as `stored` says, and within reach.
  * Further than the cascade is wide is as good as that: nearer than it is only costs a search. */
-bool content_reaches(uint box, ivec3 first, ivec3 last, uint stored)
+bool bounds_reaches(uint box, ivec3 first, ivec3 last, uint stored)
 {
-    const ivec3 way = clamp(max(8 * (content_lows[box] - last) - 3, 8 * (first - content_highs[box]) + 5), 1,
+    const ivec3 way = clamp(max(8 * (bounds_lows[box] - last) - 3, 8 * (first - bounds_highs[box]) + 5), 1,
                             8 * space_resolution() - 1);
     const uvec3 square = uvec3(way * way);
     const uint most = min(stored, distance_reach() - 1u);
@@ -147,16 +147,16 @@ bool layer_is_stale(ivec3 first)
     for (int i = 0; i < 8; i++)
         most = max(most, max(pairs[i] & 0xffffu, pairs[i] >> 16u));
     /* Two boxes rule out most layers, and with them up to 32. */
-    if (!content_reaches(BOXES, first, first + ivec3(3, 3, 0), most) &&
-        !content_reaches(BOXES + 1u, first, first + ivec3(3, 3, 0), most))
+    if (!bounds_reaches(BOXES, first, first + ivec3(3, 3, 0), most) &&
+        !bounds_reaches(BOXES + 1u, first, first + ivec3(3, 3, 0), most))
         return false;
-    for (uint box = 0u; box < content_count; box++) {
-        if (!content_reaches(box, first, first + ivec3(3, 3, 0), most))
+    for (uint box = 0u; box < bounds_count; box++) {
+        if (!bounds_reaches(box, first, first + ivec3(3, 3, 0), most))
             continue;
         for (int i = 0; i < 8; i++) {
             const ivec3 cell = first + ivec3(2 * (i & 1), i >> 1, 0);
-            if (content_reaches(box, cell, cell, pairs[i] & 0xffffu) ||
-                content_reaches(box, cell + ivec3(1, 0, 0), cell + ivec3(1, 0, 0), pairs[i] >> 16u))
+            if (bounds_reaches(box, cell, cell, pairs[i] & 0xffffu) ||
+                bounds_reaches(box, cell + ivec3(1, 0, 0), cell + ivec3(1, 0, 0), pairs[i] >> 16u))
                 return true;
         }
     }
@@ -165,11 +165,11 @@ bool layer_is_stale(ivec3 first)
 
 void find_blocks(uint group)
 {
-    const uint lane = gl_LocalInvocationIndex, side = sdfgi_frame.size.x >> 2u;
-    const uint x = args.first + group / side, z = group % side;
+    const uint lane = gl_LocalInvocationIndex, side = sdfgi_frame.resolution >> 2u;
+    const uint x = args.first_block + group / side, z = group % side;
     if (lane < 2u)
         stale[lane] = 0u;
-    fetch_content();
+    fetch_bounds();
     for (uint y = lane / 4u; y < side; y += BLOCKS) {
         const ivec3 block = ivec3(x, y, z);
         if (args.box_count == 0u || block_changed(block) || layer_is_stale(4 * block + ivec3(0, 0, lane & 3u)))
@@ -184,7 +184,7 @@ void find_blocks(uint group)
 
 void main()
 {
-    const uint n = sdfgi_frame.size.x, row_groups = n * n / COLUMNS;
+    const uint n = sdfgi_frame.resolution, row_groups = n * n / COLUMNS;
     if (gl_WorkGroupID.x < row_groups)
         find_rows(gl_WorkGroupID.x);
     else

@@ -12,7 +12,7 @@ layout(local_size_x = SDFGI_GROUP_CELLS, local_size_y = SDFGI_GROUP_CELLS, local
 
 uint flood_slot(uint half_index, ivec3 cell)
 {
-    const uint n = sdfgi_frame.size.y;
+    const uint n = sdfgi_frame.resolution_log2;
     return (uint(cell.x) | uint(cell.y) << n | uint(cell.z) << (2u * n)) + half_index * (1u << (3u * n));
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * One jump: every cell looks at the pointers of its 26 neighbours at args.step cells. One thread per cell. */
+ * One jump: every cell looks at the pointers of its 26 neighbours at args.jump cells. One thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "flood.glsl"
@@ -7,7 +7,7 @@
 /* Pointer of a neighbour; none outside the volume. */
 uint neighbour(ivec3 cell, ivec3 offset)
 {
-    const ivec3 other = cell + offset * int(args.step);
+    const ivec3 other = cell + offset * int(args.jump);
     return cell_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
 }
 

@@ -13,7 +13,7 @@
 
 uint light_block_bits()
 {
-    return sdfgi_frame.size.y - 2u;
+    return sdfgi_frame.resolution_log2 - 2u;
 }
 
 uint light_block_from_coords(uvec3 block)
@@ -47,19 +47,19 @@ uint light_row_count()
 /* First of a row's two words. */
 uint light_row_slot(uint row)
 {
-    return light_block_slot(SDFGI_GROUP_LINEAR * light_row_count()) + 2u * row;
+    return sdfgi_scratch_light_rows(sdfgi_frame.resolution_log2) + 2u * row;
 }
 
 /* First of the two words of direct light that an entry of the list before had. */
 uint light_before_slot(uint entry)
 {
-    return light_row_slot(light_row_count()) + 2u * entry;
+    return sdfgi_scratch_light_before(sdfgi_frame.resolution_log2) + 2u * entry;
 }
 
 /* The entry of the n-th cell in renewed blocks, then its texel index. */
-uint light_renewed_slot(uint n)
+uint light_dirty_slot(uint n)
 {
-    return light_before_slot(sdfgi_frame.light.y) + 2u * n;
+    return sdfgi_scratch_light_dirty(sdfgi_frame.resolution_log2, sdfgi_frame.light_cell_room) + 2u * n;
 }
 
 /* Where there are more workgroups than fit a row. */
@@ -68,17 +68,15 @@ uint light_group()
     return gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
 }
 
-/* The entry that is a pass's n-th: of the cells in renewed blocks where args.step = 1, else of those from args.low.x up to
- * args.high.x. False if there is none. */
-bool light_entry(sdfgi_pass_args args, uint cascade, uint n, out uint entry)
+/* The n-th entry of the cells in dirty blocks, or of the range [first, end). Returns false if there is none. */
+bool light_entry(uint cascade, bool only_dirty, uint first, uint end, uint n, out uint entry)
 {
-    const bool renewed = args.step != 0u;
-    const uint end = renewed ? min(sdfgi_counters[SDFGI_COUNTER_LIGHT_RENEWED + cascade], sdfgi_frame.light.y)
-                             : uint(args.high.x - args.low.x);
+    const uint count = only_dirty ? min(sdfgi_counters[SDFGI_COUNTER_LIGHT_DIRTY + cascade], sdfgi_frame.light_cell_room)
+                                  : end - first;
     entry = n;
-    if (n < end)
-        entry = renewed ? sdfgi_scratch[light_renewed_slot(n)] : uint(args.low.x) + n;
-    return n < end && entry < light_cell_count(cascade);
+    if (n < count)
+        entry = only_dirty ? sdfgi_scratch[light_dirty_slot(n)] : first + n;
+    return n < count && entry < light_cell_count(cascade);
 }
 
 #endif

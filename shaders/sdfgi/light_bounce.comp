@@ -8,12 +8,12 @@
 #include "../include/sdfgi_lookup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_light_bounce_args args; };
 
 /* Feedback times albedo, kept contractive so that light in a closed white room stays finite. */
 vec3 bounce_gain(vec3 albedo)
 {
-    const vec3 gain = albedo * sdfgi_frame.bias.z;
+    const vec3 gain = albedo * sdfgi_frame.bounce_feedback;
     if (any(greaterThan(gain, vec3(SDFGI_MAX_BOUNCE_GAIN))))
         counter_add(SDFGI_COUNTER_BOUNCE_CLAMPED, 1u);
     return min(gain, vec3(SDFGI_MAX_BOUNCE_GAIN));
@@ -23,7 +23,7 @@ void main()
 {
     const uint cascade = args.cascade + gl_WorkGroupID.y;
     uint entry;
-    if (!light_entry(args, cascade, gl_GlobalInvocationID.x, entry))
+    if (!light_entry(cascade, args.only_dirty != 0u, args.first, args.end, gl_GlobalInvocationID.x, entry))
         return;
     const uint slot = light_cell_slot(cascade, entry);
     const ivec3 cell = light_cell_position(cascade, sdfgi_light_cells[slot]);
@@ -40,8 +40,7 @@ void main()
         const uint a = uint(findLSB(rest));
         const uint block = surface_block(cascade, cell - surface_axis_step(a));
         axes[a] = light_unpack_axis(direct, a) + surface_emission(block, a);
-        /* args.fresh: no probe of these cascades has a value yet. */
-        if ((args.fresh >> cascade & 1u) == 0u) {
+        if (args.without_probes == 0u) {
             const vec4 sum = lookup_light_cell(cascade, cell, surface_normal(block, a), mask);
             axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
         }

@@ -15,20 +15,20 @@ layout(std430, set = 0, binding = SDFGI_BINDING_LIGHT_CELLS) buffer sdfgi_light_
 
 uint light_cell_count(uint cascade)
 {
-    return min(sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + cascade], sdfgi_frame.light.y);
+    return min(sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + cascade], sdfgi_frame.light_cell_room);
 }
 
 /* Fixed for a place in the world, whatever texel holds it. */
 uint light_cell_hash(uint cascade, ivec3 cell)
 {
-    const ivec3 base = sdfgi_frame.cascades[cascade].probe_base.xyz * SDFGI_PROBE_SPACING;
+    const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;
     return random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
 }
 
 /* First word of an entry. */
 uint light_cell_slot(uint cascade, uint entry)
 {
-    return 3u * (cascade * sdfgi_frame.light.y + entry);
+    return 3u * (cascade * sdfgi_frame.light_cell_room + entry);
 }
 
 ivec3 light_cell_position(uint cascade, uint index)

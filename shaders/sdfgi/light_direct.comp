@@ -9,7 +9,7 @@
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_SURFACES) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_light_direct_args args; };
 layout(std430, set = 0, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_lights_buffer
 {
     sdfgi_light_params sdfgi_lights[];
@@ -30,24 +30,24 @@ shared vec3 reflected[CELLS][6];
  * inverse square is cut off: a voxelised surface is no closer than that (HARD_CASES row 47). */
 vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, out float range)
 {
-    if ((light.kind.x & 3u) == SDFGI_LIGHT_KIND_DIRECTIONAL) {
-        to_light = -light.direction.xyz;
+    if ((light.kind & 3u) == SDFGI_LIGHT_KIND_DIRECTIONAL) {
+        to_light = -light.direction;
         range = 1e9;
-        return light.intensity.rgb;
+        return light.intensity;
     }
-    const vec3 way = light.position.xyz - position;
-    const float floor_m = 0.5 * sdfgi_frame.cascades[args.cascade].origin_rel.w;
+    const vec3 way = light.position - position;
+    const float floor_m = 0.5 * sdfgi_frame.cascades[args.cascade].cell_m;
     range = length(way);
     to_light = range > 0.0 ? way / range : vec3(0.0, 1.0, 0.0);
-    if (light.position.w > 0.0 && range > light.position.w)
+    if (light.range_m > 0.0 && range > light.range_m)
         return vec3(0.0);
     float cone = 1.0;
-    if ((light.kind.x & 3u) == SDFGI_LIGHT_KIND_SPOT) {
-        const float edge = dot(-to_light, light.direction.xyz) - light.direction.w;
-        cone = clamp(edge * light.intensity.w, 0.0, 1.0);
+    if ((light.kind & 3u) == SDFGI_LIGHT_KIND_SPOT) {
+        const float edge = dot(-to_light, light.direction) - light.cos_outer;
+        cone = clamp(edge * light.cone_scale, 0.0, 1.0);
         cone *= cone;
     }
-    return light.intensity.rgb * (cone / max(range * range, floor_m * floor_m));
+    return light.intensity * (cone / max(range * range, floor_m * floor_m));
 }
 
 /* The surface behind a cell that faces along an axis. */
@@ -80,8 +80,8 @@ bool light_reaches(ivec3 cell, uint light)
     vec3 to_light;
     float range_m;
     light_arriving(sdfgi_lights[light], position_from_cascade(args.cascade, pos), to_light, range_m);
-    const float cell_m = sdfgi_frame.cascades[args.cascade].origin_rel.w;
-    return !trace_solid(args.cascade, sdfgi_frame.size.w - 1u, pos, to_light, range_m / cell_m).hit;
+    const float cell_m = sdfgi_frame.cascades[args.cascade].cell_m;
+    return !trace_solid(args.cascade, sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m).hit;
 }
 
 /* Bits of the lights from `first` on that would light a surface. */
@@ -100,7 +100,7 @@ void list_rays(uint own, uint axis, uint first)
     for (uint i = axis; i < ROUND; i += 6u) {
         if ((arriving[own] >> i & 1u) == 0u)
             continue;
-        if ((sdfgi_lights[first + i].kind.x & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
+        if ((sdfgi_lights[first + i].kind & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
             rays[atomicAdd(ray_count, 1u)] = own * ROUND + i;
         else
             atomicOr(reaching[own], 1u << i);
@@ -110,7 +110,7 @@ void list_rays(uint own, uint axis, uint first)
 /* What a round's lights bring to the surface that is this thread's, if there is one. Called by the whole workgroup. */
 vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
 {
-    const uint count = min(sdfgi_frame.light.x - first, ROUND);
+    const uint count = min(sdfgi_frame.light_count - first, ROUND);
     barrier();
     if (axis == 0u)
         arriving[own] = reaching[own] = 0u;
@@ -124,7 +124,7 @@ vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
     list_rays(own, axis, first);
     barrier();
     /* Rays of one subgroup wait for each other: fewer than there are threads go to threads as far apart as can be. */
-    const uint apart = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.source);
+    const uint apart = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
     for (uint i = gl_LocalInvocationIndex; i < ray_count * apart; i += SDFGI_GROUP_SURFACES) {
         const uint cell = rays[i / apart] / ROUND, light = rays[i / apart] % ROUND;
         if (i % apart == 0u && light_reaches(cells[cell], first + light))
@@ -154,7 +154,7 @@ void main()
 {
     const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
     uint entry;
-    bool lit = light_entry(args, args.cascade, light_group() * CELLS + own, entry);
+    bool lit = light_entry(args.cascade, args.only_dirty != 0u, args.first, args.end, light_group() * CELLS + own, entry);
     const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
     const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
     lit = lit && cell_served(args.cascade, cell);
@@ -168,7 +168,7 @@ void main()
         atomicOr(facing[own], 1u << axis);
     const surface s = surface_behind(cell, axis);
     vec3 sum = vec3(0.0);
-    for (uint first = 0u; first < sdfgi_frame.light.x; first += ROUND)
+    for (uint first = 0u; first < sdfgi_frame.light_count; first += ROUND)
         sum += light_round(first, own, axis, faces, s);
     reflected[own][axis] = faces ? sum * surface_albedo(s.block) / PI : vec3(0.0);
     barrier();

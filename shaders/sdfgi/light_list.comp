@@ -9,7 +9,7 @@
 #include "light_blocks.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
 layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
 
 shared uvec4 blocks[SDFGI_GROUP_LINEAR]; /* as in the scratch buffer */
@@ -50,8 +50,8 @@ void write_groups(uint record, uint cells, uint per_group)
 void write_totals(uvec2 total)
 {
     sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + args.cascade] = total.x;
-    sdfgi_counters[SDFGI_COUNTER_LIGHT_RENEWED + args.cascade] = total.y;
-    const uint renewed = min(total.y, sdfgi_frame.light.y);
+    sdfgi_counters[SDFGI_COUNTER_LIGHT_DIRTY + args.cascade] = total.y;
+    const uint renewed = min(total.y, sdfgi_frame.light_cell_room);
     sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_CELLS) + args.cascade) + 3u] = total.x;
     sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] = renewed;
     write_groups(uint(SDFGI_INDIRECT_CELLS) + args.cascade, renewed, SDFGI_GROUP_LINEAR);
@@ -90,24 +90,24 @@ uint bit_of(uvec2 mask, uint n)
 uvec2 cell_at(uvec3 texel)
 {
     const uint index = texel_index(texel);
-    return uvec2(index, index | args.cascade << (3u * sdfgi_frame.size.y));
+    return uvec2(index, index | args.cascade << (3u * sdfgi_frame.resolution_log2));
 }
 
 bool has_room(uint entry, uint cell)
 {
-    const bool room = entry < sdfgi_frame.light.y;
+    const bool room = entry < sdfgi_frame.light_cell_room;
     if (!room)
         sdfgi_light[cell] = uvec2(0u); /* counted, but without room nobody lights it */
     return room;
 }
 
 /* A cell in a renewed block, the n-th of those. */
-void renew_cell(uint entry, uint n, uvec3 texel)
+void dirty_cell(uint entry, uint n, uvec3 texel)
 {
     const uvec2 at = cell_at(texel);
-    if (n < sdfgi_frame.light.y) {
-        sdfgi_scratch[light_renewed_slot(n)] = entry;
-        sdfgi_scratch[light_renewed_slot(n) + 1u] = at.x;
+    if (n < sdfgi_frame.light_cell_room) {
+        sdfgi_scratch[light_dirty_slot(n)] = entry;
+        sdfgi_scratch[light_dirty_slot(n) + 1u] = at.x;
     }
     if (!has_room(entry, at.y))
         return;
@@ -149,7 +149,7 @@ void main()
         const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
         const uvec3 texel = 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside;
         if (blocks[block].z != 0u)
-            renew_cell(start.x + n, start.y + before.y + rank, texel);
+            dirty_cell(start.x + n, start.y + before.y + rank, texel);
         else
             keep_cell(start.x + n, blocks[block].w + rank, texel);
     }

@@ -6,11 +6,11 @@
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_MASKS
-#include "changed.glsl"
+#include "dirty.glsl"
 #include "light_blocks.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_light_mark_args args; };
 
 layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
 
@@ -44,15 +44,15 @@ uint block_of_entry(uint entry)
 /* Where the list was too short, blocks from its last entry on may hold cells that have room this time. */
 bool lacked_room(uint block)
 {
-    const uint room = sdfgi_frame.light.y;
+    const uint room = sdfgi_frame.light_cell_room;
     return count_before() > room && block >= block_of_entry(room - 1u);
 }
 
-bool is_renewed(uint block)
+bool is_dirty(uint block)
 {
     const ivec3 cage = cell_from_texel(args.cascade, 4u * light_block_coords(block)) / SDFGI_PROBE_SPACING;
-    return args.fresh != 0u ||
-           changed_near(args.cascade, cage * SDFGI_PROBE_SPACING, (cage + 1) * SDFGI_PROBE_SPACING, 0) ||
+    return args.rebuild != 0u ||
+           dirty_near(args.cascade, cage * SDFGI_PROBE_SPACING, (cage + 1) * SDFGI_PROBE_SPACING, 0) ||
            lacked_room(block);
 }
 
@@ -63,11 +63,11 @@ uint row_of(uint block)
 
 void keep_entry(uint entry)
 {
-    const uint count = min(count_before(), sdfgi_frame.light.y);
-    if (args.fresh != 0u || entry >= count)
+    const uint count = min(count_before(), sdfgi_frame.light_cell_room);
+    if (args.rebuild != 0u || entry >= count)
         return;
     const uint block = block_of_entry(entry);
-    if (is_renewed(block))
+    if (is_dirty(block))
         return;
     const uint slot = light_cell_slot(args.cascade, entry), before = light_before_slot(entry);
     sdfgi_scratch[before] = sdfgi_light_cells[slot + 1u];
@@ -87,22 +87,22 @@ void keep_entry(uint entry)
 /* Without a list before, or with one that was too short, any block may be renewed. */
 bool searches_all()
 {
-    return args.fresh != 0u || count_before() > sdfgi_frame.light.y;
+    return args.rebuild != 0u || count_before() > sdfgi_frame.light_cell_room;
 }
 
 /* Cells whose cages touch a box that changed. */
-void renewed_cells(int box, out ivec3 low, out ivec3 high)
+void dirty_cells(int box, out ivec3 low, out ivec3 high)
 {
     const ivec3 end = ivec3(space_resolution());
-    low = clamp(sdfgi_frame.cascades[args.cascade].changed[2 * box].xyz - SDFGI_PROBE_SPACING, ivec3(0), end);
-    high = clamp(sdfgi_frame.cascades[args.cascade].changed[2 * box + 1].xyz + SDFGI_PROBE_SPACING, ivec3(0), end);
+    low = clamp(sdfgi_frame.cascades[args.cascade].dirty[box].low - SDFGI_PROBE_SPACING, ivec3(0), end);
+    high = clamp(sdfgi_frame.cascades[args.cascade].dirty[box].high + SDFGI_PROBE_SPACING, ivec3(0), end);
 }
 
 bool in_earlier_box(int box, ivec3 cell)
 {
     for (int i = 0; i < box; i++) {
         ivec3 low, high;
-        renewed_cells(i, low, high);
+        dirty_cells(i, low, high);
         if (all(greaterThanEqual(cell, low)) && all(lessThan(cell, high)))
             return true;
     }
@@ -111,17 +111,17 @@ bool in_earlier_box(int box, ivec3 cell)
 
 /* The n-th of the blocks in question: those that boxes which changed name, box by box. False if it is not renewed, or an earlier
  * box has it; `more` is false beyond the last one. */
-bool renewed_block(uint n, out uint block, out bool more)
+bool dirty_block(uint n, out uint block, out bool more)
 {
     block = n;
     more = false;
     if (searches_all()) {
         more = n < light_block_count();
-        return more && is_renewed(n);
+        return more && is_dirty(n);
     }
-    for (int i = 0; i < changed_count(args.cascade); i++) {
+    for (int i = 0; i < dirty_count(args.cascade); i++) {
         ivec3 low, high;
-        renewed_cells(i, low, high);
+        dirty_cells(i, low, high);
         const uvec3 size = uvec3(max(high - low, ivec3(0))) / 4u;
         const uint blocks = size.x * size.y * size.z;
         if (n < blocks) {
@@ -163,12 +163,12 @@ void mark_block(uint block)
 
 void main()
 {
-    for (uint entry = gl_GlobalInvocationID.x; entry < sdfgi_frame.light.y; entry += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR)
+    for (uint entry = gl_GlobalInvocationID.x; entry < sdfgi_frame.light_cell_room; entry += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR)
         keep_entry(entry);
     bool more = true;
     for (uint n = gl_WorkGroupID.x; more; n += gl_NumWorkGroups.x) {
         uint block;
-        if (renewed_block(n, block, more))
+        if (dirty_block(n, block, more))
             mark_block(block);
         barrier();
     }

@@ -48,7 +48,7 @@ uint line_slot()
 
 uint line_cells_per_slot()
 {
-    return sdfgi_frame.size.x / SLOTS;
+    return sdfgi_frame.resolution / SLOTS;
 }
 
 /* The way from the centre of cell 0, in halves of a sub-voxel. */
@@ -89,7 +89,7 @@ void line_mark(uint cell, uint four)
 
 uint line_words()
 {
-    return sdfgi_frame.size.x >> 3u;
+    return sdfgi_frame.resolution >> 3u;
 }
 
 /* Once all are marked. */
@@ -125,7 +125,7 @@ uint line_room()
 /* Fills line_batch with the places of the candidates numbered from `first`. */
 void line_put_batch(uint first)
 {
-    for (uint cell = gl_LocalInvocationIndex; cell < sdfgi_frame.size.x; cell += SDFGI_GROUP_LINES) {
+    for (uint cell = gl_LocalInvocationIndex; cell < sdfgi_frame.resolution; cell += SDFGI_GROUP_LINES) {
         const uint four = line_places[cell >> 3u] >> 4u * (cell & 7u) & 15u;
         uint at = line_rank(4u * cell) - first;
         for (uint i = 0u; i < 4u; i++)

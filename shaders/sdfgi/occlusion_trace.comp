@@ -5,12 +5,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_OCCLUSION
-#include "changed.glsl"
+#include "dirty.glsl"
 #include "probe_common.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_OCCLUSION) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
 
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
@@ -32,7 +32,7 @@ vec3 texel_direction(uint texel)
 
 bool looks_into_news(vec3 pos, uint texel)
 {
-    return changed_crosses(args.cascade, pos, cells_from_metric(texel_direction(texel)), SDFGI_OCCLUSION_RANGE,
+    return dirty_crosses(args.cascade, pos, cells_from_metric(texel_direction(texel)), SDFGI_OCCLUSION_RANGE,
                            BESIDE / space_y_scale());
 }
 
@@ -112,7 +112,7 @@ void main()
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
     const uint slot = probe_index(args.cascade, probe), state = sdfgi_probes[slot];
     const int near = int(ceil((SDFGI_OCCLUSION_RANGE + BESIDE) / space_y_scale() + MOVED));
-    if (probe_is_dead(state) || !changed_near(args.cascade, corner, corner, near))
+    if (probe_is_dead(state) || !dirty_near(args.cascade, corner, corner, near))
         return;
     const vec3 pos = probe_position(probe, state);
     find_texels(pos, (state & SDFGI_PROBE_NEW) != 0u);

@@ -13,7 +13,7 @@
 
 uint occupancy_side_bits()
 {
-    return sdfgi_frame.size.y;
+    return sdfgi_frame.resolution_log2;
 }
 
 /* Two cells along x share a word. Four cells along x times two along z lie side by side: what one workgroup of distance_exact
@@ -36,24 +36,24 @@ uint runs_bit(uint layer, uint place)
 
 uint runs_slot(uint bit)
 {
-    return (2u << (3u * occupancy_side_bits())) + (bit >> 5u);
+    return sdfgi_scratch_runs(occupancy_side_bits()) + (bit >> 5u);
 }
 
 /* The runs in which a row holds bits. */
 uint runs_of_row(uint layer, uint place)
 {
     const uint bit = runs_bit(layer, place);
-    return bitfieldExtract(sdfgi_scratch[runs_slot(bit)], int(bit & 31u), int(sdfgi_frame.size.x >> RUN_BITS));
+    return bitfieldExtract(sdfgi_scratch[runs_slot(bit)], int(bit & 31u), int(sdfgi_frame.resolution >> RUN_BITS));
 }
 
 uint layer_parts()
 {
-    return sdfgi_frame.size.x / SDFGI_GROUP_COLUMNS;
+    return sdfgi_frame.resolution / SDFGI_GROUP_COLUMNS;
 }
 
 uint layers_slot(uint y, uint part)
 {
-    return runs_slot(runs_bit(4u * sdfgi_frame.size.x, 0u)) + y * layer_parts() + part;
+    return sdfgi_scratch_layers(occupancy_side_bits()) + y * layer_parts() + part;
 }
 
 /* A bit per layer of sub-voxels of a layer of cells. All parts are read at once. */
@@ -67,7 +67,7 @@ uint four_layers(uint y)
 
 uint stale_slot(uint block_x, uint block_z)
 {
-    return layers_slot(sdfgi_frame.size.x, 0u) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
+    return sdfgi_scratch_dirty_blocks(occupancy_side_bits()) + 2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
 }
 
 /* A bit per block of a column. */

@@ -5,8 +5,10 @@
 
 #include "../include/sdfgi_space.glsl"
 #include "../shared/args.h"
+#include "../shared/counters.h"
+#include "../shared/scratch.h"
 
-/* Flood pointers (two halves of one uint per cell) or accumulators (planes of one uint per block). */
+/* Shared by several tenants, one after another: see shared/scratch.h. */
 layout(std430, set = 0, binding = SDFGI_BINDING_SCRATCH) buffer sdfgi_scratch_buffer
 {
     uint sdfgi_scratch[];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Publishes irradiance: the sums of this ring so far, and for the rest of the ring the value of the one before. At the
- * end of a ring (args.step = 1) only the new sums count, the change against the ring before is measured, and the sums
+ * end of a ring (args.cycle_ends = 1) only the new sums count, the change against the ring before is measured, and the sums
  * start again: a static scene repeats a fixed ring and so converges exactly.
  * A part of a ring strays from its mean, in an unchanged scene by the same amounts in every ring. Surfaces are therefore shown,
  * eased in, only what strays further than the ring before did; light cells read all of it, so that light settles as fast as it
@@ -12,7 +12,7 @@
 #include "../lib/light_pack.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_probe_blend_args args; };
 
 /* Share of a ring's weight, stored as a half float, from which on nothing is missing. */
 const float COMPLETE = 0.99;
@@ -49,7 +49,7 @@ struct texel {
 /* Relative, of one texel. */
 float texel_change(vec3 value, vec3 before)
 {
-    const float brightest = uintBitsToFloat(sdfgi_frame.ring.w);
+    const float brightest = sdfgi_frame.brightest_texel;
     const vec3 change = abs(value - before) / (max(value, before) + brightest * DARK_SHARE + 1e-12);
     return min(max(change.r, max(change.g, change.b)), 1.0);
 }
@@ -62,7 +62,7 @@ texel load_texel(uint slot, bool young, bool fresh)
     t.before = vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
     /* What a whole ring weighs; a probe that was new in the middle of one has missed its beginning. */
     const float ring = max(t.before.w, probe_ring_weight());
-    const bool whole = args.step != 0u && t.sum.w > COMPLETE * ring;
+    const bool whole = args.cycle_ends != 0u && t.sum.w > COMPLETE * ring;
     float rest = whole || fresh ? 0.0 : min(t.before.w, max(ring - t.sum.w, 0.0));
     if (young && t.sum.w > 0.0)
         rest = min(t.before.w, YOUNG_MEMORY * t.sum.w);
@@ -110,7 +110,7 @@ vec4 next_memory(vec4 memory, float change, bool born, bool ring_ends)
 
 bool is_sure(float change, float doubt)
 {
-    const float gathered = float(sdfgi_frame.ring.y + sdfgi_frame.ring.x) / float(sdfgi_frame.ring.z);
+    const float gathered = float(sdfgi_frame.first_sample + sdfgi_frame.rays_per_frame) / float(sdfgi_frame.cycle_samples);
     return change > YOUNG_CHANGE * gathered + DOUBT * doubt + LEAST_DOUBT;
 }
 
@@ -122,7 +122,7 @@ void main()
     if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
         return;
     const uint i = gl_LocalInvocationIndex;
-    const bool ring_ends = args.step != 0u, fresh = (args.fresh >> cascade & 1u) != 0u;
+    const bool ring_ends = args.cycle_ends != 0u, fresh = args.without_history != 0u;
     const bool has_texel = i < uint(SDFGI_IRRADIANCE_COUNT);
     const vec4 memory = sdfgi_sums[probe_memory(slot)];
     if (i == 0u) {

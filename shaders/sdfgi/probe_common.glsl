@@ -38,16 +38,16 @@ uint probe_memory(uint slot)
 
 ivec3 probe_from_linear(uint i)
 {
-    const uint side = sdfgi_frame.size.z;
+    const uint side = sdfgi_frame.probes_per_side;
     return ivec3(i % side, i / side % side, i / (side * side));
 }
 
 /* The probe that a probe_index stands for. */
 ivec3 probe_from_index(uint index, out uint cascade)
 {
-    const uint side = sdfgi_frame.size.z;
+    const uint side = sdfgi_frame.probes_per_side;
     cascade = index / (side * side * side);
-    const ivec3 probe = probe_from_linear(index % (side * side * side)) - sdfgi_frame.cascades[cascade].probe_wrap.xyz;
+    const ivec3 probe = probe_from_linear(index % (side * side * side)) - sdfgi_frame.cascades[cascade].probe_wrap;
     return probe + int(side) * ivec3(lessThan(probe, ivec3(0)));
 }
 
@@ -55,8 +55,8 @@ ivec3 probe_from_index(uint index, out uint cascade)
  * 20 points in each of the 25 texels, edges of walls cost three times the error (docs/decisions.md). */
 vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_angle)
 {
-    const ivec3 world = (probe + sdfgi_frame.cascades[cascade].probe_base.xyz) & (SDFGI_HASH_PERIOD - 1);
-    const uint shift = random_hash3(world, sdfgi_frame.light.w + cascade);
+    const ivec3 world = (probe + sdfgi_frame.cascades[cascade].probe_base) & (SDFGI_HASH_PERIOD - 1);
+    const uint shift = random_hash3(world, sdfgi_frame.seed + cascade);
     const vec3 point = octahedral_point(random_r2(s, shift) * 2.0 - 1.0);
     solid_angle = octahedral_solid_angle(point);
     return normalize(point);
@@ -66,7 +66,7 @@ vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_a
  * solid angle times its cosine is pi / 4. */
 float probe_ring_weight()
 {
-    return 0.9 * 0.25 * 3.14159265 * float(sdfgi_frame.ring.z);
+    return 0.9 * 0.25 * 3.14159265 * float(sdfgi_frame.cycle_samples);
 }
 
 /* Directions of the stored texels: they span the map from edge to edge, so that all six axes are among them and walls,

@@ -8,12 +8,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_PROBES
-#include "changed.glsl"
+#include "dirty.glsl"
 #include "probe_common.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
 
 /* Farthest move, in cells: less than half the probe spacing, so that a probe stays the nearest of its lattice point. */
 const int REACH = 3;
@@ -87,14 +87,14 @@ uint roomiest_place(ivec3 corner)
 
 bool entered(ivec3 corner)
 {
-    const ivec3 low = sdfgi_frame.cascades[args.cascade].kept_low.xyz;
-    const ivec3 high = sdfgi_frame.cascades[args.cascade].kept_high.xyz;
+    const ivec3 low = sdfgi_frame.cascades[args.cascade].kept_low;
+    const ivec3 high = sdfgi_frame.cascades[args.cascade].kept_high;
     return any(greaterThanEqual(low, high)) || any(lessThan(corner, low)) || any(greaterThan(corner, high));
 }
 
 bool is_placed(ivec3 corner)
 {
-    return entered(corner) || changed_near(args.cascade, corner, corner, NEAR_PLACE);
+    return entered(corner) || dirty_near(args.cascade, corner, corner, NEAR_PLACE);
 }
 
 /* This probe, or the next one along an axis. */
@@ -105,7 +105,7 @@ ivec3 next_probe(ivec3 probe, uint i)
 
 bool exists(ivec3 probe)
 {
-    return all(lessThan(probe, ivec3(sdfgi_frame.size.z)));
+    return all(lessThan(probe, ivec3(sdfgi_frame.probes_per_side)));
 }
 
 /* Which of the four have anything in the eight cells around their corners. */
@@ -155,7 +155,7 @@ void main()
     const uint lane = gl_LocalInvocationIndex, slot = probe_index(args.cascade, probe);
     const uint before = sdfgi_probes[slot] & ~SDFGI_PROBE_NEW;
     uint state = before;
-    if (changed_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
+    if (dirty_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
         find_blocked(probe);
         state = place(probe, 0u);
         const uint seen = find_links(probe, state);

@@ -9,7 +9,7 @@
 #include "../include/sdfgi_lookup.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
 
 shared lookup_visibility visible;
 shared uint seen_by;
@@ -59,7 +59,7 @@ void main()
     if (probe_is_dead(state) || (state & SDFGI_PROBE_NEW) == 0u)
         return;
     const uint i = gl_LocalInvocationIndex, coarser = args.cascade + 1u;
-    const bool exists = coarser < sdfgi_frame.size.w;
+    const bool exists = coarser < sdfgi_frame.cascade_count;
     if (i == 0u)
         seen_by = 0u;
     barrier();

@@ -24,7 +24,7 @@ bool cache_light(uint code, vec3 dir, out vec3 light)
 {
     light = vec3(0.0);
     if (code == SDFGI_RAY_SKY)
-        light = sky_radiance(dir, sdfgi_frame.sky_zenith.rgb, sdfgi_frame.sky_horizon.rgb, sdfgi_frame.sky_ground.rgb);
+        light = sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground);
     if (code >= SDFGI_RAY_UNLIT)
         return true;
     uint axis;
@@ -45,11 +45,11 @@ void main()
     if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
         return;
     const bool young = probe_is_young(sdfgi_sums[probe_memory(slot)]);
-    const uint sent = min(sdfgi_frame.ring.x, MAX_RAYS), samples = sdfgi_frame.ring.z;
+    const uint sent = min(sdfgi_frame.rays_per_frame, MAX_RAYS), samples = sdfgi_frame.cycle_samples;
     const uint rays = young ? min(PROBE_YOUNG_FRAMES * sent, min(MAX_RAYS, samples)) : sent;
     for (uint i = gl_LocalInvocationIndex; i < rays; i += uint(SDFGI_GROUP_PROBE)) {
         /* This frame's, then those of the frames before, backwards. */
-        const uint s = i < sent ? sdfgi_frame.ring.y + i : (sdfgi_frame.ring.y + samples + sent - 1u - i) % samples;
+        const uint s = i < sent ? sdfgi_frame.first_sample + i : (sdfgi_frame.first_sample + samples + sent - 1u - i) % samples;
         const uint code = sdfgi_rays[slot * samples + s];
         float solid_angle;
         const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);

@@ -20,13 +20,13 @@ uint cache_pack(trace_hit hit)
 
 void trace(uint ray)
 {
-    const uint slot = ray / sdfgi_frame.ring.z;
+    const uint slot = ray / sdfgi_frame.cycle_samples;
     uint cascade;
     const ivec3 probe = probe_from_index(slot, cascade);
     float solid_angle;
-    const vec3 dir = probe_sample_direction(cascade, probe, ray % sdfgi_frame.ring.z, solid_angle);
+    const vec3 dir = probe_sample_direction(cascade, probe, ray % sdfgi_frame.cycle_samples, solid_angle);
     const vec3 pos = probe_position(probe, sdfgi_probes[slot]);
-    const trace_hit hit = trace_ray(cascade, sdfgi_frame.size.w - 1u, pos, dir, 1e9);
+    const trace_hit hit = trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
     if (hit.capped)
         ray_queue_add_capped();
     sdfgi_rays[ray] = cache_pack(hit);

@@ -10,13 +10,13 @@ layout(std430, set = 0, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer {
 
 uint ray_pack(uint cascade, ivec3 cell, uint axis)
 {
-    return (cell_index(cascade, cell) | axis << (3u * sdfgi_frame.size.y + 3u)) + 1u;
+    return (cell_index(cascade, cell) | axis << (3u * sdfgi_frame.resolution_log2 + 3u)) + 1u;
 }
 
 /* Where the light of a hit is stored, and the axis it is read along. */
 uint ray_light_index(uint code, out uint axis)
 {
-    const uint bits = 3u * sdfgi_frame.size.y + 3u;
+    const uint bits = 3u * sdfgi_frame.resolution_log2 + 3u;
     axis = (code - 1u) >> bits;
     return (code - 1u) & ((1u << bits) - 1u);
 }
@@ -25,7 +25,7 @@ ivec3 ray_cell(uint code, out uint cascade)
 {
     uint axis;
     const uint index = ray_light_index(code, axis);
-    cascade = index >> (3u * sdfgi_frame.size.y);
+    cascade = index >> (3u * sdfgi_frame.resolution_log2);
     return cell_from_texel(cascade, texel_from_index(index));
 }
 

@@ -4,8 +4,8 @@
  * is new a ray ends as before. One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "changed.glsl"
-#include "content.glsl"
+#include "dirty.glsl"
+#include "dirty_bounds.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 
@@ -16,14 +16,14 @@ const uint AT_ONCE = 4u;
 /* A light cell is up to two cells before its surface; besides, rounding. */
 const float MARGIN = 2.5;
 
-const uint STRIPS = uint(SDFGI_CONTENT_STRIPS);
+const uint STRIPS = uint(SDFGI_BOUNDS_STRIPS);
 
 /* Cells of a cascade, widened by MARGIN. Empty if low > high. */
-struct content_box {
+struct bounds_box {
     vec3 low, high;
 };
 /* Around what went per strip, around what came, around all that went, around all that came. */
-shared content_box boxes[2u * STRIPS + 2u];
+shared bounds_box boxes[2u * STRIPS + 2u];
 
 uint own_cascade()
 {
@@ -31,9 +31,9 @@ uint own_cascade()
 }
 
 /* Axis across which the boxes of a cascade lie in strips; below 0 where all of it is new. */
-int strip_axis(uint cascade)
+int bounds_axis(uint cascade)
 {
-    return sdfgi_frame.cascades[cascade].kept_low.w;
+    return sdfgi_frame.cascades[cascade].bounds_axis;
 }
 
 /* Called by the whole workgroup. */
@@ -42,14 +42,14 @@ void fetch_boxes(uint cascade)
     const uint lane = gl_LocalInvocationIndex;
     barrier();
     if (lane < 2u * STRIPS) {
-        const bool any_content = content_any(cascade, lane);
-        boxes[lane] = any_content ? content_box(vec3(content_low(cascade, lane)) - MARGIN,
-                                                vec3(content_high(cascade, lane)) + MARGIN)
-                                  : content_box(vec3(1e9), vec3(-1e9));
+        const bool any_bounds = bounds_any(cascade, lane);
+        boxes[lane] = any_bounds ? bounds_box(vec3(bounds_low(cascade, lane)) - MARGIN,
+                                                vec3(bounds_high(cascade, lane)) + MARGIN)
+                                  : bounds_box(vec3(1e9), vec3(-1e9));
     }
     barrier();
     if (lane < 2u) {
-        content_box all = boxes[lane * STRIPS];
+        bounds_box all = boxes[lane * STRIPS];
         for (uint i = lane * STRIPS + 1u; i < (lane + 1u) * STRIPS; i++) {
             all.low = min(all.low, boxes[i].low);
             all.high = max(all.high, boxes[i].high);
@@ -60,7 +60,7 @@ void fetch_boxes(uint cascade)
 }
 
 /* Where a ray is in a box, up to parameter `end`: empty if x > y. */
-vec2 box_passage(content_box box, vec3 pos, vec3 inv_dir, float end)
+vec2 box_passage(bounds_box box, vec3 pos, vec3 inv_dir, float end)
 {
     if (box.low.x > box.high.x)
         return vec2(1.0, 0.0);
@@ -71,11 +71,11 @@ vec2 box_passage(content_box box, vec3 pos, vec3 inv_dir, float end)
 
 int strip_of(float at)
 {
-    return clamp(int(floor(at)) * int(STRIPS) >> int(sdfgi_frame.size.y), 0, int(STRIPS) - 1);
+    return clamp(int(floor(at)) * int(STRIPS) >> int(sdfgi_frame.resolution_log2), 0, int(STRIPS) - 1);
 }
 
 /* True if a ray passes what went (side = 0) or came (1). Only strips that it crosses meanwhile matter. */
-bool passes_content(uint side, content_box all, int axis, vec3 pos, vec3 dir, float end)
+bool passes_bounds(uint side, bounds_box all, int axis, vec3 pos, vec3 dir, float end)
 {
     const vec3 inv_dir = 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
     const vec2 within = box_passage(all, pos, inv_dir, end);
@@ -98,7 +98,7 @@ struct ray_start {
 };
 
 /* Since `cascade` changed. A ray that hit something that was not lit may have done so beside the border. */
-bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 probe, ray_start start, uint s, uint code)
+bool ends_elsewhere(uint cascade, bounds_box went, bounds_box came, ivec3 probe, ray_start start, uint s, uint code)
 {
     if (code == SDFGI_RAY_UNLIT)
         return true;
@@ -110,7 +110,7 @@ bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 prob
             return false;
         const vec3 end = cascade_from_first(cascade, first_from_cascade(hit, vec3(cell) + 0.5));
         const float margin = MARGIN * exp2(float(hit - cascade));
-        if (changed_near(cascade, ivec3(floor(end)), ivec3(ceil(end)), int(ceil(MARGIN + margin))))
+        if (dirty_near(cascade, ivec3(floor(end)), ivec3(ceil(end)), int(ceil(MARGIN + margin))))
             return true;
         range = length(metric_from_cells(end - start.pos)) + margin;
     }
@@ -118,38 +118,38 @@ bool ends_elsewhere(uint cascade, content_box went, content_box came, ivec3 prob
         return false;
     float solid_angle;
     const vec3 dir = cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle));
-    const int axis = strip_axis(cascade);
+    const int axis = bounds_axis(cascade);
     if (axis < 0)
-        return changed_crosses(cascade, start.pos, dir, range, MARGIN);
-    return passes_content(0u, went, axis, start.pos, dir, range) || passes_content(1u, came, axis, start.pos, dir, range);
+        return dirty_crosses(cascade, start.pos, dir, range, MARGIN);
+    return passes_bounds(0u, went, axis, start.pos, dir, range) || passes_bounds(1u, came, axis, start.pos, dir, range);
 }
 
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = probe_index(own_cascade(), probe);
-    const uint state = sdfgi_probes[slot], cache = slot * sdfgi_frame.ring.z;
+    const uint state = sdfgi_probes[slot], cache = slot * sdfgi_frame.cycle_samples;
     if (probe_is_dead(state))
         return;
     const vec3 pos = probe_position(probe, state), first = first_from_cascade(own_cascade(), pos);
     /* On the border of what was complete, rays began beyond it. */
-    const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || changed_holds(own_cascade(), ivec3(floor(pos)));
-    for (uint start = 0u; start < sdfgi_frame.ring.z; start += AT_ONCE * uint(SDFGI_GROUP_RAYS)) {
+    const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || dirty_holds(own_cascade(), ivec3(floor(pos)));
+    for (uint start = 0u; start < sdfgi_frame.cycle_samples; start += AT_ONCE * uint(SDFGI_GROUP_RAYS)) {
         uint codes[AT_ONCE], samples[AT_ONCE];
         bool forget[AT_ONCE];
         for (uint k = 0u; k < AT_ONCE; k++) {
             samples[k] = start + k * uint(SDFGI_GROUP_RAYS) + gl_LocalInvocationIndex;
-            codes[k] = samples[k] < sdfgi_frame.ring.z ? sdfgi_rays[cache + samples[k]] : SDFGI_RAY_UNKNOWN;
+            codes[k] = samples[k] < sdfgi_frame.cycle_samples ? sdfgi_rays[cache + samples[k]] : SDFGI_RAY_UNKNOWN;
             forget[k] = all_rays;
         }
-        for (uint c = own_cascade(); c < sdfgi_frame.size.w; c++) {
-            if (changed_count(c) == 0)
+        for (uint c = own_cascade(); c < sdfgi_frame.cascade_count; c++) {
+            if (dirty_count(c) == 0)
                 continue;
-            if (strip_axis(c) >= 0)
+            if (bounds_axis(c) >= 0)
                 fetch_boxes(c);
-            const content_box went = boxes[2u * STRIPS], came = boxes[2u * STRIPS + 1u];
+            const bounds_box went = boxes[2u * STRIPS], came = boxes[2u * STRIPS + 1u];
             const vec3 from = cascade_from_first(c, first);
-            const ray_start begin = ray_start(from, changed_distance(c, from, MARGIN));
+            const ray_start begin = ray_start(from, dirty_distance(c, from, MARGIN));
             for (uint k = 0u; k < AT_ONCE; k++)
                 if (codes[k] != SDFGI_RAY_UNKNOWN && !forget[k])
                     forget[k] = ends_elsewhere(c, went, came, probe, begin, samples[k], codes[k]);

@@ -14,7 +14,7 @@ shared uint group_count, group_first;
 
 bool is_missing(uint cascade, uint n, out uint ray)
 {
-    const uint side = sdfgi_frame.size.z, rays = sdfgi_frame.ring.x, i = n / rays;
+    const uint side = sdfgi_frame.probes_per_side, rays = sdfgi_frame.rays_per_frame, i = n / rays;
     ray = 0u;
     if (i >= side * side * side)
         return false;
@@ -22,7 +22,7 @@ bool is_missing(uint cascade, uint n, out uint ray)
     const uint slot = probe_index(cascade, probe);
     if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
         return false;
-    ray = slot * sdfgi_frame.ring.z + sdfgi_frame.ring.y + n % rays;
+    ray = slot * sdfgi_frame.cycle_samples + sdfgi_frame.first_sample + n % rays;
     return !ray_holds(sdfgi_rays[ray]);
 }
 

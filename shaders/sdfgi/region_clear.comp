@@ -7,10 +7,10 @@
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_MASKS
-#include "content.glsl"
+#include "dirty_bounds.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_region_args args; };
 
 void clear_accumulators(ivec3 cell)
 {
@@ -22,23 +22,23 @@ void clear_accumulators(ivec3 cell)
 /* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. `held` has a bit per cell. */
 void note_bits(ivec3 first, int held)
 {
-    const ivec3 low = args.before.xyz, was = low + (first - low & space_resolution() - 1);
+    const ivec3 low = args.before, was = low + (first - low & space_resolution() - 1);
     if (held != 0)
-        content_add(args.cascade, CONTENT_WENT, args.before.w, was + ivec3(0, findLSB(held), 0),
+        bounds_add(args.cascade, BOUNDS_REMOVED, args.bounds_axis, was + ivec3(0, findLSB(held), 0),
                     was + ivec3(1, findMSB(held) + 1, 1));
 }
 
 void main()
 {
-    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / uvec3(8u, 4u, 1u);
+    const uvec3 size = uvec3(args.high - args.low) / uvec3(8u, 4u, 1u);
     const uint i = gl_GlobalInvocationID.x, row = i >> 3u;
     if (row >= size.x * size.y * size.z)
         return;
-    const ivec3 first = args.low.xyz + ivec3(row % size.x * 8u | i & 7u, row / size.x % size.y * 4u, row / (size.x * size.y));
+    const ivec3 first = args.low + ivec3(row % size.x * 8u | i & 7u, row / size.x % size.y * 4u, row / (size.x * size.y));
     int held = 0;
     for (int k = 0; k < 4; k++)
         held |= int(cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
-    if (args.before.w >= 0)
+    if (args.bounds_axis >= 0)
         note_bits(first, held);
     for (int k = 0; k < 4; k++) {
         const uint index = cell_index(args.cascade, first + ivec3(0, k, 0));

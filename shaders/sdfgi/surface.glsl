@@ -88,7 +88,7 @@ vec3 surface_albedo(uint block)
 vec3 surface_emission(uint block, uint axis)
 {
     const uvec2 packed = sdfgi_emission[block];
-    return rgbe_decode(packed.x) * (float(packed.y >> (5u * axis) & 31u) / 31.0) * sdfgi_frame.bias.w;
+    return rgbe_decode(packed.x) * (float(packed.y >> (5u * axis) & 31u) / 31.0) * sdfgi_frame.emission_scale;
 }
 
 /* Index of the block of a cell in these buffers. */

@@ -6,11 +6,11 @@
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACE
-#include "content.glsl"
+#include "dirty_bounds.glsl"
 #include "surface.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_pass_args args; };
+layout(push_constant) uniform sdfgi_push { sdfgi_region_args args; };
 
 uint accumulated(uint plane, uint block)
 {
@@ -98,7 +98,7 @@ int take_bits(uvec3 block_texel)
     int count = 0;
     [[unroll]] for (uint i = 0u; i < 8u; i++) {
         const uvec3 texel = 2u * block_texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
-        const uint index = texel_index(texel) | args.cascade << (3u * sdfgi_frame.size.y);
+        const uint index = texel_index(texel) | args.cascade << (3u * sdfgi_frame.resolution_log2);
         block_bits[i] = sdfgi_bits[index];
         block_emissive[i] = sdfgi_light[index];
         sdfgi_light[index] = uvec2(0u);
@@ -145,19 +145,19 @@ void resolve(ivec3 cell)
     if (count == 0u)
         return;
     atomicAdd(voxels, count);
-    if (args.before.w >= 0)
-        content_add(args.cascade, CONTENT_CAME, args.before.w, cell, cell + 2);
+    if (args.bounds_axis >= 0)
+        bounds_add(args.cascade, BOUNDS_ADDED, args.bounds_axis, cell, cell + 2);
 }
 
 void main()
 {
-    const uvec3 size = uvec3(args.high.xyz - args.low.xyz) / 2u;
+    const uvec3 size = uvec3(args.high - args.low) / 2u;
     const uint i = gl_GlobalInvocationID.x;
     if (gl_LocalInvocationIndex == 0u)
         voxels = 0u;
     barrier();
     if (i < size.x * size.y * size.z)
-        resolve(args.low.xyz + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
+        resolve(args.low + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
     barrier();
     if (gl_LocalInvocationIndex == 0u && voxels > 0u)
         counter_add(SDFGI_COUNTER_VOXELS, voxels);

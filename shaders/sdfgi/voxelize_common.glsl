@@ -65,7 +65,7 @@ ivec3 unpermute(ivec3 p, int axis)
 /* The box to fill, in sub-voxels from the anchor. */
 ivec3 box_corner(uint packed)
 {
-    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor.xyz;
+    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor;
 }
 
 uint mesh_index(uint i)
@@ -103,7 +103,7 @@ bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
  * of columns depends on the box or on where the cascade is: a sub-voxel comes out the same whenever it is made. */
 bool triangle_place(inout triangle t, vec3 v[3])
 {
-    const ivec3 box_low = box_corner(uint(args.anchor.w)), box_high = box_corner(args.box_high);
+    const ivec3 box_low = box_corner(args.box_low), box_high = box_corner(args.box_high);
     const vec3 low = min(v[0], min(v[1], v[2]));
     const vec3 high = max(v[0], max(v[1], v[2]));
     if (any(lessThan(high, vec3(box_low) - 0.5)) || any(greaterThan(low, vec3(box_high) + 0.5)))
@@ -234,17 +234,17 @@ surface_sample triangle_sample(triangle t, ivec2 column)
     const vec2 p = vec2(column) + 0.5;
     vec3 bary = clamp(t.bary_0 + p.x * t.bary_x + p.y * t.bary_y, 0.0, 1.0);
     bary /= max(bary.x + bary.y + bary.z, 1e-20);
-    surface_sample s = surface_sample(m.albedo, m.emission.rgb, m.flags.x);
+    surface_sample s = surface_sample(vec4(m.albedo, m.alpha), m.emission, m.flags);
     if ((args.flags & SDFGI_MESH_HAS_COLOR) != 0u)
         s.albedo *= mesh_color(t, bary);
 #ifdef SDFGI_VOXELIZE_TEXTURED
     const vec2 uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u ? mesh_uv(t, bary) : vec2(0.0);
     const bool has_uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u;
-    if ((m.flags.x & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
+    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
         const float level = has_uv ? texture_level(t, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;
         s.albedo *= textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level);
     }
-    if ((m.flags.x & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
+    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
         const float level = has_uv ? texture_level(t, m.emission_uv, vec2(textureSize(emission_texture, 0))) : 0.0;
         s.emission *= textureLod(emission_texture, texture_uv(m.emission_uv, uv), level).rgb;
     }
@@ -357,17 +357,17 @@ void store_bit(uint cell, uint bit)
 /* Tests one column and stores what it finds. */
 void triangle_store_column(triangle t, ivec2 column)
 {
-    const bool emits = sdfgi_materials[args.material].emission.rgb != vec3(0.0);
+    const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
     ivec3 permuted;
     const bool set = triangle_column(t, column, permuted);
     const ivec3 from_anchor = unpermute(permuted, t.axis);
-    if ((!set && !emits) || any(lessThan(from_anchor, box_corner(uint(args.anchor.w)))) ||
+    if ((!set && !emits) || any(lessThan(from_anchor, box_corner(args.box_low))) ||
         any(greaterThanEqual(from_anchor, box_corner(args.box_high))))
         return;
-    const ivec3 sub = from_anchor + args.anchor.xyz;
+    const ivec3 sub = from_anchor + args.anchor;
     const ivec3 cell = sub >> 2;
     const surface_sample s = triangle_sample(t, column);
-    if (s.albedo.a < sdfgi_materials[args.material].emission.w)
+    if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
         return;
     const uint block = block_index(args.cascade, cell);
     if (emits)

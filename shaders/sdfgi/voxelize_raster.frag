@@ -12,7 +12,7 @@ void main()
     triangle t;
     if (triangle_fetch(in_triangle, v, t.index) && triangle_place(t, v)) {
         triangle_setup(t, v);
-        const ivec2 column = ivec2(gl_FragCoord.xy) - permute(args.anchor.xyz, t.axis).xy;
+        const ivec2 column = ivec2(gl_FragCoord.xy) - permute(args.anchor, t.axis).xy;
         if (all(greaterThanEqual(column, t.columns.xy)) && all(lessThanEqual(column, t.columns.zw)))
             triangle_store_column(t, column);
     }

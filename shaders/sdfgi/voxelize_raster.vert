@@ -54,5 +54,5 @@ void main()
     triangle_setup(t, v);
     const float size = float(space_resolution() * SDFGI_SUBVOXELS);
     const vec2 at = is_needle(t) ? columns_corner(t, corner) : widened_corner(t, corner);
-    gl_Position = vec4((at + vec2(permute(args.anchor.xyz, t.axis).xy)) / size * 2.0 - 1.0, 0.5, 1.0);
+    gl_Position = vec4((at + vec2(permute(args.anchor, t.axis).xy)) / size * 2.0 - 1.0, 0.5, 1.0);
 }

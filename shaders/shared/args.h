@@ -1,10 +1,27 @@
 /* SPDX-License-Identifier: MIT
- * Push constants, at most 128 bytes each, and material constants. */
+ * Push constants: the arguments of each pass, at most 128 bytes. pass_table.h says which struct a pass takes. */
 #ifndef SDFGI_SHARED_ARGS_H
 #define SDFGI_SHARED_ARGS_H
 
 #include "types.h"
 #include "constants.h"
+
+/* Passes over one cascade as a whole. */
+struct sdfgi_cascade_args {
+    uint cascade;
+};
+SDFGI_ASSERT_SIZE(sdfgi_cascade_args, 4);
+
+/* region_clear, voxel_resolve: a box of cells. */
+struct sdfgi_region_args {
+    ivec3 low;           /* cells [low, high) */
+    uint cascade;
+    ivec3 high;
+    int bounds_axis;     /* axis across which dirty_bounds.glsl cuts its strips; -1: nobody asks for bounds */
+    ivec3 before;        /* low corner of the cells whose storage the box takes over */
+    uint padding_0;
+};
+SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
 
 #define SDFGI_MESH_INDEX_NONE 0u
 #define SDFGI_MESH_INDEX_16 1u
@@ -13,9 +30,11 @@
 #define SDFGI_MESH_HAS_COLOR 8u
 #define SDFGI_MESH_MIRRORED 16u /* the transform turns triangles inside out */
 
+/* voxelize, voxelize_raster: one instance. */
 struct sdfgi_voxelize_args {
     vec4 rows[3];        /* object space to sub-voxels from the instance's anchor: row-major 3x4 */
-    ivec4 anchor;        /* xyz: the anchor's sub-voxel in the cascade; w: low corner of the box of cells to fill, 10 bits each */
+    ivec3 anchor;        /* the anchor's sub-voxel in the cascade */
+    uint box_low;        /* low corner of the box of cells to fill, 10 bits per axis */
     uint cascade;
     uint triangle_count;
     uint groups;         /* of SDFGI_GROUP_TRIANGLE triangles */
@@ -28,52 +47,68 @@ struct sdfgi_voxelize_args {
     uint index_offset;
     uint vertex_count;
     uint group_width;    /* workgroups along x */
-    uint box_high;       /* high corner of the box, as anchor.w */
+    uint box_high;       /* high corner of the box, packed as box_low */
 };
 SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 128);
 
-#define SDFGI_MATERIAL_ALBEDO_TEXTURE 1u
-#define SDFGI_MATERIAL_EMISSION_TEXTURE 2u
-#define SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION 4u
-
-struct sdfgi_material_params {
-    vec4 albedo;          /* w: alpha */
-    vec4 emission;        /* in units of the scene's brightest emission; w: alpha cutoff, 0: opaque */
-    vec4 albedo_uv[2];    /* rows of uv' = M (u, v, 1); w unused */
-    vec4 emission_uv[2];
-    uvec4 flags;          /* x: SDFGI_MATERIAL_* */
-};
-SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
-
-/* Passes over cells, probes and light cells. */
-struct sdfgi_pass_args {
-    ivec4 low, high;      /* xyz: the box of cells that the pass is about, [low, high); x: the light cells, likewise */
-    ivec4 before;         /* xyz: low corner of the cells whose storage the box takes; w: axis of content.glsl's strips, -1: none */
+/* distance_prepare: which blocks need new distances. */
+struct sdfgi_distance_prepare_args {
     uint cascade;
-    uint step;            /* flood: jump length in cells; distance_plane, distance_exact: first cell along x; probe_blend: 1 at
-                             the end of a ring; light cells: 1 for those in renewed blocks */
-    uint source;          /* flood: which of the two pointer halves is read; distance_plane, distance_exact: where the cells
-                             along x end; light_direct: how many threads there are to a ray at most */
-    uint fresh;           /* 1: light_mark, no earlier list counts; bit per cascade: probe_blend, no earlier ring counts;
-                             light_bounce, no probe has a value yet */
+    uint first_block;    /* along x */
+    uint box_count;      /* dirty boxes; 0: everything is dirty */
+    uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: low cell in the low 16 bits, high cell in the high ones */
 };
-SDFGI_ASSERT_SIZE(sdfgi_pass_args, 64);
+SDFGI_ASSERT_SIZE(sdfgi_distance_prepare_args, 84);
 
-/* Boxes of cells that changed: distances near them are searched anew. */
-
-struct sdfgi_stale_args {
+/* distance_plane, distance_exact: cells [first_x, end_x) along x. */
+struct sdfgi_distance_search_args {
     uint cascade;
-    uint first;           /* block along x */
-    uint box_count;       /* 0: everything changed */
-    uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: first cell, and 16 bits above the one after the last */
+    uint first_x, end_x;
 };
-SDFGI_ASSERT_SIZE(sdfgi_stale_args, 84);
+SDFGI_ASSERT_SIZE(sdfgi_distance_search_args, 12);
+
+/* flood_seed, flood_step, flood_distance. */
+struct sdfgi_flood_args {
+    uint cascade;
+    uint jump;           /* length of the jump in cells */
+    uint source;         /* half of the pointers that is read: 0 or 1 */
+};
+SDFGI_ASSERT_SIZE(sdfgi_flood_args, 12);
+
+struct sdfgi_light_mark_args {
+    uint cascade;
+    uint rebuild;        /* 1: the list before holds nothing of use */
+};
+SDFGI_ASSERT_SIZE(sdfgi_light_mark_args, 8);
+
+/* Entries of the light list: those in dirty blocks, or a range. */
+struct sdfgi_light_direct_args {
+    uint cascade;
+    uint only_dirty;     /* 1: cells in dirty blocks; 0: entries [first, end) */
+    uint first, end;
+    uint threads_per_ray; /* at most */
+};
+SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 20);
+
+struct sdfgi_light_bounce_args {
+    uint cascade;        /* of workgroups with y = 0 */
+    uint only_dirty;     /* as in sdfgi_light_direct_args */
+    uint first, end;
+    uint without_probes; /* 1: no probe holds light */
+};
+SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 20);
+
+struct sdfgi_probe_blend_args {
+    uint cycle_ends;     /* 1: this is the last frame of a sample cycle */
+    uint without_history; /* 1: no sample cycle has been completed since nothing was there */
+};
+SDFGI_ASSERT_SIZE(sdfgi_probe_blend_args, 8);
 
 struct sdfgi_gather_args {
     vec4 inverse_view_projection[4]; /* columns */
     uint width, height;
     float background_depth;
-    uint reserved;
+    uint padding_0;
 };
 SDFGI_ASSERT_SIZE(sdfgi_gather_args, 80);
 

@@ -5,11 +5,11 @@
 
 #define SDFGI_MAX_CASCADES 8
 #define SDFGI_MAX_CHANGES 6   /* boxes of cells that a cascade makes new at once: three that enter it, three that leave */
-/* Strips across a cascade in which boxes around what went and what came are kept, see sdfgi/content.glsl. */
-#define SDFGI_CONTENT_STRIPS 16
-#define SDFGI_CONTENT_STRIDE 32 /* words from box to box: 128 bytes, as atomics on one cache line wait for each other */
-#define SDFGI_CONTENT_BYTES (2 * SDFGI_CONTENT_STRIPS * SDFGI_CONTENT_STRIDE * 4) /* of one cascade */
-#define SDFGI_CONTENT_ORIGIN 4096 /* further than any cell that leaves is from the cascade */
+/* Strips across a cascade in which boxes around what went and what came are kept, see sdfgi/dirty_bounds.glsl. */
+#define SDFGI_BOUNDS_STRIPS 16
+#define SDFGI_BOUNDS_STRIDE 32 /* words from box to box: 128 bytes, as atomics on one cache line wait for each other */
+#define SDFGI_BOUNDS_BYTES (2 * SDFGI_BOUNDS_STRIPS * SDFGI_BOUNDS_STRIDE * 4) /* of one cascade */
+#define SDFGI_BOUNDS_ORIGIN 4096 /* further than any cell that leaves is from the cascade */
 #define SDFGI_PROBE_SPACING 8 /* cells between probes */
 /* Probes after which hashed places repeat: a scene moved by so many probes has the same light to the bit. */
 #define SDFGI_HASH_PERIOD 64
@@ -65,7 +65,7 @@
 #define SDFGI_GROUP_OCCLUSION 64   /* threads that share one probe's 256 depths */
 #define SDFGI_GROUP_PIXELS 8       /* 8x8: one thread per pixel */
 
-/* Accumulators per albedo block (2x2x2 cells), planes of one uint per block in the scratch buffer. */
+/* Accumulators per albedo block (2x2x2 cells): planes of a word per block in the scratch buffer (scratch.h). */
 #define SDFGI_ACCUM_ALBEDO 0       /* 3: sum of albedo in 1/255 */
 #define SDFGI_ACCUM_EMISSION 3     /* 3: sum of emission in SDFGI_EMISSION_STEPS of the scene's brightest */
 #define SDFGI_ACCUM_EMISSION_COVERED 6 /* cross-sections of columns that emitters cover, in 1/SDFGI_EMISSION_STEPS */
@@ -74,31 +74,6 @@
 #define SDFGI_ACCUM_PLANES 17
 #define SDFGI_EMISSION_STEPS 65535.0
 #define SDFGI_SLOPE_STEPS 127.0
-
-/* Atomic counters, read back every frame. */
-#define SDFGI_COUNTER_TRIANGLES_SKIPPED 0
-#define SDFGI_COUNTER_VALUES_CLAMPED 1
-#define SDFGI_COUNTER_BOUNCE_CLAMPED 2
-#define SDFGI_COUNTER_TRACE_CAPS 3
-#define SDFGI_COUNTER_UNLIT_HITS 4
-#define SDFGI_COUNTER_RAYS_TRACED 5
-#define SDFGI_COUNTER_MAX_CHANGE 6     /* float bits: largest relative change of a probe texel over a ring */
-#define SDFGI_COUNTER_MAX_IRRADIANCE 7 /* float bits: brightest probe texel of the last ring */
-#define SDFGI_COUNTER_DEAD_PROBES 8
-#define SDFGI_COUNTER_VOXELS 9         /* sub-voxel samples that the voxeliser accepted */
-#define SDFGI_COUNTER_DISTANCE_CELLS 10 /* cells whose distances the exact search made anew */
-#define SDFGI_COUNTER_LIGHT_CELLS 16   /* per cascade, unclamped */
-#define SDFGI_COUNTER_LIGHT_RENEWED 24 /* per cascade, unclamped: those in renewed blocks when they were listed */
-#define SDFGI_COUNTER_COUNT 32
-
-/* Records of indirect arguments, of four words. Per cascade, for each renewed light cell: a thread, eight, as many as share its
- * lights. Then the rays that a frame traces. The fourth word: of the first, how many cells are listed,
- * unclamped; of masks and rays, their number. Passes that others run beside read these instead of counters. */
-#define SDFGI_INDIRECT_CELLS 0
-#define SDFGI_INDIRECT_MASKS SDFGI_MAX_CASCADES
-#define SDFGI_INDIRECT_DIRECT (2 * SDFGI_MAX_CASCADES)
-#define SDFGI_INDIRECT_RAYS (3 * SDFGI_MAX_CASCADES)
-#define SDFGI_INDIRECT_RECORDS (3 * SDFGI_MAX_CASCADES + 2)
 
 /* Lights. */
 #define SDFGI_LIGHT_KIND_DIRECTIONAL 0u

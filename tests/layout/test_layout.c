@@ -81,32 +81,90 @@ static void visit_all(const struct spirv_visitor *visitor)
 /* ---- Structs */
 
 #define MEMBERS(X)                                                                                           \
+    X(sdfgi_dirty_box, low)                                                                                  \
+    X(sdfgi_dirty_box, padding_0)                                                                            \
+    X(sdfgi_dirty_box, high)                                                                                 \
+    X(sdfgi_dirty_box, padding_1)                                                                            \
     X(sdfgi_cascade_params, origin_rel)                                                                      \
+    X(sdfgi_cascade_params, cell_m)                                                                          \
     X(sdfgi_cascade_params, wrap)                                                                            \
+    X(sdfgi_cascade_params, padding_0)                                                                       \
     X(sdfgi_cascade_params, probe_wrap)                                                                      \
+    X(sdfgi_cascade_params, padding_1)                                                                       \
     X(sdfgi_cascade_params, from_first)                                                                      \
+    X(sdfgi_cascade_params, from_first_scale)                                                                \
     X(sdfgi_cascade_params, probe_base)                                                                      \
-    X(sdfgi_cascade_params, window_low)                                                                      \
-    X(sdfgi_cascade_params, window_high)                                                                     \
-    X(sdfgi_cascade_params, share_low)                                                                       \
-    X(sdfgi_cascade_params, share_high)                                                                      \
+    X(sdfgi_cascade_params, padding_2)                                                                       \
+    X(sdfgi_cascade_params, valid_low)                                                                       \
+    X(sdfgi_cascade_params, dirty_count)                                                                     \
+    X(sdfgi_cascade_params, valid_high)                                                                      \
+    X(sdfgi_cascade_params, padding_3)                                                                       \
+    X(sdfgi_cascade_params, blend_low)                                                                       \
+    X(sdfgi_cascade_params, padding_4)                                                                       \
+    X(sdfgi_cascade_params, blend_high)                                                                      \
+    X(sdfgi_cascade_params, padding_5)                                                                       \
     X(sdfgi_cascade_params, kept_low)                                                                        \
+    X(sdfgi_cascade_params, bounds_axis)                                                                     \
     X(sdfgi_cascade_params, kept_high)                                                                       \
-    X(sdfgi_cascade_params, changed)                                                                         \
+    X(sdfgi_cascade_params, padding_6)                                                                       \
+    X(sdfgi_cascade_params, dirty)                                                                           \
     X(sdfgi_frame_params, cascades)                                                                          \
     X(sdfgi_frame_params, sky_zenith)                                                                        \
+    X(sdfgi_frame_params, padding_0)                                                                         \
     X(sdfgi_frame_params, sky_horizon)                                                                       \
+    X(sdfgi_frame_params, padding_1)                                                                         \
     X(sdfgi_frame_params, sky_ground)                                                                        \
-    X(sdfgi_frame_params, scale)                                                                             \
-    X(sdfgi_frame_params, bias)                                                                              \
-    X(sdfgi_frame_params, size)                                                                              \
-    X(sdfgi_frame_params, light)                                                                             \
-    X(sdfgi_frame_params, ring)                                                                              \
+    X(sdfgi_frame_params, padding_2)                                                                         \
+    X(sdfgi_frame_params, y_scale)                                                                           \
+    X(sdfgi_frame_params, exposure)                                                                          \
+    X(sdfgi_frame_params, exposure_inverse)                                                                  \
+    X(sdfgi_frame_params, energy)                                                                            \
+    X(sdfgi_frame_params, normal_bias)                                                                       \
+    X(sdfgi_frame_params, probe_bias)                                                                        \
+    X(sdfgi_frame_params, bounce_feedback)                                                                   \
+    X(sdfgi_frame_params, emission_scale)                                                                    \
+    X(sdfgi_frame_params, resolution)                                                                        \
+    X(sdfgi_frame_params, resolution_log2)                                                                   \
+    X(sdfgi_frame_params, probes_per_side)                                                                   \
+    X(sdfgi_frame_params, cascade_count)                                                                     \
+    X(sdfgi_frame_params, light_count)                                                                       \
+    X(sdfgi_frame_params, light_cell_room)                                                                   \
+    X(sdfgi_frame_params, visibility)                                                                        \
+    X(sdfgi_frame_params, seed)                                                                              \
+    X(sdfgi_frame_params, rays_per_frame)                                                                    \
+    X(sdfgi_frame_params, first_sample)                                                                      \
+    X(sdfgi_frame_params, cycle_samples)                                                                     \
+    X(sdfgi_frame_params, brightest_texel)                                                                   \
     X(sdfgi_light_params, position)                                                                          \
+    X(sdfgi_light_params, range_m)                                                                           \
     X(sdfgi_light_params, direction)                                                                         \
+    X(sdfgi_light_params, cos_outer)                                                                         \
     X(sdfgi_light_params, intensity)                                                                         \
+    X(sdfgi_light_params, cone_scale)                                                                        \
     X(sdfgi_light_params, kind)                                                                              \
+    X(sdfgi_light_params, padding_0)                                                                         \
+    X(sdfgi_light_params, padding_1)                                                                         \
+    X(sdfgi_light_params, padding_2)                                                                         \
+    X(sdfgi_material_params, albedo)                                                                         \
+    X(sdfgi_material_params, alpha)                                                                          \
+    X(sdfgi_material_params, emission)                                                                       \
+    X(sdfgi_material_params, alpha_cutoff)                                                                   \
+    X(sdfgi_material_params, albedo_uv)                                                                      \
+    X(sdfgi_material_params, emission_uv)                                                                    \
+    X(sdfgi_material_params, flags)                                                                          \
+    X(sdfgi_material_params, padding_0)                                                                      \
+    X(sdfgi_material_params, padding_1)                                                                      \
+    X(sdfgi_material_params, padding_2)                                                                      \
+    X(sdfgi_cascade_args, cascade)                                                                           \
+    X(sdfgi_region_args, low)                                                                                \
+    X(sdfgi_region_args, cascade)                                                                            \
+    X(sdfgi_region_args, high)                                                                               \
+    X(sdfgi_region_args, bounds_axis)                                                                        \
+    X(sdfgi_region_args, before)                                                                             \
+    X(sdfgi_region_args, padding_0)                                                                          \
     X(sdfgi_voxelize_args, rows)                                                                             \
+    X(sdfgi_voxelize_args, anchor)                                                                           \
+    X(sdfgi_voxelize_args, box_low)                                                                          \
     X(sdfgi_voxelize_args, cascade)                                                                          \
     X(sdfgi_voxelize_args, triangle_count)                                                                   \
     X(sdfgi_voxelize_args, groups)                                                                           \
@@ -122,29 +180,36 @@ static void visit_all(const struct spirv_visitor *visitor)
     X(sdfgi_voxelize_args, index_offset)                                                                     \
     X(sdfgi_voxelize_args, vertex_count)                                                                     \
     X(sdfgi_voxelize_args, group_width)                                                                      \
-    X(sdfgi_voxelize_args, anchor)                                                                           \
     X(sdfgi_voxelize_args, box_high)                                                                         \
-    X(sdfgi_material_params, albedo)                                                                         \
-    X(sdfgi_material_params, emission)                                                                       \
-    X(sdfgi_material_params, albedo_uv)                                                                      \
-    X(sdfgi_material_params, emission_uv)                                                                    \
-    X(sdfgi_material_params, flags)                                                                          \
-    X(sdfgi_pass_args, low)                                                                                  \
-    X(sdfgi_pass_args, high)                                                                                 \
-    X(sdfgi_pass_args, before)                                                                               \
-    X(sdfgi_pass_args, cascade)                                                                              \
-    X(sdfgi_pass_args, step)                                                                                 \
-    X(sdfgi_pass_args, source)                                                                               \
-    X(sdfgi_pass_args, fresh)                                                                                \
-    X(sdfgi_stale_args, cascade)                                                                             \
-    X(sdfgi_stale_args, first)                                                                               \
-    X(sdfgi_stale_args, box_count)                                                                           \
-    X(sdfgi_stale_args, corners)                                                                             \
+    X(sdfgi_distance_prepare_args, cascade)                                                                  \
+    X(sdfgi_distance_prepare_args, first_block)                                                              \
+    X(sdfgi_distance_prepare_args, box_count)                                                                \
+    X(sdfgi_distance_prepare_args, corners)                                                                  \
+    X(sdfgi_distance_search_args, cascade)                                                                   \
+    X(sdfgi_distance_search_args, first_x)                                                                   \
+    X(sdfgi_distance_search_args, end_x)                                                                     \
+    X(sdfgi_flood_args, cascade)                                                                             \
+    X(sdfgi_flood_args, jump)                                                                                \
+    X(sdfgi_flood_args, source)                                                                              \
+    X(sdfgi_light_mark_args, cascade)                                                                        \
+    X(sdfgi_light_mark_args, rebuild)                                                                        \
+    X(sdfgi_light_direct_args, cascade)                                                                      \
+    X(sdfgi_light_direct_args, only_dirty)                                                                   \
+    X(sdfgi_light_direct_args, first)                                                                        \
+    X(sdfgi_light_direct_args, end)                                                                          \
+    X(sdfgi_light_direct_args, threads_per_ray)                                                              \
+    X(sdfgi_light_bounce_args, cascade)                                                                      \
+    X(sdfgi_light_bounce_args, only_dirty)                                                                   \
+    X(sdfgi_light_bounce_args, first)                                                                        \
+    X(sdfgi_light_bounce_args, end)                                                                          \
+    X(sdfgi_light_bounce_args, without_probes)                                                               \
+    X(sdfgi_probe_blend_args, cycle_ends)                                                                    \
+    X(sdfgi_probe_blend_args, without_history)                                                               \
     X(sdfgi_gather_args, inverse_view_projection)                                                            \
     X(sdfgi_gather_args, width)                                                                              \
     X(sdfgi_gather_args, height)                                                                             \
     X(sdfgi_gather_args, background_depth)                                                                   \
-    X(sdfgi_gather_args, reserved)
+    X(sdfgi_gather_args, padding_0)
 
 struct place {
     const char *type, *name;
@@ -284,9 +349,9 @@ static void push_constants_fit_everywhere(void **state)
     /* Vulkan promises 128 bytes. */
     REQUIRE_CMP(sizeof(struct sdfgi_voxelize_args), <=, 128u);
     REQUIRE_CMP(sizeof(struct sdfgi_gather_args), <=, 128u);
-    REQUIRE_CMP(sizeof(struct sdfgi_stale_args), <=, 128u);
-    REQUIRE_CMP(sizeof(struct sdfgi_pass_args), <=,
-                sizeof(struct sdfgi_stale_args)); /* they share a layout */
+    REQUIRE_CMP(sizeof(struct sdfgi_distance_prepare_args), <=, 128u);
+    REQUIRE_CMP(sizeof(struct sdfgi_region_args), <=,
+                sizeof(struct sdfgi_distance_prepare_args)); /* they share a layout */
 }
 
 int main(void)

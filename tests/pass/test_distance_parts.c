@@ -96,9 +96,9 @@ static void fill_buffer(struct gi_test *t, enum resource resource, uint8_t value
 /* Where the window is stored, as upload.c has it. */
 static void write_window(struct gi_test *t, const struct world *w)
 {
-    ivec4 *wrap = &t->gi->params.cascades[0].wrap;
-    *wrap = (ivec4){ (int32_t)floor_mod(w->origin[0], N), (int32_t)floor_mod(w->origin[1], N),
-                     (int32_t)floor_mod(w->origin[2], N), 0 };
+    ivec3 *wrap = &t->gi->params.cascades[0].wrap;
+    *wrap = (ivec3){ (int32_t)floor_mod(w->origin[0], N), (int32_t)floor_mod(w->origin[1], N),
+                     (int32_t)floor_mod(w->origin[2], N) };
     write_buffer(t, RESOURCE_FRAME, &t->gi->params, sizeof t->gi->params);
     uint64_t *bits = test_array_alloc(CELLS, sizeof *bits);
     for (uint32_t z = 0; z < N; z++)
@@ -109,16 +109,16 @@ static void write_window(struct gi_test *t, const struct world *w)
     free(bits);
 }
 
-/* Boxes around what went and what came, as content.glsl has them: here a whole changed box each. */
+/* Boxes around what went and what came, as dirty_bounds.glsl has them: here a whole changed box each. */
 static void write_content(struct gi_test *t, const struct cell_box *changed, uint32_t count)
 {
-    uint32_t words[SDFGI_CONTENT_BYTES / 4] = { 0 };
+    uint32_t words[SDFGI_BOUNDS_BYTES / 4] = { 0 };
     for (uint32_t b = 0; b < count; b++)
         for (uint32_t i = 0; i < 3 && !cell_box_empty(&changed[b]); i++) {
-            words[SDFGI_CONTENT_STRIDE * b + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN - changed[b].low[i]);
-            words[SDFGI_CONTENT_STRIDE * b + 3 + i] = (uint32_t)(SDFGI_CONTENT_ORIGIN + changed[b].high[i]);
+            words[SDFGI_BOUNDS_STRIDE * b + i] = (uint32_t)(SDFGI_BOUNDS_ORIGIN - changed[b].low[i]);
+            words[SDFGI_BOUNDS_STRIDE * b + 3 + i] = (uint32_t)(SDFGI_BOUNDS_ORIGIN + changed[b].high[i]);
         }
-    write_buffer(t, RESOURCE_CONTENT, words, sizeof words);
+    write_buffer(t, RESOURCE_BOUNDS, words, sizeof words);
 }
 
 struct recording {
@@ -151,14 +151,14 @@ static void make_whole(struct gi_test *t)
 
 /* In parts of so many layers of blocks, each in a submission of its own. Returns how many cells were
  * searched. */
-static uint32_t make_parts(struct gi_test *t, const struct cell_box *changed, uint32_t changed_count)
+static uint32_t make_parts(struct gi_test *t, const struct cell_box *changed, uint32_t dirty_count)
 {
     static const uint32_t layers[] = { 3, 1, 12 };
     uint32_t first = 0;
     fill_buffer(t, RESOURCE_COUNTERS, 0);
-    write_content(t, changed, changed_count);
+    write_content(t, changed, dirty_count);
     for (uint32_t i = 0; i < 3; first += layers[i++])
-        make_part(t, (struct distance_part){ first, layers[i], changed, changed_count });
+        make_part(t, (struct distance_part){ first, layers[i], changed, dirty_count });
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
     const uint32_t searched = counters[SDFGI_COUNTER_DISTANCE_CELLS];
     free(counters);

@@ -19,7 +19,7 @@ static bool is_solid(const struct gi_test *t, const uint64_t *bits, int x, int y
 
 static bool is_light_cell(const struct gi_test *t, const uint64_t *bits, const uint32_t texel[3])
 {
-    const ivec4 wrap = t->gi->params.cascades[0].wrap;
+    const ivec3 wrap = t->gi->params.cascades[0].wrap;
     const int x = (int)(texel[0] - (uint32_t)wrap.x) & (N - 1),
               y = (int)(texel[1] - (uint32_t)wrap.y) & (N - 1),
               z = (int)(texel[2] - (uint32_t)wrap.z) & (N - 1);

@@ -145,7 +145,7 @@ static uint64_t renewed_work(const struct gi_test *t)
     uint64_t cells = 0;
     for (uint32_t c = 0; c < t->gi->settings.cascades; c++)
         if (schedule_completes(t->gi, c))
-            cells += t->gi->counters[SDFGI_COUNTER_LIGHT_RENEWED + c];
+            cells += t->gi->counters[SDFGI_COUNTER_LIGHT_DIRTY + c];
     return cells;
 }
 

@@ -149,7 +149,7 @@ void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size)
 
 uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z)
 {
-    const ivec4 wrap = t->gi->params.cascades[cascade].wrap;
+    const ivec3 wrap = t->gi->params.cascades[cascade].wrap;
     const uint32_t n = t->gi->settings.resolution, mask = n - 1;
     return ((x + (uint32_t)wrap.x) & mask) +
            n * (((y + (uint32_t)wrap.y) & mask) + n * (((z + (uint32_t)wrap.z) & mask) + n * cascade));

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ * What became new in this frame: boxes of cells per cascade, those that left included. */
+#ifndef SDFGI_DIRTY_GLSL
+#define SDFGI_DIRTY_GLSL
+
+#include "pass.glsl"
+
+int dirty_count(uint cascade)
+{
+    return sdfgi_frame.cascades[cascade].dirty_count;
+}
+
+/* True if a box [low, high] comes within `margin` cells of anything new. */
+bool dirty_near(uint cascade, ivec3 low, ivec3 high, int margin)
+{
+    for (int i = 0; i < dirty_count(cascade); i++)
+        if (all(lessThanEqual(sdfgi_frame.cascades[cascade].dirty[i].low - margin, high)) &&
+            all(greaterThanEqual(sdfgi_frame.cascades[cascade].dirty[i].high + margin, low)))
+            return true;
+    return false;
+}
+
+/* True for cells that are new or left. */
+bool dirty_holds(uint cascade, ivec3 cell)
+{
+    for (int i = 0; i < dirty_count(cascade); i++)
+        if (all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].dirty[i].low)) &&
+            all(lessThan(cell, sdfgi_frame.cascades[cascade].dirty[i].high)))
+            return true;
+    return false;
+}
+
+/* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing is new. */
+float dirty_distance(uint cascade, vec3 pos, float margin)
+{
+    float nearest = 1e10;
+    for (int i = 0; i < dirty_count(cascade); i++) {
+        const vec3 low = vec3(sdfgi_frame.cascades[cascade].dirty[i].low) - margin;
+        const vec3 high = vec3(sdfgi_frame.cascades[cascade].dirty[i].high) + margin;
+        nearest = min(nearest, length(metric_from_cells(pos - clamp(pos, low, high))));
+    }
+    return nearest;
+}
+
+/* True if a ray from `pos` along `dir` (both in cell space) passes anything new, by less than `margin` cells, before
+ * parameter `end`. */
+bool dirty_crosses(uint cascade, vec3 pos, vec3 dir, float end, float margin)
+{
+    const vec3 inv_dir = 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
+    for (int i = 0; i < dirty_count(cascade); i++) {
+        const vec3 a = (vec3(sdfgi_frame.cascades[cascade].dirty[i].low) - margin - pos) * inv_dir;
+        const vec3 b = (vec3(sdfgi_frame.cascades[cascade].dirty[i].high) + margin - pos) * inv_dir;
+        const vec3 first = min(a, b), last = max(a, b);
+        const float enters = max(max(first.x, first.y), max(first.z, 0.0));
+        if (enters <= min(min(last.x, last.y), min(last.z, end)))
+            return true;
+    }
+    return false;
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+ * Where sub-voxels of a change went and came: other distances can only differ near there. Of each cascade, boxes of cells around
+ * all that went and around all that came, one of each per strip across the cascade, in cells of the place that it moves to. */
+#ifndef SDFGI_DIRTY_BOUNDS_GLSL
+#define SDFGI_DIRTY_BOUNDS_GLSL
+
+#include "pass.glsl"
+
+/* The first six words of each box: how far it reaches from SDFGI_BOUNDS_ORIGIN downwards, and upwards. Zeroes are no box,
+ * maxima its growth. */
+layout(std430, set = 0, binding = SDFGI_BINDING_BOUNDS) buffer sdfgi_bounds_buffer
+{
+    uint sdfgi_bounds[];
+};
+
+const uint BOUNDS_REMOVED = 0u;
+const uint BOUNDS_ADDED = uint(SDFGI_BOUNDS_STRIPS);
+
+uint bounds_slot(uint cascade, uint box)
+{
+    return uint(SDFGI_BOUNDS_STRIDE) * (cascade * 2u * uint(SDFGI_BOUNDS_STRIPS) + box);
+}
+
+/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. Testing first spares contended
+ * atomics; all six words are read before any is tested. */
+void bounds_add(uint cascade, uint what, int axis, ivec3 low, ivec3 high)
+{
+    const int strip = clamp(low[axis] * SDFGI_BOUNDS_STRIPS >> int(sdfgi_frame.resolution_log2), 0, SDFGI_BOUNDS_STRIPS - 1);
+    const uint slot = bounds_slot(cascade, what + uint(strip));
+    const uvec3 down = uvec3(SDFGI_BOUNDS_ORIGIN - low), up = uvec3(SDFGI_BOUNDS_ORIGIN + high);
+    const uvec3 had_down = uvec3(sdfgi_bounds[slot], sdfgi_bounds[slot + 1u], sdfgi_bounds[slot + 2u]);
+    const uvec3 had_up = uvec3(sdfgi_bounds[slot + 3u], sdfgi_bounds[slot + 4u], sdfgi_bounds[slot + 5u]);
+    for (uint i = 0u; i < 3u; i++) {
+        if (had_down[i] < down[i])
+            atomicMax(sdfgi_bounds[slot + i], down[i]);
+        if (had_up[i] < up[i])
+            atomicMax(sdfgi_bounds[slot + 3u + i], up[i]);
+    }
+}
+
+bool bounds_any(uint cascade, uint box)
+{
+    return sdfgi_bounds[bounds_slot(cascade, box)] != 0u;
+}
+
+ivec3 bounds_low(uint cascade, uint box)
+{
+    const uint slot = bounds_slot(cascade, box);
+    return SDFGI_BOUNDS_ORIGIN - ivec3(sdfgi_bounds[slot], sdfgi_bounds[slot + 1u], sdfgi_bounds[slot + 2u]);
+}
+
+ivec3 bounds_high(uint cascade, uint box)
+{
+    const uint slot = bounds_slot(cascade, box) + 3u;
+    return ivec3(sdfgi_bounds[slot], sdfgi_bounds[slot + 1u], sdfgi_bounds[slot + 2u]) - SDFGI_BOUNDS_ORIGIN;
+}
+
+#endif
