@@ -4,8 +4,8 @@
  *
  * X(id, shader, unit, reads, writes, need)
  *   unit    what its work counter counts
- *   reads   resources, as bits; R(NAME) | ...  FRAME is read by all
- *   writes  likewise
+ *   reads   resources, as bits; R(NAME) | ...  FRAME is read by all; what is also written may be left out
+ *   writes  likewise; tests/layout compares both with what the compiled shaders do
  *   need    the condition of the scene that calls for it, see plan.c
  */
 #ifndef SDFGI_PASS_TABLE_H
@@ -31,12 +31,12 @@
     X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH) | R(INDIRECT), R(MASKS), MASKS) \
     X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES) | R(BOUNDS), R(RAYS), SEED)                                     \
     X(LIGHT_DIRECT,    light_direct,    "light cells", R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS), DIRECT) \
-    X(LIGHT_BOUNCE,    light_bounce,    "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS), LIGHT) \
+    X(LIGHT_BOUNCE,    light_bounce,    "light cells", R(BITS) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS), LIGHT) \
     X(RAY_LIST,        ray_list,        "rays",        R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT), RAYS) \
     X(PROBE_TRACE,     probe_trace,     "rays",        R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS) | R(INDIRECT), RAYS) \
     X(PROBE_SUM,       probe_sum,       "rays",        R(PROBES) | R(RAYS) | R(LIGHT) | R(INDIRECT), R(SUMS) | R(COUNTERS), TRACE) \
     X(PROBE_BLEND,     probe_blend,     "probes",      R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS), BLEND) \
-    X(GATHER,          gather,          "pixels",      R(BITS) | R(DISTANCE) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(IRRADIANCE), 0, GATHER)
+    X(GATHER,          gather,          "pixels",      R(BITS) | R(DISTANCE) | R(LIGHT) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(IRRADIANCE), 0, GATHER)
 /* clang-format on */
 
 enum pass {

@@ -1,82 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * The library's own compiled shaders place every shared struct and every resource where C does. */
 #include "internal.h"
+#include "modules.h"
 #include "require.h"
-#include "spirv.h"
-
-#include "cell_mask.comp.h"
-#include "distance_exact.comp.h"
-#include "distance_plane.comp.h"
-#include "distance_prepare.comp.h"
-#include "flood_distance.comp.h"
-#include "flood_seed.comp.h"
-#include "flood_step.comp.h"
-#include "gather.comp.h"
-#include "light_bounce.comp.h"
-#include "light_direct.comp.h"
-#include "light_list.comp.h"
-#include "light_mark.comp.h"
-#include "occlusion_trace.comp.h"
-#include "probe_blend.comp.h"
-#include "probe_place.comp.h"
-#include "probe_seed.comp.h"
-#include "probe_sum.comp.h"
-#include "probe_trace.comp.h"
-#include "ray_forget.comp.h"
-#include "ray_list.comp.h"
-#include "region_clear.comp.h"
-#include "voxel_resolve.comp.h"
-#include "voxelize.comp.h"
-#include "voxelize_raster.frag.h"
-#include "voxelize_raster.vert.h"
-#include "voxelize_raster_textured.frag.h"
-#include "voxelize_textured.comp.h"
 
 #include <ctype.h>
 #include <stdio.h>
-
-#define MODULE(name)                                                                                         \
-    {                                                                                                        \
-        name, sizeof name                                                                                    \
-    }
-static const struct {
-    const uint32_t *code;
-    size_t size;
-} modules[] = {
-    MODULE(cell_mask_comp),
-    MODULE(distance_exact_comp),
-    MODULE(distance_plane_comp),
-    MODULE(distance_prepare_comp),
-    MODULE(flood_distance_comp),
-    MODULE(flood_seed_comp),
-    MODULE(flood_step_comp),
-    MODULE(gather_comp),
-    MODULE(light_bounce_comp),
-    MODULE(light_direct_comp),
-    MODULE(light_list_comp),
-    MODULE(light_mark_comp),
-    MODULE(occlusion_trace_comp),
-    MODULE(probe_blend_comp),
-    MODULE(probe_place_comp),
-    MODULE(probe_seed_comp),
-    MODULE(probe_sum_comp),
-    MODULE(probe_trace_comp),
-    MODULE(ray_forget_comp),
-    MODULE(ray_list_comp),
-    MODULE(region_clear_comp),
-    MODULE(voxel_resolve_comp),
-    MODULE(voxelize_comp),
-    MODULE(voxelize_raster_frag),
-    MODULE(voxelize_raster_vert),
-    MODULE(voxelize_textured_comp),
-    MODULE(voxelize_raster_textured_frag),
-};
-
-static void visit_all(const struct spirv_visitor *visitor)
-{
-    for (size_t i = 0; i < sizeof modules / sizeof *modules; i++)
-        spirv_visit(modules[i].code, modules[i].size, visitor);
-}
 
 /* ---- Structs */
 
@@ -213,24 +142,51 @@ static void visit_all(const struct spirv_visitor *visitor)
 
 struct place {
     const char *type, *name;
-    size_t offset;
+    size_t offset, size;
     uint32_t seen;
 };
 
 static struct place places[] = {
-#define ROW(type, name) { #type, #name, offsetof(struct type, name), 0 },
+#define ROW(type, name) { #type, #name, offsetof(struct type, name), sizeof(((struct type *)0)->name), 0 },
     MEMBERS(ROW)
 #undef ROW
 };
 
 /* Structs that lie in arrays: their size is the distance between elements. */
-static struct place sizes[] = {
-    { "sdfgi_cascade_params", "", sizeof(struct sdfgi_cascade_params), 0 },
-    { "sdfgi_light_params", "", sizeof(struct sdfgi_light_params), 0 },
-    { "sdfgi_material_params", "", sizeof(struct sdfgi_material_params), 0 },
+static struct {
+    const char *type;
+    size_t size;
+    uint32_t seen;
+} elements[] = {
+    { "sdfgi_cascade_params", sizeof(struct sdfgi_cascade_params), 0 },
+    { "sdfgi_light_params", sizeof(struct sdfgi_light_params), 0 },
+    { "sdfgi_material_params", sizeof(struct sdfgi_material_params), 0 },
 };
 
-enum { PLACES = sizeof places / sizeof *places, SIZES = sizeof sizes / sizeof *sizes };
+enum { PLACES = sizeof places / sizeof *places, ELEMENTS = sizeof elements / sizeof *elements };
+
+/* Member `index` of a struct. */
+struct member {
+    spvc_compiler spirv;
+    spvc_type owner, type;
+    unsigned index;
+    const char *owner_name, *name;
+};
+
+static void check_stride(const struct member *m)
+{
+    const char *element = spvc_compiler_get_name(m->spirv, spvc_type_get_base_type_id(m->type));
+    unsigned stride;
+    REQUIRE_CMP(spvc_compiler_type_struct_member_array_stride(m->spirv, m->owner, m->index, &stride), ==,
+                SPVC_SUCCESS);
+    for (int i = 0; i < ELEMENTS; i++)
+        if (strcmp(elements[i].type, element) == 0) {
+            if (stride != elements[i].size)
+                require_fail(__FILE__, __LINE__, "%s: %u bytes apart, %zu in C", element, stride,
+                             elements[i].size);
+            elements[i].seen++;
+        }
+}
 
 static bool is_shared(const char *type)
 {
@@ -240,44 +196,68 @@ static bool is_shared(const char *type)
     return false;
 }
 
-static void check_size(const struct spirv_member *m)
+static struct place *place_find(const struct member *m)
 {
-    for (int i = 0; i < SIZES; i++)
-        if (strcmp(sizes[i].type, m->element) == 0) {
-            if (m->array_stride != sizes[i].offset)
-                require_fail(__FILE__, __LINE__, "%s: %u bytes apart, %zu in C", m->element, m->array_stride,
-                             sizes[i].offset);
-            sizes[i].seen++;
-        }
+    for (int i = 0; i < PLACES; i++)
+        if (strcmp(places[i].type, m->owner_name) == 0 && strcmp(places[i].name, m->name) == 0)
+            return &places[i];
+    require_fail(__FILE__, __LINE__, "%s.%s: not in the table of this test", m->owner_name, m->name);
+    return NULL;
 }
 
-static void check_member(void *user, const struct spirv_member *m)
+static void check_place(const struct member *m)
 {
-    (void)user;
-    if (m->array_stride)
-        check_size(m);
-    if (!is_shared(m->type))
-        return;
-    for (int i = 0; i < PLACES; i++)
-        if (strcmp(places[i].type, m->type) == 0 && strcmp(places[i].name, m->name) == 0) {
-            if (m->offset != places[i].offset)
-                require_fail(__FILE__, __LINE__, "%s.%s: at %u, in C at %zu", m->type, m->name, m->offset,
-                             places[i].offset);
-            places[i].seen++;
-            return;
-        }
-    require_fail(__FILE__, __LINE__, "%s.%s: not in the table of this test", m->type, m->name);
+    struct place *place = place_find(m);
+    unsigned offset;
+    size_t size;
+    REQUIRE_CMP(spvc_compiler_type_struct_member_offset(m->spirv, m->owner, m->index, &offset), ==,
+                SPVC_SUCCESS);
+    REQUIRE_CMP(spvc_compiler_get_declared_struct_member_size(m->spirv, m->owner, m->index, &size), ==,
+                SPVC_SUCCESS);
+    if (offset != place->offset || size != place->size)
+        require_fail(__FILE__, __LINE__, "%s.%s: %zu bytes at %u, in C %zu at %zu", m->owner_name, m->name,
+                     size, offset, place->size, place->offset);
+    place->seen++;
+}
+
+static void check_struct(spvc_compiler spirv, spvc_type_id id)
+{
+    struct member m = { .spirv = spirv, .owner = spvc_compiler_get_type_handle(spirv, id) };
+    m.owner_name = spvc_compiler_get_name(spirv, id);
+    for (; m.index < spvc_type_get_num_member_types(m.owner); m.index++) {
+        m.type = spvc_compiler_get_type_handle(spirv, spvc_type_get_member_type(m.owner, m.index));
+        m.name = spvc_compiler_get_member_name(spirv, id, m.index);
+        if (is_shared(m.owner_name))
+            check_place(&m);
+        if (spvc_type_get_basetype(m.type) != SPVC_BASETYPE_STRUCT)
+            continue;
+        if (spvc_type_get_num_array_dimensions(m.type))
+            check_stride(&m);
+        check_struct(spirv, spvc_type_get_base_type_id(m.type));
+    }
+}
+
+static void check_structs(const struct module *module)
+{
+    struct module_resource resources[MODULE_RESOURCES_MAX];
+    const size_t count = module_resources(module, resources);
+    const spvc_type_id push = module_push_type(module);
+    for (size_t i = 0; i < count; i++)
+        check_struct(module->spirv, resources[i].type);
+    if (push)
+        check_struct(module->spirv, push);
 }
 
 static void shaders_lay_out_every_shared_struct_as_c_does(void **state)
 {
     (void)state;
-    visit_all(&(struct spirv_visitor){ .member = check_member });
+    for (size_t i = 0; i < module_count; i++)
+        check_structs(&modules[i]);
     for (int i = 0; i < PLACES; i++)
         if (!places[i].seen)
             require_fail(__FILE__, __LINE__, "%s.%s: in no shader", places[i].type, places[i].name);
-    for (int i = 0; i < SIZES; i++)
-        REQUIRE_CMP(sizes[i].seen, >, 0u);
+    for (int i = 0; i < ELEMENTS; i++)
+        REQUIRE_CMP(elements[i].seen, >, 0u);
 }
 
 /* ---- Bindings */
@@ -290,76 +270,69 @@ _Static_assert((int)RESOURCE_IRRADIANCE == SDFGI_BINDING_IRRADIANCE, "the atlas 
 _Static_assert((int)RESOURCE_IRRADIANCE + 1 == SDFGI_BINDING_IRRADIANCE_STORE,
                "then the atlas as it is written");
 
-static const char *const resource_ids[RESOURCE_COUNT] = {
-#define ROW(id, category, size, lifetime) #id,
-    SDFGI_BUFFERS(ROW)
-#undef ROW
-        "IRRADIANCE",
-};
-
-/* Block of a buffer of the resource table: sdfgi_<id>_buffer. */
+/* Block of a buffer of the resource table, sdfgi_<id>_buffer; the table's names are "sdfgi <ID>". */
 static void block_name(int resource, char name[static 64])
 {
-    snprintf(name, 64, "sdfgi_%s_buffer", resource_ids[resource]);
+    snprintf(name, 64, "%s_buffer", resource_name((enum resource)resource));
     for (char *c = name; *c; c++)
-        *c = (char)tolower((unsigned char)*c);
+        *c = *c == ' ' ? '_' : (char)tolower((unsigned char)*c);
 }
 
-static uint32_t blocks_seen[RESOURCE_COUNT];
-
-static void check_binding(void *user, const struct spirv_binding *b)
+/* What the binding of a resource has to be. */
+static uint32_t table_binding(const struct module *module, const struct module_resource *r)
 {
-    (void)user;
     char name[64];
-    if (b->set != 0)
-        return;
-    if (strcmp(b->name, "sdfgi_irradiance_atlas") == 0) {
-        REQUIRE_CMP(b->binding, ==, (uint32_t)SDFGI_BINDING_IRRADIANCE);
-        blocks_seen[RESOURCE_IRRADIANCE]++;
-        return;
-    }
+    if (r->kind == SPVC_RESOURCE_TYPE_STORAGE_IMAGE)
+        return SDFGI_BINDING_IRRADIANCE_STORE;
+    if (strcmp(r->block, "sdfgi_irradiance_atlas") == 0)
+        return SDFGI_BINDING_IRRADIANCE;
     for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++) {
         block_name(i, name);
-        if (strcmp(b->type, name) != 0)
-            continue;
-        if (b->binding != (uint32_t)i)
-            require_fail(__FILE__, __LINE__, "%s: binding %u, in the resource table %d", name, b->binding, i);
-        blocks_seen[i]++;
-        return;
+        if (strcmp(r->block, name) == 0)
+            return (uint32_t)i;
     }
-    if (b->binding != SDFGI_BINDING_IRRADIANCE_STORE)
-        require_fail(__FILE__, __LINE__, "%s %s: binding %u is none of the resource table's", b->type,
-                     b->name, b->binding);
+    require_fail(__FILE__, __LINE__, "%s: %s is not in the resource table", module->name, r->block);
+    return 0;
+}
+
+static void check_binding(const struct module *module, const struct module_resource *r,
+                          uint32_t seen[static SDFGI_BINDING_IRRADIANCE_STORE + 1])
+{
+    const uint32_t binding = table_binding(module, r);
+    if (r->binding != binding)
+        require_fail(__FILE__, __LINE__, "%s: %s has binding %u, in the resource table %u", module->name,
+                     r->block, r->binding, binding);
+    seen[binding]++;
 }
 
 static void shaders_bind_every_resource_where_the_table_says(void **state)
 {
     (void)state;
-    visit_all(&(struct spirv_visitor){ .binding = check_binding });
-    for (int i = 0; i < RESOURCE_COUNT; i++)
-        if (!blocks_seen[i])
-            require_fail(__FILE__, __LINE__, "%s: in no shader", resource_ids[i]);
+    uint32_t seen[SDFGI_BINDING_IRRADIANCE_STORE + 1] = { 0 };
+    for (size_t i = 0; i < module_count; i++) {
+        struct module_resource resources[MODULE_RESOURCES_MAX];
+        const size_t count = module_resources(&modules[i], resources);
+        for (size_t k = 0; k < count; k++)
+            if (resources[k].set == 0)
+                check_binding(&modules[i], &resources[k], seen);
+    }
+    for (int i = 0; i <= SDFGI_BINDING_IRRADIANCE_STORE; i++)
+        if (!seen[i])
+            require_fail(__FILE__, __LINE__, "binding %d: in no shader", i);
 }
 
 /* ---- Push constants */
 
-static void push_constants_fit_everywhere(void **state)
-{
-    (void)state;
-    /* Vulkan promises 128 bytes. */
-    REQUIRE_CMP(sizeof(struct sdfgi_voxelize_args), <=, 128u);
-    REQUIRE_CMP(sizeof(struct sdfgi_gather_args), <=, 128u);
-    REQUIRE_CMP(sizeof(struct sdfgi_distance_prepare_args), <=, 128u);
-    REQUIRE_CMP(sizeof(struct sdfgi_region_args), <=,
-                sizeof(struct sdfgi_distance_prepare_args)); /* they share a layout */
-}
+_Static_assert(sizeof(struct sdfgi_voxelize_args) <= 128, "Vulkan promises 128 bytes");
+_Static_assert(sizeof(struct sdfgi_gather_args) <= 128, "Vulkan promises 128 bytes");
+_Static_assert(sizeof(struct sdfgi_distance_prepare_args) <= 128, "Vulkan promises 128 bytes");
+_Static_assert(sizeof(struct sdfgi_region_args) <= sizeof(struct sdfgi_distance_prepare_args), "they share a layout");
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shaders_lay_out_every_shared_struct_as_c_does),
         cmocka_unit_test(shaders_bind_every_resource_where_the_table_says),
-        cmocka_unit_test(push_constants_fit_everywhere),
     };
-    return cmocka_run_group_tests_name("layout", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("layout", tests, modules_open, modules_close);
 }

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT */
+#include "modules.h"
+
+#include "require.h"
+
+#include "cell_mask.comp.h"
+#include "distance_exact.comp.h"
+#include "distance_plane.comp.h"
+#include "distance_prepare.comp.h"
+#include "flood_distance.comp.h"
+#include "flood_seed.comp.h"
+#include "flood_step.comp.h"
+#include "gather.comp.h"
+#include "light_bounce.comp.h"
+#include "light_direct.comp.h"
+#include "light_list.comp.h"
+#include "light_mark.comp.h"
+#include "occlusion_trace.comp.h"
+#include "probe_blend.comp.h"
+#include "probe_place.comp.h"
+#include "probe_seed.comp.h"
+#include "probe_sum.comp.h"
+#include "probe_trace.comp.h"
+#include "ray_forget.comp.h"
+#include "ray_list.comp.h"
+#include "region_clear.comp.h"
+#include "voxel_resolve.comp.h"
+#include "voxelize.comp.h"
+#include "voxelize_raster.frag.h"
+#include "voxelize_raster.vert.h"
+#include "voxelize_raster_textured.frag.h"
+#include "voxelize_textured.comp.h"
+
+#define MODULE(pass, words)                                                                                  \
+    {                                                                                                        \
+        PASS_##pass, #words, words, sizeof words, NULL                                                       \
+    }
+struct module modules[] = {
+    MODULE(CELL_MASK, cell_mask_comp),
+    MODULE(DISTANCE_EXACT, distance_exact_comp),
+    MODULE(DISTANCE_PLANE, distance_plane_comp),
+    MODULE(DISTANCE_PREPARE, distance_prepare_comp),
+    MODULE(FLOOD_DISTANCE, flood_distance_comp),
+    MODULE(FLOOD_SEED, flood_seed_comp),
+    MODULE(FLOOD_STEP, flood_step_comp),
+    MODULE(GATHER, gather_comp),
+    MODULE(LIGHT_BOUNCE, light_bounce_comp),
+    MODULE(LIGHT_DIRECT, light_direct_comp),
+    MODULE(LIGHT_LIST, light_list_comp),
+    MODULE(LIGHT_MARK, light_mark_comp),
+    MODULE(OCCLUSION_TRACE, occlusion_trace_comp),
+    MODULE(PROBE_BLEND, probe_blend_comp),
+    MODULE(PROBE_PLACE, probe_place_comp),
+    MODULE(PROBE_SEED, probe_seed_comp),
+    MODULE(PROBE_SUM, probe_sum_comp),
+    MODULE(PROBE_TRACE, probe_trace_comp),
+    MODULE(RAY_FORGET, ray_forget_comp),
+    MODULE(RAY_LIST, ray_list_comp),
+    MODULE(REGION_CLEAR, region_clear_comp),
+    MODULE(VOXEL_RESOLVE, voxel_resolve_comp),
+    MODULE(VOXELIZE, voxelize_comp),
+    MODULE(VOXELIZE, voxelize_textured_comp),
+    MODULE(VOXELIZE_RASTER, voxelize_raster_vert),
+    MODULE(VOXELIZE_RASTER, voxelize_raster_frag),
+    MODULE(VOXELIZE_RASTER, voxelize_raster_textured_frag),
+};
+const size_t module_count = sizeof modules / sizeof *modules;
+
+static spvc_context context;
+
+static void module_open(struct module *module)
+{
+    spvc_parsed_ir parsed;
+    const size_t words = module->size / sizeof *module->code;
+    if (spvc_context_parse_spirv(context, module->code, words, &parsed) != SPVC_SUCCESS ||
+        spvc_context_create_compiler(context, SPVC_BACKEND_NONE, parsed, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
+                                     &module->spirv) != SPVC_SUCCESS)
+        require_fail(__FILE__, __LINE__, "%s: %s", module->name, spvc_context_get_last_error_string(context));
+}
+
+int modules_open(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(spvc_context_create(&context), ==, SPVC_SUCCESS);
+    for (size_t i = 0; i < module_count; i++)
+        module_open(&modules[i]);
+    return 0;
+}
+
+int modules_close(void **state)
+{
+    (void)state;
+    spvc_context_destroy(context);
+    return 0;
+}
+
+static size_t append(const struct module *module, spvc_resources resources, spvc_resource_type kind,
+                     struct module_resource *list, size_t count)
+{
+    const spvc_reflected_resource *found;
+    size_t found_count;
+    REQUIRE_CMP(spvc_resources_get_resource_list_for_type(resources, kind, &found, &found_count), ==,
+                SPVC_SUCCESS);
+    REQUIRE_CMP(count + found_count, <=, (size_t)MODULE_RESOURCES_MAX);
+    for (size_t i = 0; i < found_count; i++)
+        list[count + i] = (struct module_resource){
+            .id = found[i].id,
+            .type = found[i].base_type_id,
+            .kind = kind,
+            .block = found[i].name,
+            .set = spvc_compiler_get_decoration(module->spirv, found[i].id, SpvDecorationDescriptorSet),
+            .binding = spvc_compiler_get_decoration(module->spirv, found[i].id, SpvDecorationBinding),
+        };
+    return count + found_count;
+}
+
+static size_t append_all(const struct module *module, spvc_resources resources, struct module_resource *list)
+{
+    /* All kinds that have a set and a binding and that a descriptor of Vulkan 1.2 can be. */
+    static const spvc_resource_type kinds[] = {
+        SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, SPVC_RESOURCE_TYPE_STORAGE_BUFFER,
+        SPVC_RESOURCE_TYPE_STORAGE_IMAGE,  SPVC_RESOURCE_TYPE_SAMPLED_IMAGE,
+        SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS,
+        SPVC_RESOURCE_TYPE_SUBPASS_INPUT,
+    };
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        count = append(module, resources, kinds[i], list, count);
+    return count;
+}
+
+size_t module_resources(const struct module *module, struct module_resource list[static MODULE_RESOURCES_MAX])
+{
+    spvc_resources resources;
+    REQUIRE_CMP(spvc_compiler_create_shader_resources(module->spirv, &resources), ==, SPVC_SUCCESS);
+    return append_all(module, resources, list);
+}
+
+size_t module_active_resources(const struct module *module,
+                               struct module_resource list[static MODULE_RESOURCES_MAX])
+{
+    spvc_set active;
+    spvc_resources resources;
+    REQUIRE_CMP(spvc_compiler_get_active_interface_variables(module->spirv, &active), ==, SPVC_SUCCESS);
+    REQUIRE_CMP(spvc_compiler_create_shader_resources_for_active_variables(module->spirv, &resources, active),
+                ==, SPVC_SUCCESS);
+    return append_all(module, resources, list);
+}
+
+spvc_type_id module_push_type(const struct module *module)
+{
+    struct module_resource push[MODULE_RESOURCES_MAX];
+    spvc_resources resources;
+    REQUIRE_CMP(spvc_compiler_create_shader_resources(module->spirv, &resources), ==, SPVC_SUCCESS);
+    return append(module, resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, push, 0) ? push[0].type : 0;
+}

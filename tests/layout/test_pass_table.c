@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT
+ * The rows of pass_table.h say of every pass what its shaders do: barriers follow from them. */
+#include "access.h"
+#include "internal.h"
+#include "modules.h"
+#include "require.h"
+
+#include <stdlib.h>
+
+/* From the table itself: the library's functions would bring its own copies of the shaders along. */
+static const struct {
+    const char *name;
+    uint64_t reads, writes;
+} rows[PASS_COUNT] = {
+#define R(id)                                      RESOURCE_BIT(id)
+#define ROW(id, shader, unit, reads, writes, need) [PASS_##id] = { #shader, (reads) | R(FRAME), (writes) },
+    SDFGI_PASSES(ROW)
+#undef ROW
+#undef R
+};
+
+static bool is_vertex(const struct module *module)
+{
+    return spvc_compiler_get_execution_model(module->spirv) == SpvExecutionModelVertex;
+}
+
+/* ---- Reads and writes */
+
+struct touches {
+    uint8_t access[RESOURCE_COUNT]; /* ACCESS_* */
+};
+
+static void touch(struct touches *touches, const struct module *module,
+                  const struct module_resource *resource, uint8_t access)
+{
+    /* The atlas has two bindings, one as it is sampled and one as it is written. */
+    const uint32_t id =
+        resource->binding == SDFGI_BINDING_IRRADIANCE_STORE ? RESOURCE_IRRADIANCE : resource->binding;
+    REQUIRE_CMP(id, <, (uint32_t)RESOURCE_COUNT);
+    /* Only its length is asked for, or access.c lacks an instruction. */
+    if (!access)
+        require_fail(__FILE__, __LINE__, "%s: %s: named, but neither read nor written", module->name,
+                     resource_name((enum resource)id));
+    touches->access[id] |= access;
+}
+
+static void add_touches(struct touches *touches, const struct module *module)
+{
+    struct module_resource resources[MODULE_RESOURCES_MAX];
+    const size_t count = module_active_resources(module, resources);
+    uint8_t *access = access_by_id(module->code, module->size);
+    for (size_t i = 0; i < count; i++)
+        if (resources[i].set == 0)
+            touch(touches, module, &resources[i], access[resources[i].id]);
+    free(access);
+}
+
+static uint8_t row_access(enum pass pass, int resource)
+{
+    return (uint8_t)((rows[pass].reads >> resource & 1 ? ACCESS_READ : 0) |
+                     (rows[pass].writes >> resource & 1 ? ACCESS_WRITE : 0));
+}
+
+/* A row need not repeat under reads what it writes; all else is exact. */
+static bool agree(uint8_t row, uint8_t shader)
+{
+    return row == shader || (row == ACCESS_WRITE && shader == (ACCESS_READ | ACCESS_WRITE));
+}
+
+/* Prints each difference; returns how many. */
+static int compare(const struct module *module, const struct touches *touches)
+{
+    static const char *const verbs[] = { "does not touch it", "reads it", "writes it",
+                                         "reads and writes it" };
+    int wrong = 0;
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
+        const uint8_t row = row_access(module->pass, i), shader = touches->access[i];
+        if (agree(row, shader))
+            continue;
+        print_error("%s (%s): %s: by the table the pass %s, the shader %s\n", rows[module->pass].name,
+                    module->name, resource_name((enum resource)i), verbs[row], verbs[shader]);
+        wrong++;
+    }
+    return wrong;
+}
+
+/* A compute shader is a pipeline, and so is a fragment shader with its pass's vertex shader. */
+static int compare_pipeline(const struct module *module)
+{
+    struct touches touches = { { 0 } };
+    add_touches(&touches, module);
+    for (size_t i = 0; i < module_count; i++)
+        if (modules[i].pass == module->pass && is_vertex(&modules[i]))
+            add_touches(&touches, &modules[i]);
+    return compare(module, &touches);
+}
+
+static void every_row_names_what_its_shaders_read_and_write(void **state)
+{
+    (void)state;
+    int wrong = 0;
+    for (size_t i = 0; i < module_count; i++)
+        if (!is_vertex(&modules[i]))
+            wrong += compare_pipeline(&modules[i]);
+    REQUIRE_CMP(wrong, ==, 0);
+}
+
+/* ---- The rest of a row */
+
+static bool has_shader(enum pass pass)
+{
+    for (size_t i = 0; i < module_count; i++)
+        if (modules[i].pass == pass && !is_vertex(&modules[i]))
+            return true;
+    return false;
+}
+
+static void every_pass_has_a_shader_of_its_name(void **state)
+{
+    (void)state;
+    for (int i = 0; i < PASS_COUNT; i++)
+        if (!has_shader((enum pass)i))
+            require_fail(__FILE__, __LINE__, "%s: no shader", rows[i].name);
+    for (size_t i = 0; i < module_count; i++) {
+        const char *pass = rows[modules[i].pass].name;
+        if (strncmp(modules[i].name, pass, strlen(pass)) != 0)
+            require_fail(__FILE__, __LINE__, "%s: is no shader of %s", modules[i].name, pass);
+    }
+}
+
+static void workgroups_have_a_size_without_specialization(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < module_count; i++) {
+        const spvc_compiler spirv = modules[i].spirv;
+        const spvc_specialization_constant *constants;
+        size_t count;
+        REQUIRE_CMP(spvc_compiler_get_specialization_constants(spirv, &constants, &count), ==, SPVC_SUCCESS);
+        if (count)
+            require_fail(__FILE__, __LINE__, "%s: %zu specialization constants", modules[i].name, count);
+        if (spvc_compiler_get_execution_model(spirv) != SpvExecutionModelGLCompute)
+            continue;
+        for (unsigned axis = 0; axis < 3; axis++)
+            if (spvc_compiler_get_execution_mode_argument_by_index(spirv, SpvExecutionModeLocalSize, axis) <
+                1)
+                require_fail(__FILE__, __LINE__, "%s: no workgroup size", modules[i].name);
+    }
+}
+
+static void push_constants_fit_everywhere(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < module_count; i++) {
+        const spvc_compiler spirv = modules[i].spirv;
+        const spvc_type_id type = module_push_type(&modules[i]);
+        size_t size = 0;
+        if (type)
+            REQUIRE_CMP(spvc_compiler_get_declared_struct_size(
+                            spirv, spvc_compiler_get_type_handle(spirv, type), &size),
+                        ==, SPVC_SUCCESS);
+        /* Vulkan promises 128 bytes. */
+        if (size > 128)
+            require_fail(__FILE__, __LINE__, "%s: %zu bytes of push constants", modules[i].name, size);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_row_names_what_its_shaders_read_and_write),
+        cmocka_unit_test(every_pass_has_a_shader_of_its_name),
+        cmocka_unit_test(workgroups_have_a_size_without_specialization),
+        cmocka_unit_test(push_constants_fit_everywhere),
+    };
+    return cmocka_run_group_tests_name("pass_table", tests, modules_open, modules_close);
+}
