@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: MIT */
+#include "journey.h"
+
+#include "gpu_test_compute.h"
+#include "journey_book.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include "journey_look.comp.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <vulkan/vulkan.h>
+
+enum { POINTS = 48, ROW_WORDS = 4, FIRST_TEXEL = 1 + 3 * POINTS, LINE_SIZE = 96 };
+
+/* Passes that ran, and all that there are. */
+static struct {
+    const char *names[SDFGI_MAX_PASSES];
+    bool ran[SDFGI_MAX_PASSES];
+    uint32_t count, journeys;
+} seen;
+
+void journey_open(struct journey *j, const char *name, const struct sdfgi_settings *settings)
+{
+    *j = (struct journey){ .name = name };
+    gi_test_open(&j->t, settings);
+    j->t.frame.seed = 20;
+}
+
+void journey_close(struct journey *j)
+{
+    journey_screen_close(&j->screen, &j->t);
+    gi_test_close(&j->t);
+    seen.journeys++;
+}
+
+uint32_t journey_count(void)
+{
+    return seen.journeys;
+}
+
+/* ---- Memory that is new ---- */
+
+static uint32_t texel_count(const struct journey_state *state)
+{
+    return state->width * state->height * state->layers;
+}
+
+/* Points, if any, and texels: see journey_look.comp. */
+static void look(struct gi_test *t, uint32_t *rows, uint32_t points, uint32_t texels, bool clear)
+{
+    const struct gpu_test_shader shader = { journey_look_comp, sizeof journey_look_comp,
+                                            sdfgi_get_descriptor_set_layout(t->gi),
+                                            sdfgi_get_descriptor_set(t->gi) };
+    rows[0] = points;
+    rows[1] = clear;
+    gpu_test_compute(&t->gpu, &shader, points + texels, rows,
+                     4 * ROW_WORDS * (clear ? 1 : (size_t)FIRST_TEXEL + texels));
+}
+
+static void atlas_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct journey_state *state = user;
+    const VkImageMemoryBarrier barrier = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+        .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
+        .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = state->atlas,
+        .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, state->layers },
+    };
+    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0,
+                         NULL, 0, NULL, 1, &barrier);
+}
+
+/* The library's own transition, which comes after this one, may discard what the image holds; the software
+ * drivers that hashes are recorded with do not. */
+static void clear_atlas(struct journey *j, struct journey_state *state)
+{
+    uint32_t row[ROW_WORDS];
+    gpu_test_submit(&j->t.gpu, atlas_record, state);
+    look(&j->t, row, 0, texel_count(state), true);
+}
+
+static bool has_buffer(const struct journey_state *state, VkBuffer buffer)
+{
+    for (uint32_t i = 0; i < state->count; i++)
+        if (state->buffers[i].buffer == buffer)
+            return true;
+    return false;
+}
+
+struct fill {
+    const struct journey_state *before, *state;
+};
+
+static void fill_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct fill *fill = user;
+    for (uint32_t i = 0; i < fill->state->count; i++)
+        if (!has_buffer(fill->before, fill->state->buffers[i].buffer))
+            vkCmdFillBuffer(cmd, fill->state->buffers[i].buffer, 0, VK_WHOLE_SIZE, 0);
+}
+
+static void clear_new(struct journey *j)
+{
+    struct journey_state state;
+    journey_state_find(&j->t, &state);
+    struct fill fill = { &j->state, &state };
+    gpu_test_submit(&j->t.gpu, fill_record, &fill);
+    if (state.atlas && state.atlas != j->state.atlas)
+        clear_atlas(j, &state);
+    j->state = state;
+}
+
+/* Some memory is allocated by the update itself: it is cleared between recording and submission. */
+static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct journey *j = user;
+    REQUIRE_CMP(sdfgi_update(j->t.gi, cmd, &j->t.frame), ==, SDFGI_OK);
+    j->t.frame.frame_index++;
+    clear_new(j);
+}
+
+/* ---- Hashes of a frame ---- */
+
+struct download {
+    const struct journey_state *state;
+    VkBuffer target;
+};
+
+static void download_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct download *download = user;
+    uint64_t offset = 0;
+    for (uint32_t i = 0; i < download->state->count; i++) {
+        const struct journey_buffer *buffer = &download->state->buffers[i];
+        const VkBufferCopy region = { 0, offset, buffer->size };
+        vkCmdCopyBuffer(cmd, buffer->buffer, download->target, 1, &region);
+        offset += buffer->size;
+    }
+}
+
+/* SCRATCH holds queues that threads fill in whatever order they run, and is left out. What the frame makes of
+ * them does not depend on their order. */
+static bool depends_on_order(const struct journey_buffer *buffer)
+{
+    return strcmp(buffer->name, "SCRATCH") == 0;
+}
+
+static void add_buffers(struct journey *j, struct journey_row *row)
+{
+    uint64_t size = 0;
+    for (uint32_t i = 0; i < j->state.count; i++)
+        size += j->state.buffers[i].size;
+    struct gpu_test_buffer staging = gpu_test_buffer_host(&j->t.gpu, size, 0, NULL);
+    struct download download = { &j->state, staging.buffer };
+    gpu_test_submit(&j->t.gpu, download_record, &download);
+    const char *data = staging.mapped;
+    for (uint32_t i = 0; i < j->state.count; data += j->state.buffers[i++].size)
+        if (!depends_on_order(&j->state.buffers[i]))
+            journey_row_add(row, j->state.buffers[i].name, data, j->state.buffers[i].size);
+    gpu_test_buffer_destroy(&j->t.gpu, &staging);
+}
+
+/* Around the camera, nearer to it as often as farther away, with normals along axes. */
+static void fill_points(const struct journey *j, float (*points)[3][4])
+{
+    struct test_random random = { 5 };
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const double reach = i % 2 ? 14 : 3;
+        memset(points[i], 0, sizeof points[i]);
+        points[i][1][i / 2 % 3] = i % 4 < 2 ? 1 : -1;
+        for (int k = 0; k < 3; k++) {
+            const double place = j->t.frame.camera_position[k] - j->t.frame.origin[k];
+            points[i][0][k] = (float)(place + test_random_real(&random, -reach, reach));
+            points[i][k][3] = 0.1f * points[i][1][k]; /* the way to the eye */
+            points[i][2][k] = NAN;                    /* would be left by a shader that writes nothing */
+        }
+    }
+}
+
+static void add_light(struct journey *j, struct journey_row *row)
+{
+    const uint32_t texels = texel_count(&j->state);
+    uint32_t *rows = test_array_alloc((size_t)FIRST_TEXEL + texels, 4 * ROW_WORDS);
+    float points[POINTS][3][4];
+    fill_points(j, points);
+    memcpy(rows + ROW_WORDS, points, sizeof points);
+    look(&j->t, rows, POINTS, texels, false);
+    journey_row_add(row, "LOOKUPS", rows + ROW_WORDS, sizeof points);
+    journey_row_add(row, "IRRADIANCE", rows + (size_t)ROW_WORDS * FIRST_TEXEL,
+                    (size_t)texels * 4 * ROW_WORDS);
+    free(rows);
+}
+
+static void note_passes(const struct sdfgi_report *report)
+{
+    seen.count = report->pass_count;
+    for (uint32_t i = 0; i < report->pass_count; i++) {
+        seen.names[i] = report->passes[i].name;
+        seen.ran[i] = seen.ran[i] || report->passes[i].ran;
+    }
+}
+
+static size_t print_state(const struct sdfgi_report *r, char *text, size_t size)
+{
+    size_t length = (size_t)snprintf(
+        text, size, "%d %d %llu %llu %llu %u %u\n", r->active, r->converged,
+        (unsigned long long)r->scroll.steps_begun, (unsigned long long)r->scroll.cells,
+        (unsigned long long)r->scroll.pending_cells, r->scroll.cascades_changing, r->scroll.cascades_waiting);
+    for (uint32_t i = 0; i < r->health_count; i++)
+        length += (size_t)snprintf(text + length, size - length, "%d %llu\n", (int)r->health[i].code,
+                                   (unsigned long long)r->health[i].count);
+    return length;
+}
+
+static int compare_lines(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+/* A line for each pass that did something, without times; sorted, as the order of passes in the report is
+ * none of a host's business. */
+static uint32_t print_passes(const struct sdfgi_report *report, char (*lines)[LINE_SIZE])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < report->pass_count; i++) {
+        const struct sdfgi_pass_report *pass = &report->passes[i];
+        if (pass->ran || pass->work > 0)
+            snprintf(lines[count++], LINE_SIZE, "%s %d %u %llu", pass->name, pass->ran, pass->dispatches,
+                     (unsigned long long)pass->work);
+    }
+    qsort(lines, count, LINE_SIZE, compare_lines);
+    return count;
+}
+
+static void add_report(const struct journey *j, struct journey_row *row)
+{
+    static struct sdfgi_report report;
+    char state[1024], lines[SDFGI_MAX_PASSES][LINE_SIZE] = { 0 };
+    sdfgi_get_report(j->t.gi, &report);
+    journey_row_add(row, "STATE", state, print_state(&report, state, sizeof state));
+    const uint32_t count = print_passes(&report, lines);
+    journey_row_add(row, "REPORT", lines, count * sizeof lines[0]);
+    if (getenv("SDFGI_TEST_SHOW_REPORT")) {
+        printf("# %s %u: %s", j->name, j->frame - 1, state);
+        for (uint32_t i = 0; i < count; i++)
+            printf("#   %s\n", lines[i]);
+    }
+    note_passes(&report);
+}
+
+void journey_frame(struct journey *j, const double camera[static 3])
+{
+    struct journey_row row = { .journey = j->name, .frame = j->frame++ };
+    memcpy(j->t.frame.camera_position, camera, sizeof j->t.frame.camera_position);
+    gpu_test_submit(&j->t.gpu, record_update, j);
+    if (j->state.count > 0) {
+        add_buffers(j, &row);
+        add_light(j, &row);
+    }
+    if (j->screen.made)
+        journey_row_add(&row, "GATHER", journey_screen_gather(&j->screen, &j->t), sizeof j->screen.pixels);
+    add_report(j, &row);
+    journey_book_take(&row);
+}
+
+void journey_walk(struct journey *j, double camera[static 3], const double step[static 3], uint32_t frames)
+{
+    for (uint32_t i = 0; i < frames; i++) {
+        journey_frame(j, camera);
+        for (int k = 0; k < 3; k++)
+            camera[k] += step[k];
+    }
+}
+
+void journey_stay(struct journey *j, const double camera[static 3], uint32_t frames)
+{
+    for (uint32_t i = 0; i < frames; i++)
+        journey_frame(j, camera);
+}
+
+uint64_t journey_buffer_size(const struct journey *j, const char *name)
+{
+    for (uint32_t i = 0; i < j->state.count; i++)
+        if (strcmp(j->state.buffers[i].name, name) == 0)
+            return j->state.buffers[i].size;
+    return 0;
+}
+
+const char *journey_passes_missing(void)
+{
+    static char text[1024];
+    text[0] = 0;
+    for (uint32_t i = 0; i < seen.count; i++)
+        if (!seen.ran[i])
+            snprintf(text + strlen(text), sizeof text - strlen(text), " %s", seen.names[i]);
+    return text;
+}

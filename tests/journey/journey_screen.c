@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "journey_screen.h"
+
+#include "require.h"
+
+enum { PIXELS = JOURNEY_SCREEN_WIDTH * JOURNEY_SCREEN_HEIGHT };
+
+static struct gpu_test_image image_create(struct gi_test *t, VkFormat format, uint32_t texel_size,
+                                          const void *texels)
+{
+    const struct gpu_test_image_desc desc = {
+        .format = format,
+        .extent = { JOURNEY_SCREEN_WIDTH, JOURNEY_SCREEN_HEIGHT, 1 },
+        .usage = texels ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_STORAGE_BIT,
+        .layout = texels ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL,
+        .texels = texels,
+        .texel_size = texel_size,
+    };
+    return gpu_test_image_create(&t->gpu, &desc);
+}
+
+void journey_screen_open(struct journey_screen *screen, struct gi_test *t)
+{
+    static float depth[PIXELS], normals[PIXELS][4];
+    for (int i = 0; i < PIXELS; i++) {
+        depth[i] = i % 17 == 3 ? 1.0f : 0.25f + 0.001f * (float)i;
+        normals[i][1] = 1;
+    }
+    screen->depth = image_create(t, VK_FORMAT_R32_SFLOAT, 4, depth);
+    screen->normal = image_create(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, normals);
+    screen->output = image_create(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    screen->made = true;
+}
+
+void journey_screen_close(struct journey_screen *screen, struct gi_test *t)
+{
+    if (!screen->made)
+        return;
+    gpu_test_image_destroy(&t->gpu, &screen->depth);
+    gpu_test_image_destroy(&t->gpu, &screen->normal);
+    gpu_test_image_destroy(&t->gpu, &screen->output);
+}
+
+struct gather {
+    struct gi_test *t;
+    struct sdfgi_gather_desc desc;
+};
+
+static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct gather *g = user;
+    REQUIRE_CMP(sdfgi_gather(g->t->gi, cmd, &g->desc), ==, SDFGI_OK);
+}
+
+const void *journey_screen_gather(struct journey_screen *screen, struct gi_test *t)
+{
+    struct gather g = { .t = t,
+                        .desc = { .depth = screen->depth.view,
+                                  .normal = screen->normal.view,
+                                  .output = screen->output.view,
+                                  .width = JOURNEY_SCREEN_WIDTH,
+                                  .height = JOURNEY_SCREEN_HEIGHT,
+                                  .background_depth = 1,
+                                  /* clip (x, y, depth) to (6 x, -1 - 2 depth, 6 y), column-major */
+                                  .inverse_view_projection = { 6, 0, 0, 0, 0, 0, 6, 0, 0, -2, 0, 0, 0, -1, 0,
+                                                               1 } } };
+    gpu_test_submit(&t->gpu, gather_record, &g);
+    gpu_test_image_read(&t->gpu, screen->output.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        screen->output.extent, 8, screen->pixels);
+    return screen->pixels;
+}

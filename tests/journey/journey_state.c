@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+#include "journey_state.h"
+
+#include "internal.h"
+
+#include <string.h>
+
+_Static_assert((int)RESOURCE_BUFFER_COUNT <= (int)JOURNEY_MAX_BUFFERS, "there is room for every buffer");
+
+/* "sdfgi BITS" is BITS. */
+static const char *short_name(const char *name)
+{
+    const char *space = strrchr(name, ' ');
+    return space ? space + 1 : name;
+}
+
+void journey_state_find(const struct gi_test *t, struct journey_state *state)
+{
+    const struct resources *r = t->gi->resources;
+    *state = (struct journey_state){ 0 };
+    if (!r)
+        return;
+    state->count = RESOURCE_BUFFER_COUNT;
+    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++)
+        state->buffers[i] = (struct journey_buffer){ short_name(resource_name((enum resource)i)),
+                                                     r->buffers[i].handle, r->buffers[i].size };
+    state->atlas = r->irradiance.handle;
+    state->width = r->extent.atlas_width;
+    state->height = r->extent.atlas_height;
+    state->layers = t->gi->settings.cascades;
+}
