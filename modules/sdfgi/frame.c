@@ -287,15 +287,6 @@ static void clear_counters(struct frame *frame, enum cleared when)
     gpu_fill(&frame->rec, &frame->gi->resources->buffers[RESOURCE_COUNTERS], 4 * first, 4 * (end - first), 0);
 }
 
-static void prepare_atlas(struct frame *frame)
-{
-    struct resources *r = frame->gi->resources;
-    if (r->atlas_ready)
-        return;
-    gpu_image_to_general(&frame->rec, &r->irradiance, frame->gi->settings.cascades);
-    r->atlas_ready = true;
-}
-
 /* Moves on in the ring. At its end, decides from the newest ring known whether light has settled. */
 static void advance_ring(struct sdfgi *gi)
 {
@@ -315,7 +306,6 @@ static void advance_ring(struct sdfgi *gi)
 static void record_work(struct frame *frame)
 {
     struct sdfgi *gi = frame->gi;
-    prepare_atlas(frame);
     if (gi->plan[PASS_REGION_CLEAR].run)
         clear_counters(frame, CLEARED_CHANGE);
     else if (gi->ring_frame == 0)

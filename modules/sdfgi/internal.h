@@ -37,7 +37,6 @@ enum {
 struct extent {
     uint64_t cells, blocks, probes, probes_per_side, cascades, ring_samples, scratch, occlusion;
     uint64_t light_cells, light_cells_max; /* room in the list, and how much it may become */
-    uint32_t atlas_width, atlas_height;
 };
 
 struct extent extent_from_settings(const struct sdfgi_settings *settings);
@@ -55,8 +54,7 @@ uint32_t ring_samples(const struct sdfgi_settings *settings);
 /* ---- Device objects of a context that is switched on: resources.c */
 
 struct resources {
-    struct gpu_buffer buffers[RESOURCE_BUFFER_COUNT];
-    struct gpu_image irradiance;
+    struct gpu_buffer buffers[RESOURCE_COUNT];
     struct gpu_buffer readback; /* counters of the frames in flight */
     struct gpu_timer timer;
     uint32_t timer_tags[SDFGI_MAX_FRAMES_IN_FLIGHT * GPU_TIMER_SPANS];
@@ -68,7 +66,6 @@ struct resources {
     VkFramebuffer raster_target;
     VkPipeline raster_pipelines[2]; /* without and with textures */
     struct extent extent;
-    bool atlas_ready; /* the atlas is in VK_IMAGE_LAYOUT_GENERAL */
     uint64_t light_cells_refused; /* how many cells there was no room for; 0: always enough */
     uint64_t retired_at;
     struct resources *next_retired;
@@ -81,7 +78,7 @@ struct pipelines {
     VkPipelineLayout layout, voxelize_layout, gather_layout_pipeline;
     VkPipeline passes[PASS_COUNT];
     VkPipeline voxelize_textured;
-    VkSampler linear, nearest;
+    VkSampler nearest;
 };
 
 /* ---- Scene: scene.c */

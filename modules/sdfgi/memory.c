@@ -77,8 +77,6 @@ struct extent extent_from_settings(const struct sdfgi_settings *settings)
         .cascades = settings->cascades,
         .ring_samples = ring_samples(settings),
         .occlusion = 4,
-        .atlas_width = (uint32_t)side * SDFGI_IRRADIANCE_STRIDE,
-        .atlas_height = (uint32_t)(side * side) * SDFGI_IRRADIANCE_STRIDE,
     };
     e.scratch = scratch_size(&e, settings->ray_count);
     if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
@@ -94,8 +92,6 @@ uint64_t resource_size(enum resource resource, const struct extent *s)
         return size;
         SDFGI_BUFFERS(SIZE)
 #undef SIZE
-    case RESOURCE_IRRADIANCE:
-        return (uint64_t)s->atlas_width * s->atlas_height * s->cascades * 8;
     case RESOURCE_COUNT:
         break;
     }
@@ -109,7 +105,6 @@ static const struct {
 #define ROW(id, category, size, lifetime) [RESOURCE_##id] = { "sdfgi " #id, SDFGI_MEMORY_##category },
     SDFGI_BUFFERS(ROW)
 #undef ROW
-        [RESOURCE_IRRADIANCE] = { "sdfgi IRRADIANCE", SDFGI_MEMORY_PROBES },
 };
 
 const char *resource_name(enum resource resource)

@@ -99,14 +99,10 @@ static VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType typ
 static VkResult main_set_layout(struct sdfgi *gi)
 {
     struct pipelines *p = &gi->pipelines;
-    VkDescriptorSetLayoutBinding bindings[RESOURCE_BUFFER_COUNT + 2];
-    for (uint32_t i = 0; i < RESOURCE_BUFFER_COUNT; i++)
+    VkDescriptorSetLayoutBinding bindings[RESOURCE_COUNT];
+    for (uint32_t i = 0; i < RESOURCE_COUNT; i++)
         bindings[i] = binding(i, resource_descriptor((enum resource)i), NULL);
-    bindings[SDFGI_BINDING_IRRADIANCE] =
-        binding(SDFGI_BINDING_IRRADIANCE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, &p->linear);
-    bindings[SDFGI_BINDING_IRRADIANCE_STORE] =
-        binding(SDFGI_BINDING_IRRADIANCE_STORE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL);
-    return set_layout(&gi->device, bindings, RESOURCE_BUFFER_COUNT + 2, &p->set_layout);
+    return set_layout(&gi->device, bindings, RESOURCE_COUNT, &p->set_layout);
 }
 
 static VkResult other_set_layouts(struct sdfgi *gi)
@@ -216,9 +212,7 @@ static VkResult sampler(const struct gpu_device *device, VkFilter filter, VkSamp
 
 VkResult pipelines_init(struct sdfgi *gi)
 {
-    VkResult result = sampler(&gi->device, VK_FILTER_LINEAR, &gi->pipelines.linear);
-    if (result == VK_SUCCESS)
-        result = sampler(&gi->device, VK_FILTER_NEAREST, &gi->pipelines.nearest);
+    VkResult result = sampler(&gi->device, VK_FILTER_NEAREST, &gi->pipelines.nearest);
     if (result == VK_SUCCESS)
         result = main_set_layout(gi);
     if (result == VK_SUCCESS)
@@ -244,6 +238,5 @@ void pipelines_finish(struct sdfgi *gi)
     d->fn.DestroyDescriptorSetLayout(d->handle, p->mesh_layout, d->callbacks);
     d->fn.DestroyDescriptorSetLayout(d->handle, p->material_layout, d->callbacks);
     d->fn.DestroyDescriptorSetLayout(d->handle, p->gather_layout, d->callbacks);
-    d->fn.DestroySampler(d->handle, p->linear, d->callbacks);
     d->fn.DestroySampler(d->handle, p->nearest, d->callbacks);
 }

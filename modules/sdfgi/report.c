@@ -25,9 +25,8 @@ static void report_passes(const struct sdfgi *gi, struct sdfgi_report *report)
 
 static void add_memory(const struct resources *r, struct sdfgi_memory *memory)
 {
-    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++)
+    for (int i = 0; i < RESOURCE_COUNT; i++)
         memory->bytes[resource_category((enum resource)i)] += r->buffers[i].size;
-    memory->bytes[resource_category(RESOURCE_IRRADIANCE)] += resource_size(RESOURCE_IRRADIANCE, &r->extent);
     memory->bytes[SDFGI_MEMORY_READBACK] += r->readback.size;
 }
 

@@ -20,7 +20,7 @@ static void check_limits(const VkPhysicalDeviceLimits *limits, struct sdfgi_requ
         uint64_t have, need;
     } rows[] = {
         { "maxPerStageDescriptorStorageBuffers", limits->maxPerStageDescriptorStorageBuffers,
-          RESOURCE_BUFFER_COUNT + 4 },
+          RESOURCE_COUNT + 4 },
         { "maxStorageBufferRange", limits->maxStorageBufferRange, UINT64_C(64) << 20 },
         { "maxPushConstantsSize", limits->maxPushConstantsSize, sizeof(struct sdfgi_voxelize_args) },
         { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, SDFGI_GROUP_LINES },
@@ -31,19 +31,6 @@ static void check_limits(const VkPhysicalDeviceLimits *limits, struct sdfgi_requ
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].have < rows[i].need)
             refuse(r, "%s is %llu, needed are %llu", rows[i].name, rows[i].have, rows[i].need);
-}
-
-static void check_formats(const struct gpu_functions *fn, VkPhysicalDevice physical,
-                          struct sdfgi_requirements *r)
-{
-    const VkFormatFeatureFlags need = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT |
-                                      VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
-                                      VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    VkFormatProperties properties;
-    fn->GetPhysicalDeviceFormatProperties(physical, VK_FORMAT_R16G16B16A16_SFLOAT, &properties);
-    if ((properties.optimalTilingFeatures & need) != need)
-        refuse(r, "%s: features %#llx, needed are %#llx", "R16G16B16A16_SFLOAT",
-               properties.optimalTilingFeatures, need);
 }
 
 enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysicalDevice physical,
@@ -65,7 +52,6 @@ enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysicalDevice p
     r->features.fragmentStoresAndAtomics = features.features.fragmentStoresAndAtomics;
     r->features.vertexPipelineStoresAndAtomics = features.features.vertexPipelineStoresAndAtomics;
     check_limits(&properties.limits, r);
-    check_formats(&fn, physical, r);
     r->supported = r->reason_count == 0;
     return SDFGI_OK;
 }

@@ -5,7 +5,8 @@
  * X(id, category, size, lifetime)
  *   size      bytes, from `const struct extent *s`: elements of one cascade, cascades, samples in a ring
  *   lifetime  what it holds is valid ...
- * All but FRAME, a uniform buffer, are storage buffers, bound in this order (shaders/shared/bindings.h); the one image, the irradiance atlas, follows.
+ * All but FRAME, a uniform buffer, are storage buffers, bound in this order
+ * (shaders/shared/bindings.h).
  */
 #ifndef SDFGI_RESOURCE_TABLE_H
 #define SDFGI_RESOURCE_TABLE_H
@@ -29,6 +30,7 @@
     X(SUMS,        PROBES,  16 * SDFGI_SUMS_STRIDE * s->probes * s->cascades,     "one ring")                              \
     X(PREVIOUS,    PROBES,  8 * 25 * s->probes * s->cascades,                     "until the ring after it ends")          \
     X(OCCLUSION,   PROBES,  s->occlusion,                                         "as BITS; 4 bytes unless probe_depth is chosen") \
+    X(IRRADIANCE,  PROBES,  8 * 25 * s->probes * s->cascades,                     "what lookups read: until the next frame that blends") \
     X(COUNTERS,    LISTS,   4 * SDFGI_COUNTER_COUNT,                              "one ring or one generation")            \
     X(INDIRECT,    LISTS,   16 * SDFGI_INDIRECT_RECORDS,                          "as LIGHT_CELLS")                        \
     X(BOUNDS,      LISTS,   SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES,             "from the start of a change to its end")
@@ -38,8 +40,6 @@ enum resource {
 #define RESOURCE_ENUM(id, category, size, lifetime) RESOURCE_##id,
     SDFGI_BUFFERS(RESOURCE_ENUM)
 #undef RESOURCE_ENUM
-    RESOURCE_BUFFER_COUNT,
-    RESOURCE_IRRADIANCE = RESOURCE_BUFFER_COUNT, /* image */
     RESOURCE_COUNT,
 };
 

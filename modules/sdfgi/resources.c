@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Buffers, the atlas, timers and descriptor sets of a context that is switched on. */
+ * Buffers, timers and descriptor sets of a context that is switched on. */
 #include "internal.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ static VkResult create_buffer(struct sdfgi *gi, struct resources *r, enum resour
 
 static VkResult create_buffers(struct sdfgi *gi, struct resources *r)
 {
-    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++) {
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
         const VkResult result = create_buffer(gi, r, (enum resource)i, &r->extent);
         if (result != VK_SUCCESS)
             return result;
@@ -31,10 +31,10 @@ static VkResult create_pool(struct sdfgi *gi, struct resources *r)
 {
     const uint32_t gathers = gi->frames_in_flight * SDFGI_MAX_GATHERS;
     const VkDescriptorPoolSize sizes[] = {
-        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, RESOURCE_BUFFER_COUNT - 1 },
+        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, RESOURCE_COUNT - 1 },
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1 + 2 * gathers },
-        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1 + gathers },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * gathers },
+        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, gathers },
     };
     return gi->device.fn.CreateDescriptorPool(gi->device.handle,
                                               &(VkDescriptorPoolCreateInfo){
@@ -72,9 +72,9 @@ static VkResult create_sets(struct sdfgi *gi, struct resources *r)
 
 static void write_set(struct sdfgi *gi, struct resources *r)
 {
-    VkDescriptorBufferInfo buffers[RESOURCE_BUFFER_COUNT];
-    VkWriteDescriptorSet writes[RESOURCE_BUFFER_COUNT + 2];
-    for (uint32_t i = 0; i < RESOURCE_BUFFER_COUNT; i++) {
+    VkDescriptorBufferInfo buffers[RESOURCE_COUNT];
+    VkWriteDescriptorSet writes[RESOURCE_COUNT];
+    for (uint32_t i = 0; i < RESOURCE_COUNT; i++) {
         buffers[i] = (VkDescriptorBufferInfo){ r->buffers[i].handle, 0, VK_WHOLE_SIZE };
         writes[i] = (VkWriteDescriptorSet){
             .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -85,19 +85,7 @@ static void write_set(struct sdfgi *gi, struct resources *r)
             .pBufferInfo = &buffers[i],
         };
     }
-    const VkDescriptorImageInfo image = { VK_NULL_HANDLE, r->irradiance.view, VK_IMAGE_LAYOUT_GENERAL };
-    const VkDescriptorType types[2] = { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                        VK_DESCRIPTOR_TYPE_STORAGE_IMAGE };
-    for (uint32_t i = 0; i < 2; i++)
-        writes[RESOURCE_BUFFER_COUNT + i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = r->set,
-            .dstBinding = SDFGI_BINDING_IRRADIANCE + i,
-            .descriptorCount = 1,
-            .descriptorType = types[i],
-            .pImageInfo = &image,
-        };
-    gi->device.fn.UpdateDescriptorSets(gi->device.handle, RESOURCE_BUFFER_COUNT + 2, writes, 0, NULL);
+    gi->device.fn.UpdateDescriptorSets(gi->device.handle, RESOURCE_COUNT, writes, 0, NULL);
 }
 
 static VkResult create_raster_target(struct sdfgi *gi, struct resources *r, uint32_t extent)
@@ -140,11 +128,6 @@ static VkResult create_all(struct sdfgi *gi, struct resources *r, const struct s
 {
     VkResult result = create_buffers(gi, r);
     if (result == VK_SUCCESS)
-        result = gpu_image_init(&gi->device, &r->irradiance, VK_FORMAT_R16G16B16A16_SFLOAT,
-                                r->extent.atlas_width, r->extent.atlas_height, settings->cascades,
-                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                resource_name(RESOURCE_IRRADIANCE));
-    if (result == VK_SUCCESS)
         result = create_sets(gi, r);
     if (result == VK_SUCCESS)
         result = gpu_timer_init(&gi->device, &r->timer, gi->frames_in_flight, r->timer_tags, r->timer_counts);
@@ -161,7 +144,7 @@ enum sdfgi_result resources_create(struct sdfgi *gi, const struct sdfgi_settings
         return message_vulkan(gi, VK_ERROR_OUT_OF_HOST_MEMORY, "switching on");
     memset(r, 0, sizeof *r);
     r->extent = extent_from_settings(settings);
-    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++)
+    for (int i = 0; i < RESOURCE_COUNT; i++)
         if (resource_size((enum resource)i, &r->extent) > gi->device.limits.maxStorageBufferRange) {
             host_free(&gi->allocator, r);
             return invalid(
@@ -181,10 +164,9 @@ enum sdfgi_result resources_create(struct sdfgi *gi, const struct sdfgi_settings
 void resources_destroy(struct sdfgi *gi, struct resources *r)
 {
     const struct gpu_device *d = &gi->device;
-    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++)
+    for (int i = 0; i < RESOURCE_COUNT; i++)
         gpu_buffer_finish(d, &r->buffers[i]);
     gpu_buffer_finish(d, &r->readback);
-    gpu_image_finish(d, &r->irradiance);
     gpu_timer_finish(d, &r->timer);
     d->fn.DestroyDescriptorPool(d->handle, r->pool, d->callbacks);
     for (int i = 0; i < 2; i++)

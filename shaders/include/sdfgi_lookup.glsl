@@ -37,15 +37,44 @@ ivec3 lookup_cage(uint cascade, vec3 pos)
     return clamp(ivec3(floor(pos / float(SDFGI_PROBE_SPACING))), low, max(low, high));
 }
 
+/* The four texels around a direction, as they are stored. */
+struct lookup_texels {
+    uvec2 texels[4]; /* x + 2 y */
+};
+
+/* Where a direction lies between texels of a probe's map: the first of the four texels in xy, fractions in zw. */
+vec4 lookup_between(vec3 normal)
+{
+    const vec2 at = (octahedral_encode(normal) * 0.5 + 0.5) * float(SDFGI_IRRADIANCE_TEXELS - 1);
+    const vec2 low = min(floor(at), vec2(SDFGI_IRRADIANCE_TEXELS - 2));
+    return vec4(low, at - low);
+}
+
+lookup_texels lookup_load(uint index, vec4 between)
+{
+    const uint side = uint(SDFGI_IRRADIANCE_TEXELS);
+    const uint first = index * uint(SDFGI_IRRADIANCE_COUNT) + uint(between.x) + side * uint(between.y);
+    return lookup_texels(uvec2[4](sdfgi_irradiance_texels[first], sdfgi_irradiance_texels[first + 1u],
+                                  sdfgi_irradiance_texels[first + side], sdfgi_irradiance_texels[first + side + 1u]));
+}
+
+vec4 lookup_unpack(uvec2 halves)
+{
+    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+}
+
+vec4 lookup_interpolate(lookup_texels t, vec4 between)
+{
+    return mix(mix(lookup_unpack(t.texels[0]), lookup_unpack(t.texels[1]), between.z),
+               mix(lookup_unpack(t.texels[2]), lookup_unpack(t.texels[3]), between.z), between.w);
+}
+
 /* Irradiance as stored; a says more: up to 0, of a new probe, less how far it is to be trusted; above, what light cells read over
  * what is shown. */
 vec4 lookup_stored(uint cascade, ivec3 probe, vec3 normal)
 {
-    const ivec2 corner = probe_atlas_corner(cascade, probe);
-    const vec2 uv = octahedral_encode(normal) * 0.5 + 0.5;
-    const vec2 texel = vec2(corner) + 1.5 + uv * float(SDFGI_IRRADIANCE_TEXELS - 1);
-    const vec2 size = vec2(textureSize(sdfgi_irradiance_atlas, 0).xy);
-    return textureLod(sdfgi_irradiance_atlas, vec3(texel / size, float(cascade)), 0.0);
+    const vec4 between = lookup_between(normal);
+    return lookup_interpolate(lookup_load(probe_index(cascade, probe), between), between);
 }
 
 /* What is shown in rgb, a probe's share of its weight in a. */
@@ -56,9 +85,9 @@ vec4 lookup_shown(uint cascade, ivec3 probe, vec3 normal)
 }
 
 /* The newest that is known, likewise. */
-vec4 lookup_newest(uint cascade, ivec3 probe, vec3 normal)
+vec4 lookup_newest(lookup_texels texels, vec4 between)
 {
-    const vec4 light = lookup_stored(cascade, probe, normal);
+    const vec4 light = lookup_interpolate(texels, between);
     return light.a > 0.0 ? vec4(light.rgb * light.a, 1.0) : vec4(light.rgb, -light.a);
 }
 
@@ -84,10 +113,12 @@ vec4 lookup_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, lookup_visibili
 {
     const vec3 f = lookup_place(cage, pos);
     uint states[8];
-    vec4 lights[8];
+    lookup_texels texels[8];
+    const vec4 between = lookup_between(normal);
     for (int k = 0; k < 8; k++) {
-        states[k] = sdfgi_probes[probe_index(cascade, cage + lookup_corner(k))];
-        lights[k] = lookup_newest(cascade, cage + lookup_corner(k), normal);
+        const uint index = probe_index(cascade, cage + lookup_corner(k));
+        states[k] = sdfgi_probes[index];
+        texels[k] = lookup_load(index, between);
     }
     vec4 sum = vec4(0.0);
     for (int k = 0; k < 8; k++) {
@@ -96,7 +127,8 @@ vec4 lookup_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, lookup_visibili
         const ivec3 corner = lookup_corner(k);
         const vec3 way = metric_from_cells(probe_position(cage + corner, states[k]) - pos);
         const float weight = lookup_weight(mix(1.0 - f, f, vec3(corner)), way, normal) * visibility.of_probe[k];
-        sum += vec4(lights[k].rgb, 1.0) * (weight * lights[k].a);
+        const vec4 light = lookup_newest(texels[k], between);
+        sum += vec4(light.rgb, 1.0) * (weight * light.a);
     }
     return sum;
 }

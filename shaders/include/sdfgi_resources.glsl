@@ -37,6 +37,11 @@
 #else
 #define SDFGI_ACCESS_PROBES readonly
 #endif
+#ifdef SDFGI_WRITES_IRRADIANCE
+#define SDFGI_ACCESS_IRRADIANCE
+#else
+#define SDFGI_ACCESS_IRRADIANCE readonly
+#endif
 #ifdef SDFGI_WRITES_OCCLUSION
 #define SDFGI_ACCESS_OCCLUSION
 #else
@@ -85,7 +90,10 @@ layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_OCCLUSION) SDFGI_ACCESS_
     uint sdfgi_occlusion[];
 };
 
-/* Irradiance over pi times exposure, 7 x 7 texels a probe, a layer per cascade. */
-layout(set = SDFGI_SET, binding = SDFGI_BINDING_IRRADIANCE) uniform sampler2DArray sdfgi_irradiance_atlas;
+/* Irradiance over pi times exposure, four half floats a texel, SDFGI_IRRADIANCE_COUNT texels a probe. */
+layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_IRRADIANCE) SDFGI_ACCESS_IRRADIANCE buffer sdfgi_irradiance_buffer
+{
+    uvec2 sdfgi_irradiance_texels[];
+};
 
 #endif

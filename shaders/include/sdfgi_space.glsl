@@ -191,11 +191,4 @@ vec3 probe_position(ivec3 probe, uint state)
     return corner + vec3(ivec3(uvec3(state, state >> 5u, state >> 10u) & 31u) - 16) + 0.5;
 }
 
-/* Low corner of a probe's square in the irradiance atlas, in texels. */
-ivec2 probe_atlas_corner(uint cascade, ivec3 probe)
-{
-    const ivec3 slot = probe_slot(cascade, probe);
-    return ivec2(slot.x, slot.y + int(sdfgi_frame.probes_per_side) * slot.z) * SDFGI_IRRADIANCE_STRIDE;
-}
-
 #endif

@@ -7,6 +7,7 @@
  * can. A probe whose light has surely changed by half is young again. One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_IRRADIANCE
 #include "probe_store.glsl"
 #include "../lib/rgbe.glsl"
 #include "../lib/light_pack.glsl"
@@ -142,13 +143,12 @@ void main()
     const bool born = grown && is_sure(change, memory.y);
     const bool starts = ring_ends || born || probe_is_young(memory);
     if (has_texel) {
-        texels[i] = grown && !born ? show_news(t, probe_stored_texel(cascade, probe, i).rgb, memory.y, ring_ends)
-                                   : vec4(t.mixed.rgb, -probe_trust(t.mixed.w));
+        const vec4 shown = grown && !born ? show_news(t, probe_load_irradiance(slot, i).rgb, memory.y, ring_ends)
+                                          : vec4(t.mixed.rgb, -probe_trust(t.mixed.w));
+        probe_store_irradiance(slot, i, shown);
         if (starts)
             start_ring(slot, t, born);
     }
-    barrier();
-    probe_store_texels(cascade, probe);
     if (i > 0u)
         return;
     sdfgi_sums[probe_memory(slot)] = next_memory(memory, change, born, ring_ends);

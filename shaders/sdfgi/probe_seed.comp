@@ -4,6 +4,7 @@
  * room for rings. Empties their sums. One workgroup per probe. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_IRRADIANCE
 #include "probe_common.glsl"
 #include "probe_store.glsl"
 #include "../include/sdfgi_lookup.glsl"
@@ -75,10 +76,8 @@ void main()
         const vec4 seed = exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0);
         sdfgi_sums[probe_sums(slot) + i] = vec4(0.0);
         probe_store_previous(at, seed.rgb, seed.a);
-        texels[i] = vec4(seed.rgb, -probe_trust(seed.a));
+        probe_store_irradiance(slot, i, vec4(seed.rgb, -probe_trust(seed.a)));
     }
-    barrier();
     if (i == 0u)
         sdfgi_sums[probe_memory(slot)] = vec4(0.0, 0.0, PROBE_BORN, 0.0);
-    probe_store_texels(args.cascade, probe);
 }

@@ -17,9 +17,8 @@
 /* Cells: what is further away than this is stored as this. Eight or a multiple. */
 #define SDFGI_DISTANCE_REACH 16
 
-/* Probes: an octahedron of this many texels a side, plus a border of one for bilinear filtering. */
+/* Probes: an octahedron of this many texels a side, which spans the map from edge to edge. */
 #define SDFGI_IRRADIANCE_TEXELS 5
-#define SDFGI_IRRADIANCE_STRIDE 7
 #define SDFGI_IRRADIANCE_COUNT 25
 #define SDFGI_SUMS_STRIDE 26 /* vec4 per probe: the sums of its texels, and what probe_common.glsl calls its memory */
 #define SDFGI_OCCLUSION_TEXELS 16

@@ -1,19 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "journey.h"
 
-#include "gpu_test_compute.h"
 #include "journey_book.h"
 #include "require.h"
 #include "test_memory.h"
-
-#include "journey_look.comp.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 #include <vulkan/vulkan.h>
 
-enum { POINTS = 48, ROW_WORDS = 4, FIRST_TEXEL = 1 + 3 * POINTS, LINE_SIZE = 96 };
+enum { POINTS = 48, LINE_SIZE = 96 };
 
 /* Passes that ran, and all that there are. */
 static struct {
@@ -43,49 +40,6 @@ uint32_t journey_count(void)
 
 /* ---- Memory that is new ---- */
 
-static uint32_t texel_count(const struct journey_state *state)
-{
-    return state->width * state->height * state->layers;
-}
-
-/* Points, if any, and texels: see journey_look.comp. */
-static void look(struct gi_test *t, uint32_t *rows, uint32_t points, uint32_t texels, bool clear)
-{
-    const struct gpu_test_shader shader = { journey_look_comp, sizeof journey_look_comp,
-                                            sdfgi_get_descriptor_set_layout(t->gi),
-                                            sdfgi_get_descriptor_set(t->gi) };
-    rows[0] = points;
-    rows[1] = clear;
-    gpu_test_compute(&t->gpu, &shader, points + texels, rows,
-                     4 * ROW_WORDS * (clear ? 1 : (size_t)FIRST_TEXEL + texels));
-}
-
-static void atlas_record(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    const struct journey_state *state = user;
-    const VkImageMemoryBarrier barrier = {
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-        .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
-        .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = state->atlas,
-        .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, state->layers },
-    };
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0,
-                         NULL, 0, NULL, 1, &barrier);
-}
-
-/* The library's own transition, which comes after this one, may discard what the image holds; the software
- * drivers that hashes are recorded with do not. */
-static void clear_atlas(struct journey *j, struct journey_state *state)
-{
-    uint32_t row[ROW_WORDS];
-    gpu_test_submit(&j->t.gpu, atlas_record, state);
-    look(&j->t, row, 0, texel_count(state), true);
-}
-
 static bool has_buffer(const struct journey_state *state, VkBuffer buffer)
 {
     for (uint32_t i = 0; i < state->count; i++)
@@ -113,8 +67,6 @@ static void clear_new(struct journey *j)
     journey_state_find(&j->t, &state);
     struct fill fill = { &j->state, &state };
     gpu_test_submit(&j->t.gpu, fill_record, &fill);
-    if (state.atlas && state.atlas != j->state.atlas)
-        clear_atlas(j, &state);
     j->state = state;
 }
 
@@ -171,34 +123,27 @@ static void add_buffers(struct journey *j, struct journey_row *row)
 }
 
 /* Around the camera, nearer to it as often as farther away, with normals along axes. */
-static void fill_points(const struct journey *j, float (*points)[3][4])
+static void fill_points(const struct journey *j, struct gi_test_point points[static POINTS])
 {
     struct test_random random = { 5 };
     for (uint32_t i = 0; i < POINTS; i++) {
         const double reach = i % 2 ? 14 : 3;
-        memset(points[i], 0, sizeof points[i]);
-        points[i][1][i / 2 % 3] = i % 4 < 2 ? 1 : -1;
+        memset(&points[i], 0, sizeof points[i]);
+        points[i].normal[i / 2 % 3] = i % 4 < 2 ? 1 : -1;
         for (int k = 0; k < 3; k++) {
             const double place = j->t.frame.camera_position[k] - j->t.frame.origin[k];
-            points[i][0][k] = (float)(place + test_random_real(&random, -reach, reach));
-            points[i][k][3] = 0.1f * points[i][1][k]; /* the way to the eye */
-            points[i][2][k] = NAN;                    /* would be left by a shader that writes nothing */
+            points[i].position[k] = (float)(place + test_random_real(&random, -reach, reach));
         }
     }
 }
 
 static void add_light(struct journey *j, struct journey_row *row)
 {
-    const uint32_t texels = texel_count(&j->state);
-    uint32_t *rows = test_array_alloc((size_t)FIRST_TEXEL + texels, 4 * ROW_WORDS);
-    float points[POINTS][3][4];
+    struct gi_test_point points[POINTS];
+    float irradiance[POINTS][3];
     fill_points(j, points);
-    memcpy(rows + ROW_WORDS, points, sizeof points);
-    look(&j->t, rows, POINTS, texels, false);
-    journey_row_add(row, "LOOKUPS", rows + ROW_WORDS, sizeof points);
-    journey_row_add(row, "IRRADIANCE", rows + (size_t)ROW_WORDS * FIRST_TEXEL,
-                    (size_t)texels * 4 * ROW_WORDS);
-    free(rows);
+    gi_test_irradiance(&j->t, points, POINTS, irradiance);
+    journey_row_add(row, "LOOKUPS", irradiance, sizeof irradiance);
 }
 
 static void note_passes(const struct sdfgi_report *report)

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-_Static_assert((int)RESOURCE_BUFFER_COUNT <= (int)JOURNEY_MAX_BUFFERS, "there is room for every buffer");
+_Static_assert((int)RESOURCE_COUNT <= (int)JOURNEY_MAX_BUFFERS, "there is room for every buffer");
 
 /* "sdfgi BITS" is BITS. */
 static const char *short_name(const char *name)
@@ -20,12 +20,8 @@ void journey_state_find(const struct gi_test *t, struct journey_state *state)
     *state = (struct journey_state){ 0 };
     if (!r)
         return;
-    state->count = RESOURCE_BUFFER_COUNT;
-    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++)
+    state->count = RESOURCE_COUNT;
+    for (int i = 0; i < RESOURCE_COUNT; i++)
         state->buffers[i] = (struct journey_buffer){ short_name(resource_name((enum resource)i)),
                                                      r->buffers[i].handle, r->buffers[i].size };
-    state->atlas = r->irradiance.handle;
-    state->width = r->extent.atlas_width;
-    state->height = r->extent.atlas_height;
-    state->layers = t->gi->settings.cascades;
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Where a context keeps its state on the device: all that journeys know of the inside of the library, besides
- * the binding in journey_look.comp. */
+ * Where a context keeps its state on the device: all that journeys know of the inside of the library. */
 #ifndef TEST_JOURNEY_STATE_H
 #define TEST_JOURNEY_STATE_H
 
@@ -17,8 +16,6 @@ struct journey_buffer {
 struct journey_state {
     uint32_t count; /* 0 while the context is switched off */
     struct journey_buffer buffers[JOURNEY_MAX_BUFFERS];
-    VkImage atlas; /* irradiance */
-    uint32_t width, height, layers;
 };
 
 void journey_state_find(const struct gi_test *t, struct journey_state *state);

@@ -266,9 +266,6 @@ static void shaders_lay_out_every_shared_struct_as_c_does(void **state)
     _Static_assert((int)RESOURCE_##id == SDFGI_BINDING_##id, "bindings.h follows the resource table: " #id);
 SDFGI_BUFFERS(SAME_BINDING)
 #undef SAME_BINDING
-_Static_assert((int)RESOURCE_IRRADIANCE == SDFGI_BINDING_IRRADIANCE, "the atlas follows the buffers");
-_Static_assert((int)RESOURCE_IRRADIANCE + 1 == SDFGI_BINDING_IRRADIANCE_STORE,
-               "then the atlas as it is written");
 
 /* Block of a buffer of the resource table, sdfgi_<id>_buffer; the table's names are "sdfgi <ID>". */
 static void block_name(int resource, char name[static 64])
@@ -282,11 +279,7 @@ static void block_name(int resource, char name[static 64])
 static uint32_t table_binding(const struct module *module, const struct module_resource *r)
 {
     char name[64];
-    if (r->kind == SPVC_RESOURCE_TYPE_STORAGE_IMAGE)
-        return SDFGI_BINDING_IRRADIANCE_STORE;
-    if (strcmp(r->block, "sdfgi_irradiance_atlas") == 0)
-        return SDFGI_BINDING_IRRADIANCE;
-    for (int i = 0; i < RESOURCE_BUFFER_COUNT; i++) {
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
         block_name(i, name);
         if (strcmp(r->block, name) == 0)
             return (uint32_t)i;
@@ -296,7 +289,7 @@ static uint32_t table_binding(const struct module *module, const struct module_r
 }
 
 static void check_binding(const struct module *module, const struct module_resource *r,
-                          uint32_t seen[static SDFGI_BINDING_IRRADIANCE_STORE + 1])
+                          uint32_t seen[static RESOURCE_COUNT])
 {
     const uint32_t binding = table_binding(module, r);
     if (r->binding != binding)
@@ -308,7 +301,7 @@ static void check_binding(const struct module *module, const struct module_resou
 static void shaders_bind_every_resource_where_the_table_says(void **state)
 {
     (void)state;
-    uint32_t seen[SDFGI_BINDING_IRRADIANCE_STORE + 1] = { 0 };
+    uint32_t seen[RESOURCE_COUNT] = { 0 };
     for (size_t i = 0; i < module_count; i++) {
         struct module_resource resources[MODULE_RESOURCES_MAX];
         const size_t count = module_resources(&modules[i], resources);
@@ -316,7 +309,7 @@ static void shaders_bind_every_resource_where_the_table_says(void **state)
             if (resources[k].set == 0)
                 check_binding(&modules[i], &resources[k], seen);
     }
-    for (int i = 0; i <= SDFGI_BINDING_IRRADIANCE_STORE; i++)
+    for (int i = 0; i < RESOURCE_COUNT; i++)
         if (!seen[i])
             require_fail(__FILE__, __LINE__, "binding %d: in no shader", i);
 }

@@ -33,9 +33,7 @@ struct touches {
 static void touch(struct touches *touches, const struct module *module,
                   const struct module_resource *resource, uint8_t access)
 {
-    /* The atlas has two bindings, one as it is sampled and one as it is written. */
-    const uint32_t id =
-        resource->binding == SDFGI_BINDING_IRRADIANCE_STORE ? RESOURCE_IRRADIANCE : resource->binding;
+    const uint32_t id = resource->binding;
     REQUIRE_CMP(id, <, (uint32_t)RESOURCE_COUNT);
     /* Only its length is asked for, or access.c lacks an instruction. */
     if (!access)
