@@ -11,14 +11,14 @@
 
 #include "sdfgi_lookup.glsl"
 
-/* Indirect diffuse irradiance E (W/m^2) at a surface point with unit normal. `to_eye` leads to the viewer, in metres, and
- * must be unobstructed; where there is no viewer, a short way along the normal will do. A Lambertian surface reflects
- * albedo * E / pi. Light that comes straight from the sky and from emissive surfaces is included; the host's own lights
- * arriving directly are not. */
+/* Indirect diffuse irradiance E (W/m^2) at a surface point with unit normal. `to_eye` leads to the viewer, in
+ * metres, and must be unobstructed; where there is no viewer, a short way along the normal will do. A
+ * Lambertian surface reflects albedo * E / pi. Light that comes straight from the sky and from emissive
+ * surfaces is included; the host's own lights arriving directly are not. */
 vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
 {
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    return lookup_irradiance(first_from_position(position), normal, to_eye) * to_watts;
+    return sdfgi_lookup_irradiance(sdfgi_first_from_position(position), normal, to_eye) * to_watts;
 }
 
 #endif

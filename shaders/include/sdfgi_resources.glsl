@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The library's descriptor set. A pass defines SDFGI_WRITES_<NAME> before including this for what it writes; all else
- * is read-only. A host defines SDFGI_SET, the index at which it binds the set. */
+ * The library's descriptor set. A pass defines SDFGI_WRITES_<NAME> before including this for what it writes;
+ * all else is read-only. A host defines SDFGI_SET, the index at which it binds the set. */
 #ifndef SDFGI_RESOURCES_GLSL
 #define SDFGI_RESOURCES_GLSL
 
@@ -60,8 +60,10 @@ layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_BITS) SDFGI_ACCESS_BITS 
     uvec2 sdfgi_bits[];
 };
 
-/* Distance from a cell's centre to the nearest set sub-voxel's centre: 16 bits per cell, two cells per word. */
-layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_DISTANCE) SDFGI_ACCESS_DISTANCE buffer sdfgi_distance_buffer
+/* Distance from a cell's centre to the nearest set sub-voxel's centre: 16 bits per cell, two cells per word.
+ */
+layout(std430, set = SDFGI_SET,
+       binding = SDFGI_BINDING_DISTANCE) SDFGI_ACCESS_DISTANCE buffer sdfgi_distance_buffer
 {
     uint sdfgi_distances[];
 };
@@ -84,14 +86,17 @@ layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_PROBES) SDFGI_ACCESS_PRO
     uint sdfgi_probes[];
 };
 
-/* (mean, mean of squares) of depth as unorm16 of the range, 18 x 18 texels a probe. Empty unless probe_depth is on. */
-layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_OCCLUSION) SDFGI_ACCESS_OCCLUSION buffer sdfgi_occlusion_buffer
+/* (mean, mean of squares) of depth as unorm16 of the range, 18 x 18 texels a probe. Empty unless probe_depth
+ * is on. */
+layout(std430, set = SDFGI_SET,
+       binding = SDFGI_BINDING_OCCLUSION) SDFGI_ACCESS_OCCLUSION buffer sdfgi_occlusion_buffer
 {
     uint sdfgi_occlusion[];
 };
 
 /* Irradiance over pi times exposure, four half floats a texel, SDFGI_IRRADIANCE_COUNT texels a probe. */
-layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_IRRADIANCE) SDFGI_ACCESS_IRRADIANCE buffer sdfgi_irradiance_buffer
+layout(std430, set = SDFGI_SET,
+       binding = SDFGI_BINDING_IRRADIANCE) SDFGI_ACCESS_IRRADIANCE buffer sdfgi_irradiance_buffer
 {
     uvec2 sdfgi_irradiance_texels[];
 };

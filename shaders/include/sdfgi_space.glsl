@@ -5,176 +5,182 @@
 
 #include "sdfgi_resources.glsl"
 
-int space_resolution()
+int sdfgi_space_resolution()
 {
     return int(sdfgi_frame.resolution);
 }
 
 /* Height of a cell over its width. */
-float space_y_scale()
+float sdfgi_space_y_scale()
 {
     return sdfgi_frame.y_scale;
 }
 
 /* Metric lengths of a vector in cell space, in cell widths, and back. */
-vec3 metric_from_cells(vec3 v)
+vec3 sdfgi_metric_from_cells(vec3 v)
 {
-    return vec3(v.x, v.y * space_y_scale(), v.z);
+    return vec3(v.x, v.y * sdfgi_space_y_scale(), v.z);
 }
 
-vec3 cells_from_metric(vec3 v)
+vec3 sdfgi_cells_from_metric(vec3 v)
 {
-    return vec3(v.x, v.y / space_y_scale(), v.z);
+    return vec3(v.x, v.y / sdfgi_space_y_scale(), v.z);
 }
 
-bool cell_inside(ivec3 cell)
+bool sdfgi_cell_inside(ivec3 cell)
 {
-    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(space_resolution())));
+    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(sdfgi_space_resolution())));
 }
 
 /* True for cells that are complete: while a cascade scrolls, those of both its old and its new place. */
-bool cell_served(uint cascade, ivec3 cell)
+bool sdfgi_cell_served(uint cascade, ivec3 cell)
 {
     return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
            all(lessThan(cell, sdfgi_frame.cascades[cascade].valid_high));
 }
 
 /* Texel of a local cell: volumes are toroidal. */
-uvec3 cell_texel(uint cascade, ivec3 cell)
+uvec3 sdfgi_cell_texel(uint cascade, ivec3 cell)
 {
     return uvec3(cell + sdfgi_frame.cascades[cascade].wrap) & (sdfgi_frame.resolution - 1u);
 }
 
-uint texel_index(uvec3 texel)
+uint sdfgi_texel_index(uvec3 texel)
 {
     const uint bits = sdfgi_frame.resolution_log2;
     return texel.x | texel.y << bits | texel.z << (2u * bits);
 }
 
 /* Index of a local cell in buffers with one element per cell, all cascades one after another. */
-uint cell_index(uint cascade, ivec3 cell)
+uint sdfgi_cell_index(uint cascade, ivec3 cell)
 {
-    return texel_index(cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.resolution_log2);
+    return sdfgi_texel_index(sdfgi_cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.resolution_log2);
 }
 
-ivec3 cell_from_texel(uint cascade, uvec3 texel)
+ivec3 sdfgi_cell_from_texel(uint cascade, uvec3 texel)
 {
     return ivec3((texel - uvec3(sdfgi_frame.cascades[cascade].wrap)) & (sdfgi_frame.resolution - 1u));
 }
 
-uvec3 texel_from_index(uint index)
+uvec3 sdfgi_texel_from_index(uint index)
 {
     const uint bits = sdfgi_frame.resolution_log2;
     return uvec3(index, index >> bits, index >> (2u * bits)) & (sdfgi_frame.resolution - 1u);
 }
 
 /* Index of the albedo block (2x2x2 cells) that holds a cell, within its cascade. */
-uint block_index(uint cascade, ivec3 cell)
+uint sdfgi_block_index(uint cascade, ivec3 cell)
 {
-    const uvec3 block = cell_texel(cascade, cell) >> 1u;
+    const uvec3 block = sdfgi_cell_texel(cascade, cell) >> 1u;
     const uint bits = sdfgi_frame.resolution_log2 - 1u;
     return block.x | block.y << bits | block.z << (2u * bits);
 }
 
-uint block_count()
+uint sdfgi_block_count()
 {
     return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));
 }
 
-uvec2 cell_bits(uint cascade, ivec3 cell)
+uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)
 {
-    return sdfgi_bits[cell_index(cascade, cell)];
+    return sdfgi_bits[sdfgi_cell_index(cascade, cell)];
 }
 
 /* Steps per cell width of stored distances: the longest, N sqrt(3) cells, still fits 16 bits. */
-float distance_steps()
+float sdfgi_distance_steps()
 {
     return float(32768u >> sdfgi_frame.resolution_log2);
 }
 
 /* The stored form of the longest. */
-uint distance_reach()
+uint sdfgi_distance_reach()
 {
     return uint(SDFGI_DISTANCE_REACH) << 15u - sdfgi_frame.resolution_log2;
 }
 
-/* Of the cell that is stored at `index`: never more than 0.1 cell above the distance to the nearest set sub-voxel, nor more
- * than SDFGI_DISTANCE_REACH. */
-float stored_distance(uint index)
+/* Of the cell that is stored at `index`: never more than 0.1 cell above the distance to the nearest set
+ * sub-voxel, nor more than SDFGI_DISTANCE_REACH. */
+float sdfgi_stored_distance(uint index)
 {
     const uint pair = sdfgi_distances[index >> 1u];
-    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) * (float(sdfgi_frame.resolution) / 32768.0);
+    return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) *
+           (float(sdfgi_frame.resolution) / 32768.0);
 }
 
-float cell_distance(uint cascade, ivec3 cell)
+float sdfgi_cell_distance(uint cascade, ivec3 cell)
 {
-    return stored_distance(cell_index(cascade, cell));
+    return sdfgi_stored_distance(sdfgi_cell_index(cascade, cell));
 }
 
-uint cell_mask(uint cascade, ivec3 cell)
+uint sdfgi_cell_mask(uint cascade, ivec3 cell)
 {
-    const uint index = cell_index(cascade, cell);
+    const uint index = sdfgi_cell_index(cascade, cell);
     return sdfgi_masks[index >> 2u] >> (8u * (index & 3u)) & 0xffu;
 }
 
-vec3 cascade_from_first(uint cascade, vec3 pos_first)
+vec3 sdfgi_cascade_from_first(uint cascade, vec3 pos_first)
 {
-    return sdfgi_frame.cascades[cascade].from_first + sdfgi_frame.cascades[cascade].from_first_scale * pos_first;
+    return sdfgi_frame.cascades[cascade].from_first +
+           sdfgi_frame.cascades[cascade].from_first_scale * pos_first;
 }
 
-vec3 first_from_cascade(uint cascade, vec3 pos_cascade)
+vec3 sdfgi_first_from_cascade(uint cascade, vec3 pos_cascade)
 {
-    return (pos_cascade - sdfgi_frame.cascades[cascade].from_first) / sdfgi_frame.cascades[cascade].from_first_scale;
+    return (pos_cascade - sdfgi_frame.cascades[cascade].from_first) /
+           sdfgi_frame.cascades[cascade].from_first_scale;
 }
 
 /* Position relative to the host's origin in metres to cell space of cascade 0. */
-vec3 first_from_position(vec3 position)
+vec3 sdfgi_first_from_position(vec3 position)
 {
-    return cells_from_metric((position - sdfgi_frame.cascades[0].origin_rel) / sdfgi_frame.cascades[0].cell_m);
+    return sdfgi_cells_from_metric((position - sdfgi_frame.cascades[0].origin_rel) /
+                                   sdfgi_frame.cascades[0].cell_m);
 }
 
-vec3 position_from_cascade(uint cascade, vec3 pos_cascade)
+vec3 sdfgi_position_from_cascade(uint cascade, vec3 pos_cascade)
 {
-    return sdfgi_frame.cascades[cascade].origin_rel + metric_from_cells(pos_cascade) * sdfgi_frame.cascades[cascade].cell_m;
+    return sdfgi_frame.cascades[cascade].origin_rel +
+           sdfgi_metric_from_cells(pos_cascade) * sdfgi_frame.cascades[cascade].cell_m;
 }
 
 /* ---- Probes: probe k of a cascade stands on the corner of cells 8 k, k in [0, probes_per_side). */
 
 /* Slot of a local probe: probes are toroidal too. */
-ivec3 probe_slot(uint cascade, ivec3 probe)
+ivec3 sdfgi_probe_slot(uint cascade, ivec3 probe)
 {
     const ivec3 slot = probe + sdfgi_frame.cascades[cascade].probe_wrap;
     const int side = int(sdfgi_frame.probes_per_side);
     return slot - side * ivec3(greaterThanEqual(slot, ivec3(side)));
 }
 
-uint probe_index(uint cascade, ivec3 probe)
+uint sdfgi_probe_index(uint cascade, ivec3 probe)
 {
     const int side = int(sdfgi_frame.probes_per_side);
-    const ivec3 slot = probe_slot(cascade, probe);
+    const ivec3 slot = sdfgi_probe_slot(cascade, probe);
     return uint(slot.x + side * (slot.y + side * (slot.z + side * int(cascade))));
 }
 
-/* A probe's state: moved ones stand in the centre of the cell at offset (5 bits each, biased by 16) of its corner. */
-uint probe_pack_moved(ivec3 offset)
+/* A probe's state: moved ones stand in the centre of the cell at offset (5 bits each, biased by 16) of its
+ * corner. */
+uint sdfgi_probe_pack_moved(ivec3 offset)
 {
     const uvec3 o = uvec3(offset + 16);
     return SDFGI_PROBE_MOVED | o.x | o.y << 5u | o.z << 10u;
 }
 
 /* Whether a probe sees the next one along an axis. */
-bool probe_is_linked(uint state, int axis)
+bool sdfgi_probe_is_linked(uint state, int axis)
 {
     return (state >> (SDFGI_PROBE_LINK_SHIFT + uint(axis)) & 1u) != 0u;
 }
 
-bool probe_is_dead(uint state)
+bool sdfgi_probe_is_dead(uint state)
 {
     return (state & SDFGI_PROBE_DEAD) != 0u;
 }
 
 /* True if the probe's cells are complete. */
-bool probe_is_served(uint cascade, ivec3 probe)
+bool sdfgi_probe_is_served(uint cascade, ivec3 probe)
 {
     const ivec3 cell = probe * SDFGI_PROBE_SPACING;
     return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
@@ -183,7 +189,7 @@ bool probe_is_served(uint cascade, ivec3 probe)
 }
 
 /* Position in cell space. */
-vec3 probe_position(ivec3 probe, uint state)
+vec3 sdfgi_probe_position(ivec3 probe, uint state)
 {
     const vec3 corner = vec3(probe * SDFGI_PROBE_SPACING);
     if ((state & SDFGI_PROBE_MOVED) == 0u)

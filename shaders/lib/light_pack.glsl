@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT
- * A light cell: outgoing radiance along six axes in 64 bits. x: RGB9E5 colour of the brightest axis, y: six weights of
- * 5 bits and a valid bit. Axes: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. Both are rounded by a hash of the cell: rounding down
- * lost 0.9 % a bounce, and rounding to nearest stalls; on average over cells this neither gains nor loses. Weights are relative
- * to the brightest axis: were it alone, an axis that gets a little brighter would lower the others by a step, and light in a
- * furnace would swing for ever. So those about as bright share their mean, and keep weights of exactly 1. Needs rgbe.glsl and
- * random.glsl. */
+ * A light cell: outgoing radiance along six axes in 64 bits. x: RGB9E5 colour of the brightest axis, y: six
+ * weights of 5 bits and a valid bit. Axes: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. Both are rounded by a hash of
+ * the cell: rounding down lost 0.9 % a bounce, and rounding to nearest stalls; on average over cells this
+ * neither gains nor loses. Weights are relative to the brightest axis: were it alone, an axis that gets a
+ * little brighter would lower the others by a step, and light in a furnace would swing for ever. So those
+ * about as bright share their mean, and keep weights of exactly 1. Needs rgbe.glsl and random.glsl. */
 #ifndef SDFGI_LIGHT_PACK_GLSL
 #define SDFGI_LIGHT_PACK_GLSL
 
-float light_luminance(vec3 color)
+float sdfgi_light_luminance(vec3 color)
 {
     return dot(color, vec3(0.2126, 0.7152, 0.0722));
 }
 
 /* Axes less than half a step of a weight below the brightest count as bright as that. */
-const float LIGHT_ALIKE = 61.0 / 62.0;
+const float SDFGI_LIGHT_ALIKE = 61.0 / 62.0;
 
-float light_mean_from(float levels[6], float least)
+float sdfgi_light_mean_from(float levels[6], float least)
 {
     float sum = 0.0, count = 0.0;
     for (int a = 0; a < 6; a++) {
@@ -27,31 +27,31 @@ float light_mean_from(float levels[6], float least)
     return sum / count;
 }
 
-uvec2 light_pack(vec3 axes[6], uint hash)
+uvec2 sdfgi_light_pack(vec3 axes[6], uint hash)
 {
     const float rounding = float(hash >> 8u) / 16777216.0;
     vec3 total = vec3(0.0);
     float levels[6], brightest = 0.0;
     for (int a = 0; a < 6; a++) {
         total += axes[a];
-        levels[a] = light_luminance(axes[a]);
+        levels[a] = sdfgi_light_luminance(axes[a]);
         brightest = max(brightest, levels[a]);
     }
     if (!(brightest > 0.0))
         return uvec2(0u, SDFGI_LIGHT_VALID);
-    const float least = LIGHT_ALIKE * brightest, level = light_mean_from(levels, least);
-    const vec3 base = total * (level / light_luminance(total));
+    const float least = SDFGI_LIGHT_ALIKE * brightest, level = sdfgi_light_mean_from(levels, least);
+    const vec3 base = total * (level / sdfgi_light_luminance(total));
     uint weights = 0u;
     for (int a = 0; a < 6; a++) {
         const uint weight = levels[a] >= least ? 31u : uint(levels[a] / level * 31.0 + rounding);
         weights |= min(weight, 31u) << (5 * a);
     }
-    return uvec2(rgbe_encode_rounded(base, rounding), weights | SDFGI_LIGHT_VALID);
+    return uvec2(sdfgi_rgbe_encode_rounded(base, rounding), weights | SDFGI_LIGHT_VALID);
 }
 
-vec3 light_unpack_axis(uvec2 cell, uint axis)
+vec3 sdfgi_light_unpack_axis(uvec2 cell, uint axis)
 {
-    return rgbe_decode(cell.x) * (float(cell.y >> (5u * axis) & 31u) / 31.0);
+    return sdfgi_rgbe_decode(cell.x) * (float(cell.y >> (5u * axis) & 31u) / 31.0);
 }
 
 #endif

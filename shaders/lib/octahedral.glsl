@@ -1,38 +1,39 @@
 /* SPDX-License-Identifier: MIT
- * Octahedral maps with +Y at the centre, so that up is a texel centre in maps of odd size and light from the sky onto
- * level ground is read without interpolation. (Meyer et al. 2010, "On floating-point normal vectors".) */
+ * Octahedral maps with +Y at the centre, so that up is a texel centre in maps of odd size and light from the
+ * sky onto level ground is read without interpolation. (Meyer et al. 2010, "On floating-point normal
+ * vectors".) */
 #ifndef SDFGI_OCTAHEDRAL_GLSL
 #define SDFGI_OCTAHEDRAL_GLSL
 
-vec2 octahedral_sign(vec2 v)
+vec2 sdfgi_octahedral_sign(vec2 v)
 {
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
 /* Unit direction to [-1, 1]^2. */
-vec2 octahedral_encode(vec3 dir)
+vec2 sdfgi_octahedral_encode(vec3 dir)
 {
     const vec3 d = dir / (abs(dir.x) + abs(dir.y) + abs(dir.z));
-    return d.y >= 0.0 ? d.xz : (1.0 - abs(d.zx)) * octahedral_sign(d.xz);
+    return d.y >= 0.0 ? d.xz : (1.0 - abs(d.zx)) * sdfgi_octahedral_sign(d.xz);
 }
 
 /* [-1, 1]^2 to the point of the octahedron |x| + |y| + |z| = 1. */
-vec3 octahedral_point(vec2 uv)
+vec3 sdfgi_octahedral_point(vec2 uv)
 {
     const vec3 d = vec3(uv.x, 1.0 - abs(uv.x) - abs(uv.y), uv.y);
     if (d.y >= 0.0)
         return d;
-    const vec2 folded = (1.0 - abs(d.zx)) * octahedral_sign(d.xz);
+    const vec2 folded = (1.0 - abs(d.zx)) * sdfgi_octahedral_sign(d.xz);
     return vec3(folded.x, d.y, folded.y);
 }
 
-vec3 octahedral_decode(vec2 uv)
+vec3 sdfgi_octahedral_decode(vec2 uv)
 {
-    return normalize(octahedral_point(uv));
+    return normalize(sdfgi_octahedral_point(uv));
 }
 
 /* Solid angle per unit of map area at `point`, up to a constant: 1 / r^3. */
-float octahedral_solid_angle(vec3 point)
+float sdfgi_octahedral_solid_angle(vec3 point)
 {
     const float r2 = dot(point, point);
     return 1.0 / (r2 * sqrt(r2));
@@ -40,7 +41,7 @@ float octahedral_solid_angle(vec3 point)
 
 /* The texel of an n x n map whose value the border texel `coord` in [-1, n] repeats: across an edge the map
  * continues mirrored along that edge, at a corner it meets the opposite corner. */
-ivec2 octahedral_border_source(ivec2 coord, int n)
+ivec2 sdfgi_octahedral_border_source(ivec2 coord, int n)
 {
     const bool outside_x = coord.x < 0 || coord.x >= n;
     const bool outside_y = coord.y < 0 || coord.y >= n;

@@ -4,23 +4,24 @@
 #define SDFGI_RANDOM_GLSL
 
 /* PCG output permutation (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"). */
-uint random_hash(uint v)
+uint sdfgi_random_hash(uint v)
 {
     const uint state = v * 747796405u + 2891336453u;
     const uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return (word >> 22u) ^ word;
 }
 
-uint random_hash3(ivec3 v, uint seed)
+uint sdfgi_random_hash3(ivec3 v, uint seed)
 {
-    return random_hash(uint(v.x) + random_hash(uint(v.y) + random_hash(uint(v.z) + random_hash(seed))));
+    return sdfgi_random_hash(
+        uint(v.x) + sdfgi_random_hash(uint(v.y) + sdfgi_random_hash(uint(v.z) + sdfgi_random_hash(seed))));
 }
 
-/* Point `index` of the R2 sequence (Roberts 2018) shifted by a hash, in [0, 1)^2. Fixed point, so that it never
- * loses precision however large the index. */
-vec2 random_r2(uint index, uint shift)
+/* Point `index` of the R2 sequence (Roberts 2018) shifted by a hash, in [0, 1)^2. Fixed point, so that it
+ * never loses precision however large the index. */
+vec2 sdfgi_random_r2(uint index, uint shift)
 {
-    const uvec2 p = uvec2(3242174889u, 2447445414u) * index + uvec2(shift, random_hash(shift));
+    const uvec2 p = uvec2(3242174889u, 2447445414u) * index + uvec2(shift, sdfgi_random_hash(shift));
     return vec2(p >> 8u) * (1.0 / 16777216.0);
 }
 

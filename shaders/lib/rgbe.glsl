@@ -1,44 +1,46 @@
 /* SPDX-License-Identifier: MIT
- * RGB9E5 shared exponent colours (Vulkan specification, "Shared Exponent to RGB"). Exponents are taken from the float's
- * bits: log2 may be off by one at powers of two. */
+ * RGB9E5 shared exponent colours (Vulkan specification, "Shared Exponent to RGB"). Exponents are taken from
+ * the float's bits: log2 may be off by one at powers of two. */
 #ifndef SDFGI_RGBE_GLSL
 #define SDFGI_RGBE_GLSL
 
 #define SDFGI_RGBE_MAX 65408.0
 
-float rgbe_exp2(int e)
+float sdfgi_rgbe_exp2(int e)
 {
     return uintBitsToFloat(uint(e + 127) << 23);
 }
 
 /* Not-a-number and negative values become 0, larger ones the largest. */
-vec3 rgbe_clamp(vec3 color)
+vec3 sdfgi_rgbe_clamp(vec3 color)
 {
-    return vec3(color.r > 0.0 ? min(color.r, SDFGI_RGBE_MAX) : 0.0, color.g > 0.0 ? min(color.g, SDFGI_RGBE_MAX) : 0.0,
+    return vec3(color.r > 0.0 ? min(color.r, SDFGI_RGBE_MAX) : 0.0,
+                color.g > 0.0 ? min(color.g, SDFGI_RGBE_MAX) : 0.0,
                 color.b > 0.0 ? min(color.b, SDFGI_RGBE_MAX) : 0.0);
 }
 
-/* `rounding` in [0, 1) is added before the mantissas are cut: 0.5 rounds to nearest, a hash rounds without bias over many
- * values, so that light which grows in small steps does not stall below them (HARD_CASES row 30). */
-uint rgbe_encode_rounded(vec3 color, float rounding)
+/* `rounding` in [0, 1) is added before the mantissas are cut: 0.5 rounds to nearest, a hash rounds without
+ * bias over many values, so that light which grows in small steps does not stall below them (HARD_CASES row
+ * 30). */
+uint sdfgi_rgbe_encode_rounded(vec3 color, float rounding)
 {
-    const vec3 c = rgbe_clamp(color);
+    const vec3 c = sdfgi_rgbe_clamp(color);
     const float largest = max(c.r, max(c.g, c.b));
     int e = max(int(floatBitsToUint(largest) >> 23) - 127, -16) + 1;
-    if (floor(largest * rgbe_exp2(9 - e) + rounding) >= 512.0)
+    if (floor(largest * sdfgi_rgbe_exp2(9 - e) + rounding) >= 512.0)
         e += 1;
-    const uvec3 m = uvec3(min(floor(c * rgbe_exp2(9 - e) + rounding), 511.0));
+    const uvec3 m = uvec3(min(floor(c * sdfgi_rgbe_exp2(9 - e) + rounding), 511.0));
     return m.r | m.g << 9 | m.b << 18 | uint(e + 15) << 27;
 }
 
-uint rgbe_encode(vec3 color)
+uint sdfgi_rgbe_encode(vec3 color)
 {
-    return rgbe_encode_rounded(color, 0.5);
+    return sdfgi_rgbe_encode_rounded(color, 0.5);
 }
 
-vec3 rgbe_decode(uint v)
+vec3 sdfgi_rgbe_decode(uint v)
 {
-    return vec3(v & 511u, v >> 9 & 511u, v >> 18 & 511u) * rgbe_exp2(int(v >> 27) - 24);
+    return vec3(v & 511u, v >> 9 & 511u, v >> 18 & 511u) * sdfgi_rgbe_exp2(int(v >> 27) - 24);
 }
 
 #endif

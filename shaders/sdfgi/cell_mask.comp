@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. Eight threads per light
- * cell in a renewed block: nothing new touches the cages of the others. */
+ * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. Eight
+ * threads per light cell in a renewed block: nothing new touches the cages of the others. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
@@ -8,8 +8,14 @@
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
-layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_cascade_args args;
+};
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer
+{
+    uint sdfgi_indirect[];
+};
 
 const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
 shared uint masks[CELLS];
@@ -17,9 +23,10 @@ shared uint masks[CELLS];
 bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 {
     const ivec3 base = cage * SDFGI_PROBE_SPACING;
-    const uint state = sdfgi_probes[probe_index(args.cascade, cage + corner)];
-    return !probe_is_dead(state) &&
-           trace_visible_from(args.cascade, base, vec3(cell - base) + 0.5, probe_position(corner, state));
+    const uint state = sdfgi_probes[sdfgi_probe_index(args.cascade, cage + corner)];
+    return !sdfgi_probe_is_dead(state) &&
+           sdfgi_trace_visible_from(args.cascade, base, vec3(cell - base) + 0.5,
+                                    sdfgi_probe_position(corner, state));
 }
 
 void main()
@@ -27,9 +34,10 @@ void main()
     const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = light_group() * CELLS + lane / 8u;
     const bool listed = n < sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] &&
                         sdfgi_scratch[light_dirty_slot(n)] < sdfgi_frame.light_cell_room;
-    const ivec3 cell = light_cell_position(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);
+    const ivec3 cell =
+        light_cell_position(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
-    const uint index = cell_index(args.cascade, cell), shift = 8u * (index & 3u);
+    const uint index = sdfgi_cell_index(args.cascade, cell), shift = 8u * (index & 3u);
     if (k == 0u)
         masks[lane / 8u] = 0u;
     barrier();

@@ -30,20 +30,21 @@ bool dirty_holds(uint cascade, ivec3 cell)
     return false;
 }
 
-/* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing is new. */
+/* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing
+ * is new. */
 float dirty_distance(uint cascade, vec3 pos, float margin)
 {
     float nearest = 1e10;
     for (int i = 0; i < dirty_count(cascade); i++) {
         const vec3 low = vec3(sdfgi_frame.cascades[cascade].dirty[i].low) - margin;
         const vec3 high = vec3(sdfgi_frame.cascades[cascade].dirty[i].high) + margin;
-        nearest = min(nearest, length(metric_from_cells(pos - clamp(pos, low, high))));
+        nearest = min(nearest, length(sdfgi_metric_from_cells(pos - clamp(pos, low, high))));
     }
     return nearest;
 }
 
-/* True if a ray from `pos` along `dir` (both in cell space) passes anything new, by less than `margin` cells, before
- * parameter `end`. */
+/* True if a ray from `pos` along `dir` (both in cell space) passes anything new, by less than `margin` cells,
+ * before parameter `end`. */
 bool dirty_crosses(uint cascade, vec3 pos, vec3 dir, float end, float margin)
 {
     const vec3 inv_dir = 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Where sub-voxels of a change went and came: other distances can only differ near there. Of each cascade, boxes of cells around
- * all that went and around all that came, one of each per strip across the cascade, in cells of the place that it moves to. */
+ * Where sub-voxels of a change went and came: other distances can only differ near there. Of each cascade,
+ * boxes of cells around all that went and around all that came, one of each per strip across the cascade, in
+ * cells of the place that it moves to. */
 #ifndef SDFGI_DIRTY_BOUNDS_GLSL
 #define SDFGI_DIRTY_BOUNDS_GLSL
 
 #include "pass.glsl"
 
-/* The first six words of each box: how far it reaches from SDFGI_BOUNDS_ORIGIN downwards, and upwards. Zeroes are no box,
- * maxima its growth. */
-layout(std430, set = 0, binding = SDFGI_BINDING_BOUNDS) buffer sdfgi_bounds_buffer
+/* The first six words of each box: how far it reaches from SDFGI_BOUNDS_ORIGIN downwards, and upwards. Zeroes
+ * are no box, maxima its growth. */
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_BOUNDS) buffer sdfgi_bounds_buffer
 {
     uint sdfgi_bounds[];
 };
@@ -21,11 +22,12 @@ uint bounds_slot(uint cascade, uint box)
     return uint(SDFGI_BOUNDS_STRIDE) * (cascade * 2u * uint(SDFGI_BOUNDS_STRIPS) + box);
 }
 
-/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. Testing first spares contended
- * atomics; all six words are read before any is tested. */
+/* Adds the cells [low, high) to what went or came; strips lie one behind the other along an axis. Testing
+ * first spares contended atomics; all six words are read before any is tested. */
 void bounds_add(uint cascade, uint what, int axis, ivec3 low, ivec3 high)
 {
-    const int strip = clamp(low[axis] * SDFGI_BOUNDS_STRIPS >> int(sdfgi_frame.resolution_log2), 0, SDFGI_BOUNDS_STRIPS - 1);
+    const int strip = clamp(low[axis] * SDFGI_BOUNDS_STRIPS >> int(sdfgi_frame.resolution_log2), 0,
+                            SDFGI_BOUNDS_STRIPS - 1);
     const uint slot = bounds_slot(cascade, what + uint(strip));
     const uvec3 down = uvec3(SDFGI_BOUNDS_ORIGIN - low), up = uvec3(SDFGI_BOUNDS_ORIGIN + high);
     const uvec3 had_down = uvec3(sdfgi_bounds[slot], sdfgi_bounds[slot + 1u], sdfgi_bounds[slot + 2u]);

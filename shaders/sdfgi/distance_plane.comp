@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: MIT
- * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that layer. Along x by
- * scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of odd numbers are stored as (d^2 - 1) / 8,
- * their sums as (d^2 + e^2 - 2) / 8. Cells of columns that hold stale blocks, from args.first_x to before args.end_x along x.
- * One workgroup per layer and run of eight cells along x: eight lines along z. */
+ * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that
+ * layer. Along x by scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of
+ * odd numbers are stored as (d^2 - 1) / 8, their sums as (d^2 + e^2 - 2) / 8. Cells of columns that hold
+ * stale blocks, from args.first_x to before args.end_x along x. One workgroup per layer and run of eight
+ * cells along x: eight lines along z. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-const uint BATCH = 324u; /* 12.3 KiB of shared memory, of the 16 that every device has: a layer of a village in one go */
+const uint BATCH =
+    324u; /* 12.3 KiB of shared memory, of the 16 that every device has: a layer of a village in one go */
 
 #include "lines.glsl"
 
-layout(push_constant) uniform sdfgi_push { sdfgi_distance_search_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_distance_search_args args;
+};
 
 /* Sums are below 2 / 8 (8 N)^2: 20 bits where N is 256. */
 const uint NUMBER_BITS = 9u;
@@ -45,7 +50,8 @@ void mark_wanted()
     for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.resolution >> 1u; i += SDFGI_GROUP_LINES) {
         const uint x = first_x() + 4u * (i & 1u), z = 2u * (i & ~1u), first = z / line_cells_per_slot();
         const uint slots = (2u << (z + 3u) / line_cells_per_slot()) - (1u << first);
-        if (x >= args.first_x && x < args.end_x && layer_in_reach(stale_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
+        if (x >= args.first_x && x < args.end_x &&
+            layer_in_reach(stale_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
             atomicOr(line_wanted, slots);
     }
     barrier();
@@ -68,8 +74,7 @@ void mark_rows()
         if ((slots >> z / line_cells_per_slot() & 1u) == 0u)
             continue;
         uint rows = 0u;
-        [[unroll]] for (uint i = 0u; i < 4u; i++)
-            rows |= uint(runs_of(4u * z + i) != 0u) << i;
+        [[unroll]] for (uint i = 0u; i < 4u; i++) rows |= uint(runs_of(4u * z + i) != 0u) << i;
         line_mark(z, rows);
     }
 }
@@ -79,11 +84,10 @@ void mark_rows()
 /* The sub-voxels of a row in a run: cells that lie side by side, as cascades move by whole runs. */
 uint row_of_run(uint place, uint run)
 {
-    const uint first = cell_index(args.cascade, ivec3(8u * run, layer() >> 2u, place >> 2u));
+    const uint first = sdfgi_cell_index(args.cascade, ivec3(8u * run, layer() >> 2u, place >> 2u));
     const uint word = place >> 1u & 1u, shift = 4u * (layer() & 3u) | 16u * (place & 1u);
     uint row = 0u;
-    [[unroll]] for (uint i = 0u; i < 8u; i++)
-        row |= (sdfgi_bits[first + i][word] >> shift & 15u) << 4u * i;
+    [[unroll]] for (uint i = 0u; i < 8u; i++) row |= (sdfgi_bits[first + i][word] >> shift & 15u) << 4u * i;
     return row;
 }
 
@@ -105,7 +109,8 @@ int way_above(uint place, uint runs, uint run)
     return above < 0 ? NOTHING : 32 * (above - int(run) - 1) + first;
 }
 
-/* Steps of a sub-voxel from the one next to a cell's centre to the nearest set one of a row, on either side. */
+/* Steps of a sub-voxel from the one next to a cell's centre to the nearest set one of a row, on either side.
+ */
 int steps_along_row(uint bits, uint cell, int below, int above)
 {
     const uint centre = 4u * cell + 2u;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * What the exact search has to know before it begins (occupancy.glsl): which rows of sub-voxels hold bits, and which blocks of
- * 4^3 cells to search. Neither needs the other, so one dispatch finds both: workgroups share some columns along z, or a column of
- * blocks along y. */
+ * What the exact search has to know before it begins (occupancy.glsl): which rows of sub-voxels hold bits,
+ * and which blocks of 4^3 cells to search. Neither needs the other, so one dispatch finds both: workgroups
+ * share some columns along z, or a column of blocks along y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -9,7 +9,10 @@
 #include "occupancy.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINES) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_distance_prepare_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_distance_prepare_args args;
+};
 
 /* ---- Rows: a thread reads eight cells that lie side by side */
 
@@ -33,10 +36,9 @@ uint any_of_fours(uint bits)
 /* Rows set in the eight cells of a run: z + 4 y. Cascades move by whole runs. */
 uint rows_of_run(uint y, uint z, uint run)
 {
-    const uint first = cell_index(args.cascade, ivec3(8u * run, y, z));
+    const uint first = sdfgi_cell_index(args.cascade, ivec3(8u * run, y, z));
     uvec2 bits = uvec2(0u);
-    [[unroll]] for (uint i = 0u; i < 8u; i++)
-        bits |= sdfgi_bits[first + i];
+    [[unroll]] for (uint i = 0u; i < 8u; i++) bits |= sdfgi_bits[first + i];
     const uint low = any_of_fours(bits.x), high = any_of_fours(bits.y);
     return (low & 0xffffu) | (low >> 16u) << 1u | (high & 0xffffu) << 2u | (high >> 16u) << 3u;
 }
@@ -55,8 +57,10 @@ void note_rows(uint rows, uint column, uint run)
 
 void find_rows(uint group)
 {
-    const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(), groups = sdfgi_frame.resolution / COLUMNS;
-    const uint y = group / groups, first_z = COLUMNS * (group % groups), words = COLUMNS * per_row / 8u; /* of a layer */
+    const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(),
+               groups = sdfgi_frame.resolution / COLUMNS;
+    const uint y = group / groups, first_z = COLUMNS * (group % groups),
+               words = COLUMNS * per_row / 8u; /* of a layer */
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         runs[i] = 0u;
     if (lane == 0u)
@@ -74,15 +78,16 @@ void find_rows(uint group)
             (layers & 1u) | (layers >> 3u & 2u) | (layers >> 6u & 4u) | (layers >> 9u & 8u);
 }
 
-/* ---- Blocks: those that touch a changed box, and those with a cell whose nearest sub-voxel may have gone, or may be one that
- * came (dirty_bounds.glsl). Stored lengths are rounded down and rounding keeps order: a box whose nearest sub-voxel would be stored
- * as further away cannot matter. Four threads per block. */
+/* ---- Blocks: those that touch a changed box, and those with a cell whose nearest sub-voxel may have gone,
+ * or may be one that came (dirty_bounds.glsl). Stored lengths are rounded down and rounding keeps order: a
+ * box whose nearest sub-voxel would be stored as further away cannot matter. Four threads per block. */
 
 const uint BOXES = uint(2 * SDFGI_BOUNDS_STRIPS);
 const uint BLOCKS = uint(SDFGI_GROUP_LINES / 4);
 const int FAR = 2 * SDFGI_BOUNDS_ORIGIN; /* cells: beyond all boxes */
 
-shared ivec3 bounds_lows[BOXES + 2u], bounds_highs[BOXES + 2u]; /* the last two: around all that went, and all that came */
+shared ivec3 bounds_lows[BOXES + 2u],
+    bounds_highs[BOXES + 2u]; /* the last two: around all that went, and all that came */
 shared uint bounds_count;
 shared uint stale[2];
 
@@ -120,22 +125,25 @@ void fetch_bounds()
 bool block_changed(ivec3 block)
 {
     for (uint i = 0u; i < args.box_count; i++) {
-        const ivec3 corners = ivec3(args.corners[3u * i], args.corners[3u * i + 1u], args.corners[3u * i + 2u]);
+        const ivec3 corners =
+            ivec3(args.corners[3u * i], args.corners[3u * i + 1u], args.corners[3u * i + 2u]);
         if (all(lessThan(corners << 16 >> 16, 4 * block + 4)) && all(greaterThan(corners >> 16, 4 * block)))
             return true;
     }
     return false;
 }
 
-/* Whether a sub-voxel of a box may be as near to the centre of a cell of [first, last] as `stored` says, and within reach.
- * Further than the cascade is wide is as good as that: nearer than it is only costs a search. */
+/* Whether a sub-voxel of a box may be as near to the centre of a cell of [first, last] as `stored` says, and
+ * within reach. Further than the cascade is wide is as good as that: nearer than it is only costs a search.
+ */
 bool bounds_reaches(uint box, ivec3 first, ivec3 last, uint stored)
 {
     const ivec3 way = clamp(max(8 * (bounds_lows[box] - last) - 3, 8 * (first - bounds_highs[box]) + 5), 1,
-                            8 * space_resolution() - 1);
+                            8 * sdfgi_space_resolution() - 1);
     const uvec3 square = uvec3(way * way);
-    const uint most = min(stored, distance_reach() - 1u);
-    return distance_square(16u * (square.x + square.z) + distance_y_weight() * square.y) <= most * (most + 2u);
+    const uint most = min(stored, sdfgi_distance_reach() - 1u);
+    return distance_square(16u * (square.x + square.z) + distance_y_weight() * square.y) <=
+           most * (most + 2u);
 }
 
 /* A layer of 4x4 cells. */
@@ -143,7 +151,8 @@ bool layer_is_stale(ivec3 first)
 {
     uint pairs[8], most = 0u;
     for (int i = 0; i < 8; i++)
-        pairs[i] = sdfgi_distances[cell_index(args.cascade, first + ivec3(2 * (i & 1), i >> 1, 0)) >> 1u];
+        pairs[i] =
+            sdfgi_distances[sdfgi_cell_index(args.cascade, first + ivec3(2 * (i & 1), i >> 1, 0)) >> 1u];
     for (int i = 0; i < 8; i++)
         most = max(most, max(pairs[i] & 0xffffu, pairs[i] >> 16u));
     /* Two boxes rule out most layers, and with them up to 32. */
@@ -172,7 +181,8 @@ void find_blocks(uint group)
     fetch_bounds();
     for (uint y = lane / 4u; y < side; y += BLOCKS) {
         const ivec3 block = ivec3(x, y, z);
-        if (args.box_count == 0u || block_changed(block) || layer_is_stale(4 * block + ivec3(0, 0, lane & 3u)))
+        if (args.box_count == 0u || block_changed(block) ||
+            layer_is_stale(4 * block + ivec3(0, 0, lane & 3u)))
             atomicOr(stale[y >> 5u], 1u << (y & 31u));
     }
     barrier();

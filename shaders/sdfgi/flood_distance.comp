@@ -9,7 +9,7 @@ uint encode_distance(ivec3 cell)
 {
     const uint pointer = sdfgi_scratch[flood_slot(args.source, cell)];
     if (pointer == NEAREST_NONE)
-        return distance_reach();
+        return sdfgi_distance_reach();
     return encode_nearest(nearest_distance2(cell, nearest_unpack(pointer)));
 }
 
@@ -17,8 +17,8 @@ void main()
 {
     /* Volumes wrap at multiples of 8 cells, so that pairs of cells are pairs of texels. */
     const ivec3 cell = ivec3(gl_GlobalInvocationID) * ivec3(2, 1, 1);
-    if (!cell_inside(cell))
+    if (!sdfgi_cell_inside(cell))
         return;
     const uint low = encode_distance(cell), high = encode_distance(cell + ivec3(1, 0, 0));
-    sdfgi_distances[cell_index(args.cascade, cell) >> 1u] = low | high << 16u;
+    sdfgi_distances[sdfgi_cell_index(args.cascade, cell) >> 1u] = low | high << 16u;
 }

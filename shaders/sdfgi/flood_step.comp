@@ -8,7 +8,7 @@
 uint neighbour(ivec3 cell, ivec3 offset)
 {
     const ivec3 other = cell + offset * int(args.jump);
-    return cell_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
+    return sdfgi_cell_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
 }
 
 /* The nearest of the sub-voxels that neighbours point at. */
@@ -20,7 +20,8 @@ uint nearest_pointer(ivec3 cell, out float best2)
         for (int y = -1; y <= 1; y++)
             for (int x = -1; x <= 1; x++) {
                 const uint pointer = neighbour(cell, ivec3(x, y, z));
-                const float d2 = pointer == NEAREST_NONE ? 1e30 : nearest_distance2(cell, nearest_unpack(pointer));
+                const float d2 =
+                    pointer == NEAREST_NONE ? 1e30 : nearest_distance2(cell, nearest_unpack(pointer));
                 best = d2 < best2 ? pointer : best;
                 best2 = min(best2, d2);
             }

@@ -6,10 +6,13 @@
 #include "../shared/args.h"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_gather_args args; };
-layout(set = 1, binding = SDFGI_BINDING_GATHER_DEPTH) uniform sampler2D depth_image;
-layout(set = 1, binding = SDFGI_BINDING_GATHER_NORMAL) uniform sampler2D normal_image;
-layout(set = 1, binding = SDFGI_BINDING_GATHER_OUTPUT, rgba16f) uniform writeonly image2D output_image;
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_gather_args args;
+};
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_DEPTH) uniform sampler2D depth_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_NORMAL) uniform sampler2D normal_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_OUTPUT, rgba16f) uniform writeonly image2D output_image;
 
 void main()
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * The scratch buffer while light cells are listed. Blocks are 4^3 texels, numbered by where they are stored, so that a
- * cascade that scrolled here lists what one built here lists; a block is *renewed* if something new touches its cage. Zero at
- * first, but for direct light and entries.
- *   per block  a bit per light cell, x + 4 y + 16 z, in two words; 1 if it is renewed; where its cells began in the list before
- *   per row    of SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks
- *   per entry  of the list before, its direct light
- *   per cell   in a renewed block, in the order of the list, its entry and its texel index */
+ * The scratch buffer while light cells are listed. Blocks are 4^3 texels, numbered by where they are stored,
+ * so that a cascade that scrolled here lists what one built here lists; a block is *renewed* if something new
+ * touches its cage. Zero at first, but for direct light and entries. per block  a bit per light cell, x + 4 y
+ * + 16 z, in two words; 1 if it is renewed; where its cells began in the list before per row    of
+ * SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks per entry  of the list
+ * before, its direct light per cell   in a renewed block, in the order of the list, its entry and its texel
+ * index */
 #ifndef SDFGI_LIGHT_BLOCKS_GLSL
 #define SDFGI_LIGHT_BLOCKS_GLSL
 
@@ -68,11 +68,13 @@ uint light_group()
     return gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
 }
 
-/* The n-th entry of the cells in dirty blocks, or of the range [first, end). Returns false if there is none. */
+/* The n-th entry of the cells in dirty blocks, or of the range [first, end). Returns false if there is none.
+ */
 bool light_entry(uint cascade, bool only_dirty, uint first, uint end, uint n, out uint entry)
 {
-    const uint count = only_dirty ? min(sdfgi_counters[SDFGI_COUNTER_LIGHT_DIRTY + cascade], sdfgi_frame.light_cell_room)
-                                  : end - first;
+    const uint count =
+        only_dirty ? min(sdfgi_counters[SDFGI_COUNTER_LIGHT_DIRTY + cascade], sdfgi_frame.light_cell_room)
+                   : end - first;
     entry = n;
     if (n < count)
         entry = only_dirty ? sdfgi_scratch[light_dirty_slot(n)] : first + n;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Outgoing radiance of each light cell: direct light, emission, and what the probes bring from everywhere else. One
- * thread per light cell of those that args name, in the cascade gl_WorkGroupID.y above args.cascade. */
+ * Outgoing radiance of each light cell: direct light, emission, and what the probes bring from everywhere
+ * else. One thread per light cell of those that args name, in the cascade gl_WorkGroupID.y above
+ * args.cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -8,7 +9,10 @@
 #include "../include/sdfgi_lookup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_light_bounce_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_light_bounce_args args;
+};
 
 /* Feedback times albedo, kept contractive so that light in a closed white room stays finite. */
 vec3 bounce_gain(vec3 albedo)
@@ -27,11 +31,11 @@ void main()
         return;
     const uint slot = light_cell_slot(cascade, entry);
     const ivec3 cell = light_cell_position(cascade, sdfgi_light_cells[slot]);
-    if (!cell_served(cascade, cell))
+    if (!sdfgi_cell_served(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
-    const uint mask = cell_mask(cascade, cell);
+    const uint mask = sdfgi_cell_mask(cascade, cell);
 
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++)
@@ -39,14 +43,14 @@ void main()
     for (uint rest = facing; rest != 0u; rest &= rest - 1u) {
         const uint a = uint(findLSB(rest));
         const uint block = surface_block(cascade, cell - surface_axis_step(a));
-        axes[a] = light_unpack_axis(direct, a) + surface_emission(block, a);
+        axes[a] = sdfgi_light_unpack_axis(direct, a) + surface_emission(block, a);
         if (args.without_probes == 0u) {
-            const vec4 sum = lookup_light_cell(cascade, cell, surface_normal(block, a), mask);
+            const vec4 sum = sdfgi_lookup_light_cell(cascade, cell, surface_normal(block, a), mask);
             axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
         }
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
     }
     light_fill_axes(facing, axes);
-    sdfgi_light[cell_index(cascade, cell)] = light_pack(axes, light_cell_hash(cascade, cell));
+    sdfgi_light[sdfgi_cell_index(cascade, cell)] = sdfgi_light_pack(axes, light_cell_hash(cascade, cell));
 }

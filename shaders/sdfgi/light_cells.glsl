@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The list of light cells: empty cells next to occupied ones. Three words each: where it is (texel index), then the
- * direct light packed as in lib/light_pack.glsl. */
+ * The list of light cells: empty cells next to occupied ones. Three words each: where it is (texel index),
+ * then the direct light packed as in lib/light_pack.glsl. */
 #ifndef SDFGI_LIGHT_CELLS_GLSL
 #define SDFGI_LIGHT_CELLS_GLSL
 
@@ -8,7 +8,7 @@
 #include "../lib/light_pack.glsl"
 #include "../lib/random.glsl"
 
-layout(std430, set = 0, binding = SDFGI_BINDING_LIGHT_CELLS) buffer sdfgi_light_cells_buffer
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHT_CELLS) buffer sdfgi_light_cells_buffer
 {
     uint sdfgi_light_cells[];
 };
@@ -22,7 +22,7 @@ uint light_cell_count(uint cascade)
 uint light_cell_hash(uint cascade, ivec3 cell)
 {
     const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;
-    return random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
+    return sdfgi_random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
 }
 
 /* First word of an entry. */
@@ -33,7 +33,7 @@ uint light_cell_slot(uint cascade, uint entry)
 
 ivec3 light_cell_position(uint cascade, uint index)
 {
-    return cell_from_texel(cascade, texel_from_index(index));
+    return sdfgi_cell_from_texel(cascade, sdfgi_texel_from_index(index));
 }
 
 uvec2 light_cell_direct(uint slot)
@@ -51,7 +51,7 @@ void light_cell_store_direct(uint slot, uvec2 light)
 bool light_cell_faces(uint cascade, ivec3 cell, uint axis)
 {
     const ivec3 behind = cell - surface_axis_step(axis);
-    return cell_served(cascade, behind) && cell_bits(cascade, behind) != uvec2(0u);
+    return sdfgi_cell_served(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
 }
 
 /* Bit per axis along which a surface faces. */
@@ -64,8 +64,8 @@ uint light_cell_facing(uint cascade, ivec3 cell)
     return facing;
 }
 
-/* Axes along which no surface faces take the mean of those along which one does: a hit on the side of a sub-voxel
- * step then reads the slope's light instead of black. */
+/* Axes along which no surface faces take the mean of those along which one does: a hit on the side of a
+ * sub-voxel step then reads the slope's light instead of black. */
 void light_fill_axes(uint facing, inout vec3 axes[6])
 {
     vec3 mean = vec3(0.0);

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: MIT
- * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows, reflected by the
- * surface's albedo, one value per axis along which a surface faces. A thread per axis of each light cell that args name finds
- * out which lights arrive; then all threads of a workgroup share out the shadow rays from its cells to those lights, so that none
- * follows several while others wait. Lights are added in their order. Shared memory: 4 KiB. */
+ * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows,
+ * reflected by the surface's albedo, one value per axis along which a surface faces. A thread per axis of
+ * each light cell that args name finds out which lights arrive; then all threads of a workgroup share out the
+ * shadow rays from its cells to those lights, so that none follows several while others wait. Lights are
+ * added in their order. Shared memory: 4 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_SURFACES) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_light_direct_args args; };
-layout(std430, set = 0, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_lights_buffer
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_light_direct_args args;
+};
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_lights_buffer
 {
     sdfgi_light_params sdfgi_lights[];
 };
@@ -21,13 +25,14 @@ const uint ROUND = 32u; /* lights at once, a bit each */
 
 shared ivec3 cells[CELLS];
 shared uint facing[CELLS];
-shared uint arriving[CELLS], reaching[CELLS]; /* bits of a round's lights: those whose light would arrive, and that does */
-shared uint rays[CELLS * ROUND];              /* a cell's place here times ROUND, plus a light's in the round */
+shared uint arriving[CELLS],
+    reaching[CELLS];             /* bits of a round's lights: those whose light would arrive, and that does */
+shared uint rays[CELLS * ROUND]; /* a cell's place here times ROUND, plus a light's in the round */
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
-/* Irradiance that a light sends to `position` on a surface that faces it, and the way to it. Inside half a cell the
- * inverse square is cut off: a voxelised surface is no closer than that (HARD_CASES row 47). */
+/* Irradiance that a light sends to `position` on a surface that faces it, and the way to it. Inside half a
+ * cell the inverse square is cut off: a voxelised surface is no closer than that (HARD_CASES row 47). */
 vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, out float range)
 {
     if ((light.kind & 3u) == SDFGI_LIGHT_KIND_DIRECTIONAL) {
@@ -60,9 +65,9 @@ struct surface {
 surface surface_behind(ivec3 cell, uint axis)
 {
     const ivec3 step = surface_axis_step(axis);
-    const float depth = clamp(cell_distance(args.cascade, cell), 0.5, 1.0);
+    const float depth = clamp(sdfgi_cell_distance(args.cascade, cell), 0.5, 1.0);
     const uint block = surface_block(args.cascade, cell - step);
-    const vec3 position = position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
+    const vec3 position = sdfgi_position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
     return surface(position, surface_normal(block, axis), block);
 }
 
@@ -79,9 +84,10 @@ bool light_reaches(ivec3 cell, uint light)
     const vec3 pos = vec3(cell) + 0.5;
     vec3 to_light;
     float range_m;
-    light_arriving(sdfgi_lights[light], position_from_cascade(args.cascade, pos), to_light, range_m);
+    light_arriving(sdfgi_lights[light], sdfgi_position_from_cascade(args.cascade, pos), to_light, range_m);
     const float cell_m = sdfgi_frame.cascades[args.cascade].cell_m;
-    return !trace_solid(args.cascade, sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m).hit;
+    return !sdfgi_trace_solid(args.cascade, sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m)
+                .hit;
 }
 
 /* Bits of the lights from `first` on that would light a surface. */
@@ -107,7 +113,8 @@ void list_rays(uint own, uint axis, uint first)
     }
 }
 
-/* What a round's lights bring to the surface that is this thread's, if there is one. Called by the whole workgroup. */
+/* What a round's lights bring to the surface that is this thread's, if there is one. Called by the whole
+ * workgroup. */
 vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
 {
     const uint count = min(sdfgi_frame.light_count - first, ROUND);
@@ -123,7 +130,8 @@ vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
     barrier();
     list_rays(own, axis, first);
     barrier();
-    /* Rays of one subgroup wait for each other: fewer than there are threads go to threads as far apart as can be. */
+    /* Rays of one subgroup wait for each other: fewer than there are threads go to threads as far apart as
+     * can be. */
     const uint apart = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
     for (uint i = gl_LocalInvocationIndex; i < ray_count * apart; i += SDFGI_GROUP_SURFACES) {
         const uint cell = rays[i / apart] / ROUND, light = rays[i / apart] % ROUND;
@@ -147,17 +155,18 @@ void store_cell(uint slot, uint own)
     for (uint a = 0u; a < 6u; a++)
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
-    light_cell_store_direct(slot, light_pack(axes, light_cell_hash(args.cascade, cells[own])));
+    light_cell_store_direct(slot, sdfgi_light_pack(axes, light_cell_hash(args.cascade, cells[own])));
 }
 
 void main()
 {
     const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
     uint entry;
-    bool lit = light_entry(args.cascade, args.only_dirty != 0u, args.first, args.end, light_group() * CELLS + own, entry);
+    bool lit = light_entry(args.cascade, args.only_dirty != 0u, args.first, args.end,
+                           light_group() * CELLS + own, entry);
     const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
     const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
-    lit = lit && cell_served(args.cascade, cell);
+    lit = lit && sdfgi_cell_served(args.cascade, cell);
     if (axis == 0u) {
         cells[own] = cell;
         facing[own] = 0u;

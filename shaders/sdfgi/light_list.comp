@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: MIT
- * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed blocks; their
- * numbers, and the indirect arguments of passes over the latter. Cells that were light cells before keep their light, outside
- * renewed blocks their direct light and masks too; new ones begin dark. A row of blocks is shared by the workgroups of a column,
- * a cell to a thread in turn. */
+ * Writes the list of light cells in the order of blocks and of bits in them, and apart those in renewed
+ * blocks; their numbers, and the indirect arguments of passes over the latter. Cells that were light cells
+ * before keep their light, outside renewed blocks their direct light and masks too; new ones begin dark. A
+ * row of blocks is shared by the workgroups of a column, a cell to a thread in turn. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #include "light_blocks.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
-layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_cascade_args args;
+};
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer
+{
+    uint sdfgi_indirect[];
+};
 
 shared uvec4 blocks[SDFGI_GROUP_LINEAR]; /* as in the scratch buffer */
 /* Running sums over the threads: cells of the row, those in renewed blocks; the same of earlier rows. */
@@ -89,7 +95,7 @@ uint bit_of(uvec2 mask, uint n)
 /* Index of a cell in its cascade, then in all. */
 uvec2 cell_at(uvec3 texel)
 {
-    const uint index = texel_index(texel);
+    const uint index = sdfgi_texel_index(texel);
     return uvec2(index, index | args.cascade << (3u * sdfgi_frame.resolution_log2));
 }
 
@@ -136,13 +142,15 @@ void main()
     if (sdfgi_scratch[light_row_slot(row)] == 0u && !last)
         return;
     const uint slot = light_block_slot(row * SDFGI_GROUP_LINEAR + i);
-    blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u], sdfgi_scratch[slot + 3u]);
+    blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u],
+                      sdfgi_scratch[slot + 3u]);
     const uint own = bitCount(blocks[i].x) + bitCount(blocks[i].y);
     sum_up(uvec4(own, own * blocks[i].z, count_before(row)));
     const uvec2 start = sums[SDFGI_GROUP_LINEAR - 1].zw, count = sums[SDFGI_GROUP_LINEAR - 1].xy;
     if (last && i == 0u && gl_WorkGroupID.y == 0u)
         write_totals(start + count);
-    for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count.x; n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
+    for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count.x;
+         n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
         const uint block = block_of(n);
         const uvec2 before = block > 0u ? sums[block - 1u].xy : uvec2(0u);
         const uint rank = n - before.x, bit = bit_of(blocks[block].xy, rank);

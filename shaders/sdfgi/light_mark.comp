@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Marks the light cells, empty ones with an occupied face neighbour. In renewed blocks they are looked for, and all others
- * forget their light; in other blocks they are those of the list before, whose direct light is taken out of it here. A thread
- * per entry of the list before; workgroups share the blocks of 4^3 texels that may be renewed, a thread per cell. */
+ * Marks the light cells, empty ones with an occupied face neighbour. In renewed blocks they are looked for,
+ * and all others forget their light; in other blocks they are those of the list before, whose direct light is
+ * taken out of it here. A thread per entry of the list before; workgroups share the blocks of 4^3 texels that
+ * may be renewed, a thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -10,9 +11,15 @@
 #include "light_blocks.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_light_mark_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_light_mark_args args;
+};
 
-layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer
+{
+    uint sdfgi_indirect[];
+};
 
 shared uint mask[2];
 
@@ -24,9 +31,11 @@ uint count_before()
 
 bool is_light_cell(ivec3 cell)
 {
-    const float distance = cell_distance(args.cascade, cell);
-    /* Further than this no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2) and the flood's 0.1. */
-    return distance < 1.6 && cell_bits(args.cascade, cell) == uvec2(0u) && light_cell_facing(args.cascade, cell) != 0u;
+    const float distance = sdfgi_cell_distance(args.cascade, cell);
+    /* Further than this no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2) and the flood's
+     * 0.1. */
+    return distance < 1.6 && sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) &&
+           light_cell_facing(args.cascade, cell) != 0u;
 }
 
 void forget(uint index)
@@ -38,7 +47,7 @@ void forget(uint index)
 uint block_of_entry(uint entry)
 {
     const uint index = sdfgi_light_cells[light_cell_slot(args.cascade, entry)];
-    return light_block_from_coords(texel_from_index(index) / SDFGI_GROUP_CELLS);
+    return light_block_from_coords(sdfgi_texel_from_index(index) / SDFGI_GROUP_CELLS);
 }
 
 /* Where the list was too short, blocks from its last entry on may hold cells that have room this time. */
@@ -50,7 +59,8 @@ bool lacked_room(uint block)
 
 bool is_dirty(uint block)
 {
-    const ivec3 cage = cell_from_texel(args.cascade, 4u * light_block_coords(block)) / SDFGI_PROBE_SPACING;
+    const ivec3 cage =
+        sdfgi_cell_from_texel(args.cascade, 4u * light_block_coords(block)) / SDFGI_PROBE_SPACING;
     return args.rebuild != 0u ||
            dirty_near(args.cascade, cage * SDFGI_PROBE_SPACING, (cage + 1) * SDFGI_PROBE_SPACING, 0) ||
            lacked_room(block);
@@ -72,7 +82,7 @@ void keep_entry(uint entry)
     const uint slot = light_cell_slot(args.cascade, entry), before = light_before_slot(entry);
     sdfgi_scratch[before] = sdfgi_light_cells[slot + 1u];
     sdfgi_scratch[before + 1u] = sdfgi_light_cells[slot + 2u];
-    const uvec3 inside = texel_from_index(sdfgi_light_cells[slot]) & 3u;
+    const uvec3 inside = sdfgi_texel_from_index(sdfgi_light_cells[slot]) & 3u;
     const uint bit = inside.x | inside.y << 2u | inside.z << 4u;
     atomicOr(sdfgi_scratch[light_block_slot(block) + (bit >> 5u)], 1u << (bit & 31u));
     /* Its block's cells are one after another: their number is the last one's place less the first one's. */
@@ -93,7 +103,7 @@ bool searches_all()
 /* Cells whose cages touch a box that changed. */
 void dirty_cells(int box, out ivec3 low, out ivec3 high)
 {
-    const ivec3 end = ivec3(space_resolution());
+    const ivec3 end = ivec3(sdfgi_space_resolution());
     low = clamp(sdfgi_frame.cascades[args.cascade].dirty[box].low - SDFGI_PROBE_SPACING, ivec3(0), end);
     high = clamp(sdfgi_frame.cascades[args.cascade].dirty[box].high + SDFGI_PROBE_SPACING, ivec3(0), end);
 }
@@ -109,8 +119,8 @@ bool in_earlier_box(int box, ivec3 cell)
     return false;
 }
 
-/* The n-th of the blocks in question: those that boxes which changed name, box by box. False if it is not renewed, or an earlier
- * box has it; `more` is false beyond the last one. */
+/* The n-th of the blocks in question: those that boxes which changed name, box by box. False if it is not
+ * renewed, or an earlier box has it; `more` is false beyond the last one. */
 bool dirty_block(uint n, out uint block, out bool more)
 {
     block = n;
@@ -126,7 +136,7 @@ bool dirty_block(uint n, out uint block, out bool more)
         const uint blocks = size.x * size.y * size.z;
         if (n < blocks) {
             const ivec3 cell = low + 4 * ivec3(n % size.x, n / size.x % size.y, n / (size.x * size.y));
-            block = light_block_from_coords(cell_texel(args.cascade, cell) / 4u);
+            block = light_block_from_coords(sdfgi_cell_texel(args.cascade, cell) / 4u);
             more = true;
             return !in_earlier_box(i, cell);
         }
@@ -143,8 +153,8 @@ void mark_block(uint block)
         mask[bit] = 0u;
     barrier();
     const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
-    const ivec3 cell = cell_from_texel(args.cascade, 4u * light_block_coords(block) + inside);
-    const uint index = cell_index(args.cascade, cell);
+    const ivec3 cell = sdfgi_cell_from_texel(args.cascade, 4u * light_block_coords(block) + inside);
+    const uint index = sdfgi_cell_index(args.cascade, cell);
     if (is_light_cell(cell))
         atomicOr(mask[bit >> 5u], 1u << (bit & 31u));
     else if (sdfgi_light[index] != uvec2(0u))
@@ -163,7 +173,8 @@ void mark_block(uint block)
 
 void main()
 {
-    for (uint entry = gl_GlobalInvocationID.x; entry < sdfgi_frame.light_cell_room; entry += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR)
+    for (uint entry = gl_GlobalInvocationID.x; entry < sdfgi_frame.light_cell_room;
+         entry += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR)
         keep_entry(entry);
     bool more = true;
     for (uint n = gl_WorkGroupID.x; more; n += gl_NumWorkGroups.x) {

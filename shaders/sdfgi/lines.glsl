@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * For every cell along a line the least of a sum over candidate sub-voxels of the line: what a candidate brings along plus
- * the square of the way to it. The best candidate never moves back as the cell moves on, so few cells look at all candidates
- * and the others only at those between their neighbours' best (Aggarwal et al. 1987, "Geometric applications of a
- * matrix-searching algorithm").
- * A workgroup works on LINES lines. SLOTS threads share one; each answers for as many cells in a row. First they share out the
- * candidates, each trying its own on the last cell of every slot; then each looks for its cells between the best of its last
- * and of the one before its first: at 10 to 12 candidates in the mean where a village scrolls, at 23 to 30 in the slowest of
- * 32 threads.
- * With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is line_weight t + what is brought along. A way
- * is a candidate's step less eight times the cell, so one product per candidate and a constant per cell tell all sums.
- * Candidates come in batches. Before it includes this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32:
- * threads that share a line, and those of lines beside it, then find candidates side by side in banks of their own.
- * Shared memory: 36 bytes per candidate of a batch, and 800 besides. */
+ * For every cell along a line the least of a sum over candidate sub-voxels of the line: what a candidate
+ * brings along plus the square of the way to it. The best candidate never moves back as the cell moves on, so
+ * few cells look at all candidates and the others only at those between their neighbours' best (Aggarwal et
+ * al. 1987, "Geometric applications of a matrix-searching algorithm"). A workgroup works on LINES lines.
+ * SLOTS threads share one; each answers for as many cells in a row. First they share out the candidates, each
+ * trying its own on the last cell of every slot; then each looks for its cells between the best of its last
+ * and of the one before its first: at 10 to 12 candidates in the mean where a village scrolls, at 23 to 30 in
+ * the slowest of 32 threads. With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is
+ * line_weight t + what is brought along. A way is a candidate's step less eight times the cell, so one
+ * product per candidate and a constant per cell tell all sums. Candidates come in batches. Before it includes
+ * this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads that share a line, and
+ * those of lines beside it, then find candidates side by side in banks of their own. Shared memory: 36 bytes
+ * per candidate of a batch, and 800 besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
 
@@ -30,7 +30,8 @@ shared uint line_ranks[33];               /* candidates before each 32 places, a
 shared uint line_wanted;                  /* a bit per slot that has to answer */
 shared uint line_batch[BATCH];            /* places of a batch of candidates */
 shared int line_sums[LINES * BATCH];      /* of each line: what its candidates amount to for cell 0 */
-shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the candidate's number */
+shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the
+                                             candidate's number */
 
 int line_least[MOST_CELLS]; /* for the cells of this thread */
 int line_weight;            /* how much squares along this line count */
@@ -75,8 +76,7 @@ void line_begin(int weight, uint number_bits)
         line_places[gl_LocalInvocationIndex] = 0u;
     if (gl_LocalInvocationIndex == 0u)
         line_wanted = 0u;
-    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
-        line_least[k] = WORST;
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) line_least[k] = WORST;
     barrier();
 }
 
@@ -146,32 +146,32 @@ bool line_slot_wanted(uint slot)
     return (line_wanted >> slot & 1u) != 0u;
 }
 
-/* What the sum at the last cell of a slot is more than at that of the slot before, a candidate's way aside. */
+/* What the sum at the last cell of a slot is more than at that of the slot before, a candidate's way aside.
+ */
 uint line_growth(uint slot)
 {
     const int cells = int(line_cells_per_slot());
     return uint(8 * line_weight * cells * (2 * (int(slot) * cells - 1) + cells));
 }
 
-/* The last cell of every slot looks at all candidates; the threads of its line take turns. The number of a candidate lies below
- * its sum, so that of several best the first is found. */
+/* The last cell of every slot looks at all candidates; the threads of its line take turns. The number of a
+ * candidate lies below its sum, so that of several best the first is found. */
 void line_search_ends(uint count)
 {
     uint least[SLOTS];
-    [[unroll]] for (uint s = 0u; s < SLOTS; s++)
-        least[s] = NOT_YET;
+    [[unroll]] for (uint s = 0u; s < SLOTS; s++) least[s] = NOT_YET;
     const uint shift = line_number_bits;
     const int stride = 2 * line_weight * int(line_cells_per_slot());
     for (uint i = line_slot(); i < count; i += SLOTS) {
         const int way = line_step(line_batch[i]);
         uint sum = uint(line_sums[line_own() * BATCH + i] + line_weight * (2 * way + 8)) << shift | i;
-        [[unroll]] for (uint s = 0u; s < SLOTS; s++) {
+        [[unroll]] for (uint s = 0u; s < SLOTS; s++)
+        {
             sum += (line_growth(s) - uint(stride * way)) << shift;
             least[s] = min(least[s], sum);
         }
     }
-    [[unroll]] for (uint s = 0u; s < SLOTS; s++)
-        atomicMin(line_ends[s * LINES + line_own()], least[s]);
+    [[unroll]] for (uint s = 0u; s < SLOTS; s++) atomicMin(line_ends[s * LINES + line_own()], least[s]);
     barrier();
 }
 
@@ -189,8 +189,8 @@ void line_search_eight(uint first)
     for (uint i = slot > 0u ? line_best(slot - 1u) : 0u; i <= end; i++) {
         const int way = 2 * line_weight * line_step(line_batch[i]);
         int sum = line_sums[own * BATCH + i] - cell * way;
-        [[unroll]] for (uint k = 0u; k < 8u; k++, sum -= way)
-            line_least[first + k] = min(line_least[first + k], sum);
+        [[unroll]] for (uint k = 0u; k < 8u; k++, sum -= way) line_least[first + k] =
+            min(line_least[first + k], sum);
     }
 }
 
@@ -205,14 +205,14 @@ void line_search(uint count)
         line_search_eight(8u);
 }
 
-/* Once all batches are searched: results of all threads go where the sums were, to be stored in the order in which they lie. */
+/* Once all batches are searched: results of all threads go where the sums were, to be stored in the order in
+ * which they lie. */
 void line_publish()
 {
     const uint first = line_slot() * line_cells_per_slot();
     barrier();
-    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
-        if (k < line_cells_per_slot())
-            line_sums[(first + k) * LINES + line_own()] = line_least[k];
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) if (k < line_cells_per_slot())
+        line_sums[(first + k) * LINES + line_own()] = line_least[k];
     barrier();
 }
 

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * The sub-voxel of a cell nearest to another cell's centre: boxes first, bits only where a box may win. Sub-voxels are
- * packed 10 bits per axis. */
+ * The sub-voxel of a cell nearest to another cell's centre: boxes first, bits only where a box may win.
+ * Sub-voxels are packed 10 bits per axis. */
 #ifndef SDFGI_NEAREST_GLSL
 #define SDFGI_NEAREST_GLSL
 
 #include "pass.glsl"
 
-layout(push_constant) uniform sdfgi_push { sdfgi_flood_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_flood_args args;
+};
 
 const uint NEAREST_NONE = 0xffffffffu;
 const uint NEAREST_CELL_MASK = 0x3fcff3fcu; /* drops the two low bits of each coordinate */
@@ -24,7 +27,7 @@ ivec3 nearest_unpack(uint pointer)
 /* Squared distance in cell widths from the centre of `cell` to a sub-voxel's centre. */
 float nearest_distance2(ivec3 cell, ivec3 sub)
 {
-    const vec3 way = metric_from_cells((vec3(sub - cell * SDFGI_SUBVOXELS) - 1.5) * 0.25);
+    const vec3 way = sdfgi_metric_from_cells((vec3(sub - cell * SDFGI_SUBVOXELS) - 1.5) * 0.25);
     return dot(way, way);
 }
 
@@ -32,7 +35,7 @@ float nearest_distance2(ivec3 cell, ivec3 sub)
 float nearest_bound2(ivec3 cell, ivec3 other, vec3 low, vec3 high)
 {
     const vec3 centre = vec3((cell - other) * SDFGI_SUBVOXELS) + 1.5;
-    const vec3 gap = metric_from_cells(max(max(low - centre, centre - high), 0.0) * 0.25);
+    const vec3 gap = sdfgi_metric_from_cells(max(max(low - centre, centre - high), 0.0) * 0.25);
     return dot(gap, gap);
 }
 
@@ -49,13 +52,13 @@ uvec3 nearest_slabs(uvec2 bits)
     return uvec3((column | column >> 4u) & 15u, y, z);
 }
 
-/* Offers the sub-voxels of `other` to `cell`: the box around the cell first, then around its bits, then the bits. Most
- * candidates fall to a box, which is what makes measuring to 64 sub-voxels affordable. */
+/* Offers the sub-voxels of `other` to `cell`: the box around the cell first, then around its bits, then the
+ * bits. Most candidates fall to a box, which is what makes measuring to 64 sub-voxels affordable. */
 void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
 {
     if (nearest_bound2(cell, other, vec3(0.0), vec3(3.0)) >= best2)
         return;
-    const uvec2 bits = cell_bits(args.cascade, other);
+    const uvec2 bits = sdfgi_cell_bits(args.cascade, other);
     const uvec3 slabs = nearest_slabs(bits);
     if (nearest_bound2(cell, other, vec3(findLSB(slabs)), vec3(findMSB(slabs))) >= best2)
         return;
@@ -78,7 +81,8 @@ void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
 /* Stored form of a squared distance: rounded down, by a hair more than floats may have rounded up. */
 uint encode_nearest(float d2)
 {
-    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * distance_steps()), distance_reach()) : distance_reach();
+    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * sdfgi_distance_steps()), sdfgi_distance_reach())
+                     : sdfgi_distance_reach();
 }
 
 #endif

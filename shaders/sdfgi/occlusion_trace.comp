@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Depth to the nearest set sub-voxel in 16x16 directions around each probe, then mean and mean of squares over each
- * texel and its neighbours, as unorm16 of the range (half floats lose the variance, HARD_CASES row 43). One workgroup per
- * probe; of those that were there before, only texels that look into what is new are made again. Shared memory: 256 depths. */
+ * Depth to the nearest set sub-voxel in 16x16 directions around each probe, then mean and mean of squares
+ * over each texel and its neighbours, as unorm16 of the range (half floats lose the variance, HARD_CASES row
+ * 43). One workgroup per probe; of those that were there before, only texels that look into what is new are
+ * made again. Shared memory: 256 depths. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_OCCLUSION
@@ -10,35 +11,38 @@
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_OCCLUSION) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_cascade_args args;
+};
 
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
-/* Cells beside a ray in which nothing may have changed if its steps are to be the same: the longest of them, its margin, and
- * from a ray to the centre of its cell, twice. */
-const float BESIDE = TRACE_KEPT_STEP + TRACE_MARGIN + 1.74;
+/* Cells beside a ray in which nothing may have changed if its steps are to be the same: the longest of them,
+ * its margin, and from a ray to the centre of its cell, twice. */
+const float BESIDE = SDFGI_TRACE_KEPT_STEP + SDFGI_TRACE_MARGIN + 1.74;
 const float MOVED = 4.0; /* cells: how far a probe stands from its corner at most */
 
 shared float depth[TEXELS];
-/* Sets of texels, a bit each: those that look into what is new, those that these are a part of, and those that are a part of
- * these in turn. */
+/* Sets of texels, a bit each: those that look into what is new, those that these are a part of, and those
+ * that are a part of these in turn. */
 const uint LOOKING = 0u, STORED = 1u, TRACED = 2u, WORDS = TEXELS / 32u;
 shared uint sets[3u][WORDS];
 
 vec3 texel_direction(uint texel)
 {
-    return octahedral_decode((vec2(texel % uint(N), texel / uint(N)) + 0.5) * (2.0 / float(N)) - 1.0);
+    return sdfgi_octahedral_decode((vec2(texel % uint(N), texel / uint(N)) + 0.5) * (2.0 / float(N)) - 1.0);
 }
 
 bool looks_into_news(vec3 pos, uint texel)
 {
-    return dirty_crosses(args.cascade, pos, cells_from_metric(texel_direction(texel)), SDFGI_OCCLUSION_RANGE,
-                           BESIDE / space_y_scale());
+    return dirty_crosses(args.cascade, pos, sdfgi_cells_from_metric(texel_direction(texel)),
+                         SDFGI_OCCLUSION_RANGE, BESIDE / sdfgi_space_y_scale());
 }
 
 bool set_holds(uint set, ivec2 coord)
 {
-    const ivec2 source = octahedral_border_source(coord, N);
+    const ivec2 source = sdfgi_octahedral_border_source(coord, N);
     const uint texel = uint(source.x + N * source.y);
     return (sets[set][texel >> 5u] >> (texel & 31u) & 1u) != 0u;
 }
@@ -81,20 +85,21 @@ void find_texels(vec3 pos, bool all)
 /* As far from the probe's corner: the same wherever the cascade stands. */
 float trace_depth(ivec3 corner, vec3 pos, uint texel)
 {
-    trace_way unused;
-    return min(trace_from(args.cascade, args.cascade, corner, pos, texel_direction(texel), SDFGI_OCCLUSION_RANGE,
-                          TRACE_KEPT_STEP, unused)
+    sdfgi_trace_way unused;
+    return min(sdfgi_trace_from(args.cascade, args.cascade, corner, pos, texel_direction(texel),
+                                SDFGI_OCCLUSION_RANGE, SDFGI_TRACE_KEPT_STEP, unused)
                    .distance,
                SDFGI_OCCLUSION_RANGE);
 }
 
 float depth_at(ivec2 coord)
 {
-    const ivec2 source = octahedral_border_source(coord, N);
+    const ivec2 source = sdfgi_octahedral_border_source(coord, N);
     return depth[source.x + N * source.y] / SDFGI_OCCLUSION_RANGE;
 }
 
-/* A 3x3 tent: wide enough to smooth steps between texels, narrow enough to keep the far side of a thin wall apart. */
+/* A 3x3 tent: wide enough to smooth steps between texels, narrow enough to keep the far side of a thin wall
+ * apart. */
 vec2 filtered_moments(ivec2 coord)
 {
     vec2 moments = vec2(0.0);
@@ -110,11 +115,11 @@ vec2 filtered_moments(ivec2 coord)
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
-    const uint slot = probe_index(args.cascade, probe), state = sdfgi_probes[slot];
-    const int near = int(ceil((SDFGI_OCCLUSION_RANGE + BESIDE) / space_y_scale() + MOVED));
-    if (probe_is_dead(state) || !dirty_near(args.cascade, corner, corner, near))
+    const uint slot = sdfgi_probe_index(args.cascade, probe), state = sdfgi_probes[slot];
+    const int near = int(ceil((SDFGI_OCCLUSION_RANGE + BESIDE) / sdfgi_space_y_scale() + MOVED));
+    if (sdfgi_probe_is_dead(state) || !dirty_near(args.cascade, corner, corner, near))
         return;
-    const vec3 pos = probe_position(probe, state);
+    const vec3 pos = sdfgi_probe_position(probe, state);
     find_texels(pos, (state & SDFGI_PROBE_NEW) != 0u);
     for (uint i = gl_LocalInvocationIndex; i < TEXELS; i += uint(SDFGI_GROUP_OCCLUSION))
         if (set_holds(TRACED, ivec2(i % uint(N), i / uint(N))))
@@ -122,7 +127,7 @@ void main()
     barrier();
     const uint stride = uint(SDFGI_OCCLUSION_STRIDE);
     for (uint i = gl_LocalInvocationIndex; i < stride * stride; i += uint(SDFGI_GROUP_OCCLUSION)) {
-        const ivec2 coord = octahedral_border_source(ivec2(i % stride, i / stride) - 1, N);
+        const ivec2 coord = sdfgi_octahedral_border_source(ivec2(i % stride, i / stride) - 1, N);
         if (set_holds(STORED, coord))
             sdfgi_occlusion[slot * stride * stride + i] = packUnorm2x16(filtered_moments(coord));
     }

@@ -9,12 +9,12 @@
 #include "../shared/scratch.h"
 
 /* Shared by several tenants, one after another: see shared/scratch.h. */
-layout(std430, set = 0, binding = SDFGI_BINDING_SCRATCH) buffer sdfgi_scratch_buffer
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SCRATCH) buffer sdfgi_scratch_buffer
 {
     uint sdfgi_scratch[];
 };
 
-layout(std430, set = 0, binding = SDFGI_BINDING_COUNTERS) buffer sdfgi_counters_buffer
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_COUNTERS) buffer sdfgi_counters_buffer
 {
     uint sdfgi_counters[];
 };

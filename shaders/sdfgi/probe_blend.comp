@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * Publishes irradiance: the sums of this ring so far, and for the rest of the ring the value of the one before. At the
- * end of a ring (args.cycle_ends = 1) only the new sums count, the change against the ring before is measured, and the sums
- * start again: a static scene repeats a fixed ring and so converges exactly.
- * A part of a ring strays from its mean, in an unchanged scene by the same amounts in every ring. Surfaces are therefore shown,
- * eased in, only what strays further than the ring before did; light cells read all of it, so that light settles as fast as it
- * can. A probe whose light has surely changed by half is young again. One workgroup per probe and cascade. */
+ * Publishes irradiance: the sums of this ring so far, and for the rest of the ring the value of the one
+ * before. At the end of a ring (args.cycle_ends = 1) only the new sums count, the change against the ring
+ * before is measured, and the sums start again: a static scene repeats a fixed ring and so converges exactly.
+ * A part of a ring strays from its mean, in an unchanged scene by the same amounts in every ring. Surfaces
+ * are therefore shown, eased in, only what strays further than the ring before did; light cells read all of
+ * it, so that light settles as fast as it can. A probe whose light has surely changed by half is young again.
+ * One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
@@ -13,17 +14,21 @@
 #include "../lib/light_pack.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_probe_blend_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_probe_blend_args args;
+};
 
 /* Share of a ring's weight, stored as a half float, from which on nothing is missing. */
 const float COMPLETE = 0.99;
 const float HALF_MAX = 65504.0;
-/* Change is measured against a texel's own brightness plus this share of the brightest, below which nobody sees it. */
+/* Change is measured against a texel's own brightness plus this share of the brightest, below which nobody
+ * sees it. */
 const float DARK_SHARE = 1.0 / 512.0;
 
-/* A probe is young again if its light is sure to change by this share over a ring: what it has gathered since the ring began has
- * strayed by as much of that as it can tell, besides what rings stray by anyway. With a quarter, light under a lamp that moves at
- * 3 m/s had half as much noise again and was further behind. */
+/* A probe is young again if its light is sure to change by this share over a ring: what it has gathered since
+ * the ring began has strayed by as much of that as it can tell, besides what rings stray by anyway. With a
+ * quarter, light under a lamp that moves at 3 m/s had half as much noise again and was further behind. */
 const float YOUNG_CHANGE = 0.5;
 const float DOUBT = 1.5;
 const float LEAST_DOUBT = 0.02;
@@ -32,7 +37,8 @@ const float YOUNG_MEMORY = 1.0;
 /* Share of a ring that its past counts for when a probe becomes young again. */
 const float REBORN_SHARE = 0.125;
 const float MAX_GAIN = 8.0;
-/* Share of what is new that a frame shows, and the change over a ring below which all of it is. Light settles below that. */
+/* Share of what is new that a frame shows, and the change over a ring below which all of it is. Light settles
+ * below that. */
 const float EASE = 0.25;
 const float UNSEEN_CHANGE = 1.0 / 256.0;
 /* Straying is hard to tell from change: in a ring it falls by no more than this. */
@@ -76,12 +82,12 @@ texel load_texel(uint slot, bool young, bool fresh)
 /* What light cells read, over what is shown. */
 float texel_gain(vec3 shown, vec3 mixed)
 {
-    const float a = light_luminance(shown), b = light_luminance(mixed);
+    const float a = sdfgi_light_luminance(shown), b = sdfgi_light_luminance(mixed);
     return a > 0.0 ? clamp(b / a, 1.0 / MAX_GAIN, MAX_GAIN) : 1.0;
 }
 
-/* Of a grown probe: within a ring, what strays further than parts of the ring before did; at its end all of it. Either way
- * eased in, but for what nobody sees: settled light is shown exactly. */
+/* Of a grown probe: within a ring, what strays further than parts of the ring before did; at its end all of
+ * it. Either way eased in, but for what nobody sees: settled light is shown exactly. */
 vec4 show_news(texel t, vec3 shown_before, float doubt, bool ring_ends)
 {
     const float news = ring_ends ? 1.0 : max(1.0 - doubt / max(t.change, 1e-12), 0.0);
@@ -111,7 +117,8 @@ vec4 next_memory(vec4 memory, float change, bool born, bool ring_ends)
 
 bool is_sure(float change, float doubt)
 {
-    const float gathered = float(sdfgi_frame.first_sample + sdfgi_frame.rays_per_frame) / float(sdfgi_frame.cycle_samples);
+    const float gathered =
+        float(sdfgi_frame.first_sample + sdfgi_frame.rays_per_frame) / float(sdfgi_frame.cycle_samples);
     return change > YOUNG_CHANGE * gathered + DOUBT * doubt + LEAST_DOUBT;
 }
 
@@ -119,8 +126,8 @@ void main()
 {
     const uint cascade = gl_WorkGroupID.y;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const uint slot = probe_index(cascade, probe);
-    if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
+    const uint slot = sdfgi_probe_index(cascade, probe);
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
         return;
     const uint i = gl_LocalInvocationIndex;
     const bool ring_ends = args.cycle_ends != 0u, fresh = args.without_history != 0u;
@@ -143,8 +150,9 @@ void main()
     const bool born = grown && is_sure(change, memory.y);
     const bool starts = ring_ends || born || probe_is_young(memory);
     if (has_texel) {
-        const vec4 shown = grown && !born ? show_news(t, probe_load_irradiance(slot, i).rgb, memory.y, ring_ends)
-                                          : vec4(t.mixed.rgb, -probe_trust(t.mixed.w));
+        const vec4 shown = grown && !born
+                               ? show_news(t, probe_load_irradiance(slot, i).rgb, memory.y, ring_ends)
+                               : vec4(t.mixed.rgb, -probe_trust(t.mixed.w));
         probe_store_irradiance(slot, i, shown);
         if (starts)
             start_ring(slot, t, born);
@@ -153,7 +161,8 @@ void main()
         return;
     sdfgi_sums[probe_memory(slot)] = next_memory(memory, change, born, ring_ends);
     if (ring_ends) {
-        atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE], memory.z < PROBE_WHOLE ? floatBitsToUint(1.0) : group_change);
+        atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE],
+                  memory.z < PROBE_WHOLE ? floatBitsToUint(1.0) : group_change);
         atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_IRRADIANCE], group_brightest);
     }
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Decides where each probe stands: on its lattice corner if the eight cells around are empty, else in the centre of the
- * nearest roomy empty cell, else nowhere (Hu et al. 2021, SDFDDGI, section 3.4: probes leave geometry along the distance
- * field); and which of the next probes along the axes it sees: lookups extrapolate along such links. Only near something new.
- * One workgroup per probe, one thread per cell that it may move to. A workgroup finds out where the next probes stand, too,
- * rather than wait for theirs. */
+ * Decides where each probe stands: on its lattice corner if the eight cells around are empty, else in the
+ * centre of the nearest roomy empty cell, else nowhere (Hu et al. 2021, SDFDDGI, section 3.4: probes leave
+ * geometry along the distance field); and which of the next probes along the axes it sees: lookups
+ * extrapolate along such links. Only near something new. One workgroup per probe, one thread per cell that it
+ * may move to. A workgroup finds out where the next probes stand, too, rather than wait for theirs. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,15 +13,19 @@
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_cascade_args args;
+};
 
-/* Farthest move, in cells: less than half the probe spacing, so that a probe stays the nearest of its lattice point. */
+/* Farthest move, in cells: less than half the probe spacing, so that a probe stays the nearest of its lattice
+ * point. */
 const int REACH = 3;
 /* Room beyond this buys nothing; each cell moved costs this much of it. */
 const float ENOUGH_ROOM = 2.0;
 const float MOVE_COST = 0.25;
-/* Of two sides alike the upper one: below a floor there is a slab or the ground, and probes there help nobody. Covers what a
- * surface inside its cell makes of the room on either side. */
+/* Of two sides alike the upper one: below a floor there is a slab or the ground, and probes there help
+ * nobody. Covers what a surface inside its cell makes of the room on either side. */
 const float DOWN_COST = 0.5;
 /* Cells that matter to a place: those it may move to, and those whose distance tells how roomy they are. */
 const int NEAR_PLACE = REACH + int(ENOUGH_ROOM) + 1;
@@ -39,7 +43,7 @@ shared uint best_candidate;
 
 bool cell_empty(ivec3 cell)
 {
-    return !cell_inside(cell) || cell_bits(args.cascade, cell) == uvec2(0u);
+    return !sdfgi_cell_inside(cell) || sdfgi_cell_bits(args.cascade, cell) == uvec2(0u);
 }
 
 ivec3 candidate_offset(uint i)
@@ -51,10 +55,10 @@ ivec3 candidate_offset(uint i)
 int candidate_score(ivec3 corner, uint i)
 {
     const ivec3 offset = candidate_offset(i), cell = corner + offset;
-    if (i >= CANDIDATES || !cell_inside(cell) || cell_bits(args.cascade, cell) != uvec2(0u))
+    if (i >= CANDIDATES || !sdfgi_cell_inside(cell) || sdfgi_cell_bits(args.cascade, cell) != uvec2(0u))
         return NOWHERE;
-    const float moved = length(metric_from_cells(vec3(offset) + 0.5));
-    const float score = min(cell_distance(args.cascade, cell), ENOUGH_ROOM) - MOVE_COST * moved -
+    const float moved = length(sdfgi_metric_from_cells(vec3(offset) + 0.5));
+    const float score = min(sdfgi_cell_distance(args.cascade, cell), ENOUGH_ROOM) - MOVE_COST * moved -
                         (offset.y < 0 ? DOWN_COST : 0.0);
     const int bits = floatBitsToInt(score);
     return bits < 0 ? bits ^ 0x7fffffff : bits;
@@ -71,18 +75,16 @@ uint roomiest_place(ivec3 corner)
         best_candidate = CANDIDATES;
     }
     barrier();
-    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
-        scores[k] = candidate_score(corner, lane + k * uint(SDFGI_GROUP_LINEAR));
-    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
-        atomicMax(best_score, scores[k]);
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) scores[k] =
+        candidate_score(corner, lane + k * uint(SDFGI_GROUP_LINEAR));
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) atomicMax(best_score, scores[k]);
     barrier();
     if (best_score == NOWHERE)
         return SDFGI_PROBE_DEAD;
-    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
-        if (scores[k] == best_score)
-            atomicMin(best_candidate, lane + k * uint(SDFGI_GROUP_LINEAR));
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) if (scores[k] == best_score)
+        atomicMin(best_candidate, lane + k * uint(SDFGI_GROUP_LINEAR));
     barrier();
-    return probe_pack_moved(candidate_offset(best_candidate));
+    return sdfgi_probe_pack_moved(candidate_offset(best_candidate));
 }
 
 bool entered(ivec3 corner)
@@ -128,7 +130,7 @@ uint place(ivec3 probe, uint i)
     if (!exists(other))
         return SDFGI_PROBE_DEAD;
     if (!is_placed(corner))
-        return sdfgi_probes[probe_index(args.cascade, other)] & PLACE_BITS;
+        return sdfgi_probes[sdfgi_probe_index(args.cascade, other)] & PLACE_BITS;
     return (blocked >> i & 1u) != 0u ? roomiest_place(corner) : 0u;
 }
 
@@ -136,14 +138,15 @@ uint place(ivec3 probe, uint i)
 uint find_links(ivec3 probe, uint state)
 {
     uint next = SDFGI_PROBE_DEAD;
-    [[dont_unroll]] for (uint i = 1u; i < 4u; i++) {
+    [[dont_unroll]] for (uint i = 1u; i < 4u; i++)
+    {
         const uint other = place(probe, i);
         next = gl_LocalInvocationIndex + 1u == i ? other : next;
     }
     const ivec3 step = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u);
-    if (!probe_is_dead(state) && !probe_is_dead(next) &&
-        trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING, probe_position(ivec3(0), state),
-                           probe_position(step, next)))
+    if (!sdfgi_probe_is_dead(state) && !sdfgi_probe_is_dead(next) &&
+        sdfgi_trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING,
+                                 sdfgi_probe_position(ivec3(0), state), sdfgi_probe_position(step, next)))
         atomicOr(links, 1u << SDFGI_PROBE_LINK_SHIFT + gl_LocalInvocationIndex);
     barrier();
     return links;
@@ -152,7 +155,7 @@ uint find_links(ivec3 probe, uint state)
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
-    const uint lane = gl_LocalInvocationIndex, slot = probe_index(args.cascade, probe);
+    const uint lane = gl_LocalInvocationIndex, slot = sdfgi_probe_index(args.cascade, probe);
     const uint before = sdfgi_probes[slot] & ~SDFGI_PROBE_NEW;
     uint state = before;
     if (dirty_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
@@ -165,6 +168,6 @@ void main()
     if (lane > 0u)
         return;
     sdfgi_probes[slot] = state;
-    if (probe_is_dead(state))
+    if (sdfgi_probe_is_dead(state))
         counter_add(SDFGI_COUNTER_DEAD_PROBES, 1u);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Gives probes that are new, or stand elsewhere than before, a start: the light of those probes of the next coarser cascade
- * that see their place. It counts for little, and for nothing where none does: light from behind a wall would stay in a
- * room for rings. Empties their sums. One workgroup per probe. */
+ * Gives probes that are new, or stand elsewhere than before, a start: the light of those probes of the next
+ * coarser cascade that see their place. It counts for little, and for nothing where none does: light from
+ * behind a wall would stay in a room for rings. Empties their sums. One workgroup per probe. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
@@ -10,9 +10,12 @@
 #include "../include/sdfgi_lookup.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_cascade_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_cascade_args args;
+};
 
-shared lookup_visibility visible;
+shared sdfgi_lookup_visibility visible;
 shared uint seen_by;
 
 /* Which of the eight probes around `pos` see it. */
@@ -20,24 +23,25 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
 {
     const uint k = gl_LocalInvocationIndex;
     if (k < 8u) {
-        const ivec3 probe = cage + lookup_corner(int(k));
-        const uint state = sdfgi_probes[probe_index(cascade, probe)];
-        if (!probe_is_dead(state) && trace_visible(cascade, pos, probe_position(probe, state)))
+        const ivec3 probe = cage + sdfgi_lookup_corner(int(k));
+        const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
+        if (!sdfgi_probe_is_dead(state) &&
+            sdfgi_trace_visible(cascade, pos, sdfgi_probe_position(probe, state)))
             atomicOr(seen_by, 1u << k);
     }
     barrier();
     if (k == 0u)
-        visible = lookup_from_mask(seen_by);
+        visible = sdfgi_lookup_from_mask(seen_by);
     barrier();
 }
 
 /* Trilinear share of the probes that see a place. */
 float visible_share(ivec3 cage, vec3 pos)
 {
-    const vec3 f = lookup_place(cage, pos);
+    const vec3 f = sdfgi_lookup_place(cage, pos);
     float share = 0.0;
     for (int k = 0; k < 8; k++) {
-        const vec3 t = mix(1.0 - f, f, vec3(lookup_corner(k)));
+        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_lookup_corner(k)));
         share += t.x * t.y * t.z * visible.of_probe[k];
     }
     return share;
@@ -46,7 +50,7 @@ float visible_share(ivec3 cage, vec3 pos)
 /* Light in rgb, how much of a ring it counts for in a. */
 vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
 {
-    const vec4 sum = lookup_sum(coarser, cage, pos, normal, visible);
+    const vec4 sum = sdfgi_lookup_sum(coarser, cage, pos, normal, visible);
     if (sum.a <= 1e-6)
         return vec4(0.0);
     return vec4(sum.rgb / sum.a, visible_share(cage, pos) * PROBE_SEED_SHARE * probe_ring_weight());
@@ -55,9 +59,9 @@ vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const uint slot = probe_index(args.cascade, probe);
+    const uint slot = sdfgi_probe_index(args.cascade, probe);
     const uint state = sdfgi_probes[slot];
-    if (probe_is_dead(state) || (state & SDFGI_PROBE_NEW) == 0u)
+    if (sdfgi_probe_is_dead(state) || (state & SDFGI_PROBE_NEW) == 0u)
         return;
     const uint i = gl_LocalInvocationIndex, coarser = args.cascade + 1u;
     const bool exists = coarser < sdfgi_frame.cascade_count;
@@ -67,13 +71,15 @@ void main()
     ivec3 cage;
     vec3 pos;
     if (exists) {
-        pos = cascade_from_first(coarser, first_from_cascade(args.cascade, probe_position(probe, state)));
-        cage = lookup_cage(coarser, pos);
+        pos = sdfgi_cascade_from_first(
+            coarser, sdfgi_first_from_cascade(args.cascade, sdfgi_probe_position(probe, state)));
+        cage = sdfgi_lookup_cage(coarser, pos);
         find_visible(coarser, cage, pos);
     }
     if (i < uint(SDFGI_IRRADIANCE_COUNT)) {
         const uint at = slot * uint(SDFGI_IRRADIANCE_COUNT) + i;
-        const vec4 seed = exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0);
+        const vec4 seed =
+            exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0);
         sdfgi_sums[probe_sums(slot) + i] = vec4(0.0);
         probe_store_previous(at, seed.rgb, seed.a);
         probe_store_irradiance(slot, i, vec4(seed.rgb, -probe_trust(seed.a)));

@@ -6,10 +6,13 @@
 #include "probe_common.glsl"
 
 /* Mean radiance and weight of the last ring, four half floats. */
-layout(std430, set = 0, binding = SDFGI_BINDING_PREVIOUS) buffer sdfgi_previous_buffer { uvec2 sdfgi_previous[]; };
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_PREVIOUS) buffer sdfgi_previous_buffer
+{
+    uvec2 sdfgi_previous[];
+};
 
-/* Share of a ring that other probes' light counts for at most in a new one: half as much as the five frames of rays that it
- * goes on to read. */
+/* Share of a ring that other probes' light counts for at most in a new one: half as much as the five frames
+ * of rays that it goes on to read. */
 const float PROBE_SEED_SHARE = 0.125;
 
 void probe_store_previous(uint at, vec3 value, float weight)
@@ -23,7 +26,7 @@ float probe_trust(float weight)
     return min(weight / (PROBE_SEED_SHARE * probe_ring_weight()), 1.0);
 }
 
-/* Irradiance of a texel, as lookup_stored reads it. */
+/* Irradiance of a texel, as sdfgi_lookup_stored reads it. */
 void probe_store_irradiance(uint slot, uint texel, vec4 value)
 {
     sdfgi_irradiance_texels[slot * uint(SDFGI_IRRADIANCE_COUNT) + texel] =

@@ -9,7 +9,7 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
-uint cache_pack(trace_hit hit)
+uint cache_pack(sdfgi_trace_hit hit)
 {
     if (!hit.hit)
         return SDFGI_RAY_SKY;
@@ -25,8 +25,8 @@ void trace(uint ray)
     const ivec3 probe = probe_from_index(slot, cascade);
     float solid_angle;
     const vec3 dir = probe_sample_direction(cascade, probe, ray % sdfgi_frame.cycle_samples, solid_angle);
-    const vec3 pos = probe_position(probe, sdfgi_probes[slot]);
-    const trace_hit hit = trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
+    const vec3 pos = sdfgi_probe_position(probe, sdfgi_probes[slot]);
+    const sdfgi_trace_hit hit = sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
     if (hit.capped)
         ray_queue_add_capped();
     sdfgi_rays[ray] = cache_pack(hit);

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: MIT
- * The ray cache: per probe and sample of its ring where that ray ends. Cell texel, cascade and axis of the light it reads,
- * plus 1; or a code. */
+ * The ray cache: per probe and sample of its ring where that ray ends. Cell texel, cascade and axis of the
+ * light it reads, plus 1; or a code. */
 #ifndef SDFGI_RAY_CACHE_GLSL
 #define SDFGI_RAY_CACHE_GLSL
 
 #include "pass.glsl"
 
-layout(std430, set = 0, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer { uint sdfgi_rays[]; };
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer
+{
+    uint sdfgi_rays[];
+};
 
 uint ray_pack(uint cascade, ivec3 cell, uint axis)
 {
-    return (cell_index(cascade, cell) | axis << (3u * sdfgi_frame.resolution_log2 + 3u)) + 1u;
+    return (sdfgi_cell_index(cascade, cell) | axis << (3u * sdfgi_frame.resolution_log2 + 3u)) + 1u;
 }
 
 /* Where the light of a hit is stored, and the axis it is read along. */
@@ -26,7 +29,7 @@ ivec3 ray_cell(uint code, out uint cascade)
     uint axis;
     const uint index = ray_light_index(code, axis);
     cascade = index >> (3u * sdfgi_frame.resolution_log2);
-    return cell_from_texel(cascade, texel_from_index(index));
+    return sdfgi_cell_from_texel(cascade, sdfgi_texel_from_index(index));
 }
 
 /* A hit whose cell has left the cascade is as good as unknown. */
@@ -38,7 +41,7 @@ bool ray_holds(uint code)
         return true;
     uint cascade;
     const ivec3 cell = ray_cell(code, cascade);
-    return cell_served(cascade, cell);
+    return sdfgi_cell_served(cascade, cell);
 }
 
 #endif

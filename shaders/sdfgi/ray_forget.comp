@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Forgets remembered rays that may end elsewhere since something became new in this frame, in their own cascade or in one they
- * go on into: those that pass where sub-voxels went or came, and those that end in cells that are new or left. Where only air
- * is new a ray ends as before. One workgroup per probe and cascade. */
+ * Forgets remembered rays that may end elsewhere since something became new in this frame, in their own
+ * cascade or in one they go on into: those that pass where sub-voxels went or came, and those that end in
+ * cells that are new or left. Where only air is new a ray ends as before. One workgroup per probe and
+ * cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "dirty.glsl"
@@ -44,8 +45,8 @@ void fetch_boxes(uint cascade)
     if (lane < 2u * STRIPS) {
         const bool any_bounds = bounds_any(cascade, lane);
         boxes[lane] = any_bounds ? bounds_box(vec3(bounds_low(cascade, lane)) - MARGIN,
-                                                vec3(bounds_high(cascade, lane)) + MARGIN)
-                                  : bounds_box(vec3(1e9), vec3(-1e9));
+                                              vec3(bounds_high(cascade, lane)) + MARGIN)
+                                 : bounds_box(vec3(1e9), vec3(-1e9));
     }
     barrier();
     if (lane < 2u) {
@@ -98,7 +99,8 @@ struct ray_start {
 };
 
 /* Since `cascade` changed. A ray that hit something that was not lit may have done so beside the border. */
-bool ends_elsewhere(uint cascade, bounds_box went, bounds_box came, ivec3 probe, ray_start start, uint s, uint code)
+bool ends_elsewhere(uint cascade, bounds_box went, bounds_box came, ivec3 probe, ray_start start, uint s,
+                    uint code)
 {
     if (code == SDFGI_RAY_UNLIT)
         return true;
@@ -108,30 +110,31 @@ bool ends_elsewhere(uint cascade, bounds_box went, bounds_box came, ivec3 probe,
         const ivec3 cell = ray_cell(code, hit);
         if (hit < cascade)
             return false;
-        const vec3 end = cascade_from_first(cascade, first_from_cascade(hit, vec3(cell) + 0.5));
+        const vec3 end = sdfgi_cascade_from_first(cascade, sdfgi_first_from_cascade(hit, vec3(cell) + 0.5));
         const float margin = MARGIN * exp2(float(hit - cascade));
         if (dirty_near(cascade, ivec3(floor(end)), ivec3(ceil(end)), int(ceil(MARGIN + margin))))
             return true;
-        range = length(metric_from_cells(end - start.pos)) + margin;
+        range = length(sdfgi_metric_from_cells(end - start.pos)) + margin;
     }
     if (range < start.nearest)
         return false;
     float solid_angle;
-    const vec3 dir = cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle));
+    const vec3 dir = sdfgi_cells_from_metric(probe_sample_direction(own_cascade(), probe, s, solid_angle));
     const int axis = bounds_axis(cascade);
     if (axis < 0)
         return dirty_crosses(cascade, start.pos, dir, range, MARGIN);
-    return passes_bounds(0u, went, axis, start.pos, dir, range) || passes_bounds(1u, came, axis, start.pos, dir, range);
+    return passes_bounds(0u, went, axis, start.pos, dir, range) ||
+           passes_bounds(1u, came, axis, start.pos, dir, range);
 }
 
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
-    const uint slot = probe_index(own_cascade(), probe);
+    const uint slot = sdfgi_probe_index(own_cascade(), probe);
     const uint state = sdfgi_probes[slot], cache = slot * sdfgi_frame.cycle_samples;
-    if (probe_is_dead(state))
+    if (sdfgi_probe_is_dead(state))
         return;
-    const vec3 pos = probe_position(probe, state), first = first_from_cascade(own_cascade(), pos);
+    const vec3 pos = sdfgi_probe_position(probe, state), first = sdfgi_first_from_cascade(own_cascade(), pos);
     /* On the border of what was complete, rays began beyond it. */
     const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || dirty_holds(own_cascade(), ivec3(floor(pos)));
     for (uint start = 0u; start < sdfgi_frame.cycle_samples; start += AT_ONCE * uint(SDFGI_GROUP_RAYS)) {
@@ -139,7 +142,8 @@ void main()
         bool forget[AT_ONCE];
         for (uint k = 0u; k < AT_ONCE; k++) {
             samples[k] = start + k * uint(SDFGI_GROUP_RAYS) + gl_LocalInvocationIndex;
-            codes[k] = samples[k] < sdfgi_frame.cycle_samples ? sdfgi_rays[cache + samples[k]] : SDFGI_RAY_UNKNOWN;
+            codes[k] =
+                samples[k] < sdfgi_frame.cycle_samples ? sdfgi_rays[cache + samples[k]] : SDFGI_RAY_UNKNOWN;
             forget[k] = all_rays;
         }
         for (uint c = own_cascade(); c < sdfgi_frame.cascade_count; c++) {
@@ -148,7 +152,7 @@ void main()
             if (bounds_axis(c) >= 0)
                 fetch_boxes(c);
             const bounds_box went = boxes[2u * STRIPS], came = boxes[2u * STRIPS + 1u];
-            const vec3 from = cascade_from_first(c, first);
+            const vec3 from = sdfgi_cascade_from_first(c, first);
             const ray_start begin = ray_start(from, dirty_distance(c, from, MARGIN));
             for (uint k = 0u; k < AT_ONCE; k++)
                 if (codes[k] != SDFGI_RAY_UNKNOWN && !forget[k])

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Lists those rays of this frame that must be traced: all that are not remembered, or whose cell has left its cascade. After
- * the first ring most are remembered, here one and there one not: threads of a probe that trace would wait for each other.
- * One thread per ray, in the cascade gl_WorkGroupID.y. Nothing depends on the order of the list. */
+ * Lists those rays of this frame that must be traced: all that are not remembered, or whose cell has left its
+ * cascade. After the first ring most are remembered, here one and there one not: threads of a probe that
+ * trace would wait for each other. One thread per ray, in the cascade gl_WorkGroupID.y. Nothing depends on
+ * the order of the list. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
@@ -19,8 +20,8 @@ bool is_missing(uint cascade, uint n, out uint ray)
     if (i >= side * side * side)
         return false;
     const ivec3 probe = probe_from_linear(i);
-    const uint slot = probe_index(cascade, probe);
-    if (probe_is_dead(sdfgi_probes[slot]) || !probe_is_served(cascade, probe))
+    const uint slot = sdfgi_probe_index(cascade, probe);
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
         return false;
     ray = slot * sdfgi_frame.cycle_samples + sdfgi_frame.first_sample + n % rays;
     return !ray_holds(sdfgi_rays[ray]);

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * The rays that a frame traces: their places in the ray cache, in the scratch buffer; how many they are, the workgroups
- * that trace them, and how many needed too many steps, in the last two records of indirect arguments. */
+ * The rays that a frame traces: their places in the ray cache, in the scratch buffer; how many they are, the
+ * workgroups that trace them, and how many needed too many steps, in the last two records of indirect
+ * arguments. */
 #ifndef SDFGI_RAY_QUEUE_GLSL
 #define SDFGI_RAY_QUEUE_GLSL
 
 #include "pass.glsl"
 
-layout(std430, set = 0, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer { uint sdfgi_indirect[]; };
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer
+{
+    uint sdfgi_indirect[];
+};
 
 const uint RAY_QUEUE = 4u * uint(SDFGI_INDIRECT_RAYS);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks; notes where there
- * were bits. One thread per four cells along y; eight side by side have cells that are stored side by side. Boxes begin and end
- * at multiples of 8 cells. */
+ * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks;
+ * notes where there were bits. One thread per four cells along y; eight side by side have cells that are
+ * stored side by side. Boxes begin and end at multiples of 8 cells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
@@ -10,22 +10,26 @@
 #include "dirty_bounds.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push { sdfgi_region_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_region_args args;
+};
 
 void clear_accumulators(ivec3 cell)
 {
-    const uint block = block_index(args.cascade, cell);
+    const uint block = sdfgi_block_index(args.cascade, cell);
     for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
-        sdfgi_scratch[plane * block_count() + block] = 0u;
+        sdfgi_scratch[plane * sdfgi_block_count() + block] = 0u;
 }
 
-/* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. `held` has a bit per cell. */
+/* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. `held` has a bit
+ * per cell. */
 void note_bits(ivec3 first, int held)
 {
-    const ivec3 low = args.before, was = low + (first - low & space_resolution() - 1);
+    const ivec3 low = args.before, was = low + (first - low & sdfgi_space_resolution() - 1);
     if (held != 0)
         bounds_add(args.cascade, BOUNDS_REMOVED, args.bounds_axis, was + ivec3(0, findLSB(held), 0),
-                    was + ivec3(1, findMSB(held) + 1, 1));
+                   was + ivec3(1, findMSB(held) + 1, 1));
 }
 
 void main()
@@ -34,14 +38,15 @@ void main()
     const uint i = gl_GlobalInvocationID.x, row = i >> 3u;
     if (row >= size.x * size.y * size.z)
         return;
-    const ivec3 first = args.low + ivec3(row % size.x * 8u | i & 7u, row / size.x % size.y * 4u, row / (size.x * size.y));
+    const ivec3 first =
+        args.low + ivec3(row % size.x * 8u | i & 7u, row / size.x % size.y * 4u, row / (size.x * size.y));
     int held = 0;
     for (int k = 0; k < 4; k++)
-        held |= int(cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
+        held |= int(sdfgi_cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
     if (args.bounds_axis >= 0)
         note_bits(first, held);
     for (int k = 0; k < 4; k++) {
-        const uint index = cell_index(args.cascade, first + ivec3(0, k, 0));
+        const uint index = sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0));
         sdfgi_bits[index] = sdfgi_light[index] = uvec2(0u);
         if ((first.x & 3) == 0)
             sdfgi_masks[index >> 2u] = 0u;

@@ -14,21 +14,22 @@
 #endif
 
 /* unorm8 RGB. */
-layout(std430, set = 0, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
 {
     uint sdfgi_albedo[];
 };
 
-/* x: RGB9E5 radiance, in units of the scene's brightest emission, that leaves the block on the side on which it emits most, mean
- * over all that is seen from there; y: per axis 5 bits, the share of that which leaves on this side. */
-layout(std430, set = 0, binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
+/* x: RGB9E5 radiance, in units of the scene's brightest emission, that leaves the block on the side on which
+ * it emits most, mean over all that is seen from there; y: per axis 5 bits, the share of that which leaves on
+ * this side. */
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
 {
     uvec2 sdfgi_emission[];
 };
 
-/* Mean normals of the triangles whose dominant axis is x, y or z: ten bits each, two slopes of 5 bits in [-1, 1];
- * a first slope of 31 says there are none. */
-layout(std430, set = 0, binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
+/* Mean normals of the triangles whose dominant axis is x, y or z: ten bits each, two slopes of 5 bits in [-1,
+ * 1]; a first slope of 31 says there are none. */
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
 {
     uint sdfgi_normals[];
 };
@@ -50,13 +51,14 @@ bool surface_class_normal(uint packed, uint axis, out vec3 normal)
     if ((slopes & 31u) == SURFACE_NO_NORMAL)
         return false;
     const vec2 slope = vec2(slopes & 31u, slopes >> 5u & 31u) / 15.0 - 1.0;
-    const vec3 n = major == 0u ? vec3(1.0, slope) : (major == 1u ? vec3(slope.y, 1.0, slope.x) : vec3(slope, 1.0));
+    const vec3 n =
+        major == 0u ? vec3(1.0, slope) : (major == 1u ? vec3(slope.y, 1.0, slope.x) : vec3(slope, 1.0));
     normal = normalize((axis & 1u) == 0u ? n : -n);
     return true;
 }
 
-/* The normal of the surface that faces `axis` in a block: of the triangles that face this way most, else of those of
- * another class that lean towards it. */
+/* The normal of the surface that faces `axis` in a block: of the triangles that face this way most, else of
+ * those of another class that lean towards it. */
 vec3 surface_normal(uint block, uint axis)
 {
     const uint packed = sdfgi_normals[block];
@@ -88,13 +90,14 @@ vec3 surface_albedo(uint block)
 vec3 surface_emission(uint block, uint axis)
 {
     const uvec2 packed = sdfgi_emission[block];
-    return rgbe_decode(packed.x) * (float(packed.y >> (5u * axis) & 31u) / 31.0) * sdfgi_frame.emission_scale;
+    return sdfgi_rgbe_decode(packed.x) * (float(packed.y >> (5u * axis) & 31u) / 31.0) *
+           sdfgi_frame.emission_scale;
 }
 
 /* Index of the block of a cell in these buffers. */
 uint surface_block(uint cascade, ivec3 cell)
 {
-    return block_index(cascade, cell) + cascade * block_count();
+    return sdfgi_block_index(cascade, cell) + cascade * sdfgi_block_count();
 }
 
 #endif

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT
- * Voxelises a mesh instance into one cascade. Each thread of a workgroup culls one triangle against the box; then the columns
- * of those that are left are shared out evenly, whichever triangle they belong to. The triangles of a workgroup lie far apart
- * in the mesh: neighbours, which lie in the box together, go to different ones. */
+ * Voxelises a mesh instance into one cascade. Each thread of a workgroup culls one triangle against the box;
+ * then the columns of those that are left are shared out evenly, whichever triangle they belong to. The
+ * triangles of a workgroup lie far apart in the mesh: neighbours, which lie in the box together, go to
+ * different ones. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize_common.glsl"
 
 layout(local_size_x = SDFGI_GROUP_TRIANGLE) in;
 
-shared ivec4 places[SDFGI_GROUP_TRIANGLE]; /* of each thread's triangle: first column, columns in a row, dominant axis */
+shared ivec4 places[SDFGI_GROUP_TRIANGLE]; /* of each thread's triangle: first column, columns in a row,
+                                              dominant axis */
 shared uint ends[SDFGI_GROUP_TRIANGLE];    /* how many columns it and those before it have */
 
-/* From one thread to the next, groups are shifted against each other by about the golden section of their number: no rows
- * of a grid of triangles line up with it. */
+/* From one thread to the next, groups are shifted against each other by about the golden section of their
+ * number: no rows of a grid of triangles line up with it. */
 uint triangle_of(uint group, uint thread)
 {
     const uint shift = args.groups * 5u / 8u | 1u;
@@ -84,7 +86,8 @@ void main()
 
     const uint total = ends[SDFGI_GROUP_TRIANGLE - 1], threads = args.slices * uint(SDFGI_GROUP_TRIANGLE);
     const uint share = (total + threads - 1u) / threads;
-    const uint first = (gl_WorkGroupID.y * uint(SDFGI_GROUP_TRIANGLE) + thread) * share, last = min(first + share, total);
+    const uint first = (gl_WorkGroupID.y * uint(SDFGI_GROUP_TRIANGLE) + thread) * share,
+               last = min(first + share, total);
     for (uint i = first; i < last;) {
         const uint holder = holder_of(i), next = min(ends[holder], last);
         store_columns(group, holder, i, next);

@@ -1,33 +1,49 @@
 /* SPDX-License-Identifier: MIT
- * Voxelisation of one triangle, shared by the compute and the raster voxeliser, which differ only in who visits the
- * columns: both set the same bits.
+ * Voxelisation of one triangle, shared by the compute and the raster voxeliser, which differ only in who
+ * visits the columns: both set the same bits.
  *
- * A sub-voxel is set if the triangle crosses one of the three axis-parallel unit segments through its centre: the
- * 6-separating set (Schwarz and Seidel 2010, "Fast parallel surface and solid voxelization"; Huang et al. 1998). A step
- * between the centres of two 6-neighbours that crosses a closed mesh crosses it on one of those segments, hence no
- * 6-connected walk gets through. Along the triangle's dominant axis there is one candidate per column. */
+ * A sub-voxel is set if the triangle crosses one of the three axis-parallel unit segments through its centre:
+ * the 6-separating set (Schwarz and Seidel 2010, "Fast parallel surface and solid voxelization"; Huang et al.
+ * 1998). A step between the centres of two 6-neighbours that crosses a closed mesh crosses it on one of those
+ * segments, hence no 6-connected walk gets through. Along the triangle's dominant axis there is one candidate
+ * per column. */
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
 #include "pass.glsl"
 
-layout(push_constant) uniform sdfgi_push { sdfgi_voxelize_args args; };
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_voxelize_args args;
+};
 
-layout(std430, set = 0, binding = SDFGI_BINDING_MATERIALS) readonly buffer sdfgi_materials_buffer
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_MATERIALS) readonly buffer sdfgi_materials_buffer
 {
     sdfgi_material_params sdfgi_materials[];
 };
-layout(std430, set = 1, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions { float positions[]; };
-layout(std430, set = 1, binding = SDFGI_BINDING_MESH_UVS) readonly buffer mesh_uvs { float uvs[]; };
-layout(std430, set = 1, binding = SDFGI_BINDING_MESH_COLORS) readonly buffer mesh_colors { float colors[]; };
-layout(std430, set = 1, binding = SDFGI_BINDING_MESH_INDICES) readonly buffer mesh_indices { uint indices[]; };
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions
+{
+    float positions[];
+};
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_UVS) readonly buffer mesh_uvs
+{
+    float uvs[];
+};
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_COLORS) readonly buffer mesh_colors
+{
+    float colors[];
+};
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) readonly buffer mesh_indices
+{
+    uint indices[];
+};
 
 #ifdef SDFGI_VOXELIZE_TEXTURED
-layout(set = 2, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
-layout(set = 2, binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
+layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
+layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
 #endif
 
-/* Inclusive edges: sub-voxels within this distance (sub-voxels) outside an edge are set too, so that rounding cannot
- * open a seam between triangles that share it. */
+/* Inclusive edges: sub-voxels within this distance (sub-voxels) outside an edge are set too, so that rounding
+ * cannot open a seam between triangles that share it. */
 const float EDGE_MARGIN = 1.0 / 256.0;
 /* Surfaces exactly between two sub-voxels go to the upper one, however the transform rounds. */
 const float TIE_BIAS = 1.0 / 2048.0;
@@ -35,16 +51,16 @@ const float TIE_BIAS = 1.0 / 2048.0;
 const float MAX_COORDINATE = 1e9;
 
 struct triangle {
-    vec3 v[3];        /* sub-voxels from the anchor, axes permuted: z is the dominant axis */
-    vec2 slope;       /* dz/dx, dz/dy */
-    vec3 edges[3];    /* inside where dot(edge, (x, y, 1)) >= 0, in sub-voxels */
+    vec3 v[3];                   /* sub-voxels from the anchor, axes permuted: z is the dominant axis */
+    vec2 slope;                  /* dz/dx, dz/dy */
+    vec3 edges[3];               /* inside where dot(edge, (x, y, 1)) >= 0, in sub-voxels */
     vec3 bary_x, bary_y, bary_0; /* barycentric coordinates = bary_0 + x bary_x + y bary_y */
-    vec3 normal;      /* metric, unit, front side */
-    int axis;         /* dominant one */
+    vec3 normal;                 /* metric, unit, front side */
+    int axis;                    /* dominant one */
     uint index[3];
-    ivec4 columns;    /* low xy, high zw, inclusive */
-    bool tiny;        /* smaller than a sub-voxel: sets the one its centre lies in, whatever it crosses */
-    float lod_area;   /* sub-voxels^2 in the dominant plane */
+    ivec4 columns;  /* low xy, high zw, inclusive */
+    bool tiny;      /* smaller than a sub-voxel: sets the one its centre lies in, whatever it crosses */
+    float lod_area; /* sub-voxels^2 in the dominant plane */
 };
 
 vec3 permute(vec3 p, int axis)
@@ -85,7 +101,8 @@ vec3 mesh_position(uint vertex)
     return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
 }
 
-/* False if a vertex is out of range or not finite. Nothing is asked before all is read: two waits, not six. */
+/* False if a vertex is out of range or not finite. Nothing is asked before all is read: two waits, not six.
+ */
 bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
 {
     bool valid = true;
@@ -99,8 +116,9 @@ bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
     return valid;
 }
 
-/* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box. Nothing but the range
- * of columns depends on the box or on where the cascade is: a sub-voxel comes out the same whenever it is made. */
+/* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box.
+ * Nothing but the range of columns depends on the box or on where the cascade is: a sub-voxel comes out the
+ * same whenever it is made. */
 bool triangle_place(inout triangle t, vec3 v[3])
 {
     const ivec3 box_low = box_corner(args.box_low), box_high = box_corner(args.box_high);
@@ -129,7 +147,8 @@ void triangle_setup(inout triangle t, vec3 v[3])
     for (int i = 0; i < 3; i++)
         t.v[i] = permute(v[i], t.axis);
     for (int i = 0; i < 3; i++) {
-        /* From the same end for both triangles that share the edge: what is rounded, is rounded alike, and leaves no seam. */
+        /* From the same end for both triangles that share the edge: what is rounded, is rounded alike, and
+         * leaves no seam. */
         const vec2 a = t.v[i].xy, b = t.v[(i + 1) % 3].xy;
         const bool turned = b.x < a.x || (b.x == a.x && b.y < a.y);
         const vec2 from = turned ? b : a, along = turned ? a - b : b - a;
@@ -144,8 +163,9 @@ void triangle_setup(inout triangle t, vec3 v[3])
     t.bary_0 = vec3(1.0, 0.0, 0.0) - a.x * t.bary_x - a.y * t.bary_y;
     t.lod_area = abs(det);
 
-    /* Cells are y_scale as high as wide: back to metric lengths, and to the side that the mesh calls front. */
-    const vec3 metric = normal / vec3(1.0, space_y_scale(), 1.0);
+    /* Cells are y_scale as high as wide: back to metric lengths, and to the side that the mesh calls front.
+     */
+    const vec3 metric = normal / vec3(1.0, sdfgi_space_y_scale(), 1.0);
     t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_MIRRORED) != 0u ? -1.0 : 1.0);
     t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));
 }
@@ -241,11 +261,13 @@ surface_sample triangle_sample(triangle t, ivec2 column)
     const vec2 uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u ? mesh_uv(t, bary) : vec2(0.0);
     const bool has_uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u;
     if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
-        const float level = has_uv ? texture_level(t, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;
+        const float level =
+            has_uv ? texture_level(t, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;
         s.albedo *= textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level);
     }
     if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
-        const float level = has_uv ? texture_level(t, m.emission_uv, vec2(textureSize(emission_texture, 0))) : 0.0;
+        const float level =
+            has_uv ? texture_level(t, m.emission_uv, vec2(textureSize(emission_texture, 0))) : 0.0;
         s.emission *= textureLod(emission_texture, texture_uv(m.emission_uv, uv), level).rgb;
     }
 #endif
@@ -255,7 +277,7 @@ surface_sample triangle_sample(triangle t, ivec2 column)
 void accumulate(uint plane, uint block, uint value)
 {
     if (value != 0u)
-        atomicAdd(sdfgi_scratch[plane * block_count() + block], value);
+        atomicAdd(sdfgi_scratch[plane * sdfgi_block_count() + block], value);
 }
 
 /* Means are taken from integer sums, which do not depend on the order of additions. */
@@ -292,8 +314,8 @@ void polygon_clip(inout vec2 corners[7], inout int count, vec3 side)
     count = kept_count;
 }
 
-/* Share of a column's cross-section that the triangle covers: lamps smaller than a sub-voxel, and the rims of larger ones,
- * keep their power. */
+/* Share of a column's cross-section that the triangle covers: lamps smaller than a sub-voxel, and the rims of
+ * larger ones, keep their power. */
 float triangle_coverage(triangle t, ivec2 column)
 {
     if (t.tiny)
@@ -335,7 +357,7 @@ void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s
         if (height > 0.2 || (height < -0.2 && (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u))
             facing |= 1u << axis;
     }
-    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * block_count() + block], facing);
+    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_block_count() + block], facing);
     if (bit < 32u)
         atomicOr(sdfgi_light[cell].x, 1u << bit);
     else
@@ -369,12 +391,12 @@ void triangle_store_column(triangle t, ivec2 column)
     const surface_sample s = triangle_sample(t, column);
     if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
         return;
-    const uint block = block_index(args.cascade, cell);
+    const uint block = sdfgi_block_index(args.cascade, cell);
     if (emits)
         accumulate_emission(t, column, block, s);
     if (!set)
         return;
-    const uint index = cell_index(args.cascade, cell);
+    const uint index = sdfgi_cell_index(args.cascade, cell);
     const ivec3 inner = sub & 3;
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(index, bit);

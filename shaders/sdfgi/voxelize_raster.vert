@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Projects a triangle along its dominant axis onto a viewport of one pixel per column, widened so that every column
- * that may hold a sub-voxel gets a fragment. The fragment shader decides. */
+ * Projects a triangle along its dominant axis onto a viewport of one pixel per column, widened so that every
+ * column that may hold a sub-voxel gets a fragment. The fragment shader decides. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize_common.glsl"
@@ -52,7 +52,7 @@ void main()
     if (!triangle_place(t, v))
         return;
     triangle_setup(t, v);
-    const float size = float(space_resolution() * SDFGI_SUBVOXELS);
+    const float size = float(sdfgi_space_resolution() * SDFGI_SUBVOXELS);
     const vec2 at = is_needle(t) ? columns_corner(t, corner) : widened_corner(t, corner);
     gl_Position = vec4((at + vec2(permute(args.anchor, t.axis).xy)) / size * 2.0 - 1.0, 0.5, 1.0);
 }

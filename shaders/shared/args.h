@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Push constants: the arguments of each pass, at most 128 bytes. pass_table.h says which struct a pass takes. */
+ * Push constants: the arguments of each pass, at most 128 bytes. pass_table.h says which struct a pass takes.
+ */
 #ifndef SDFGI_SHARED_ARGS_H
 #define SDFGI_SHARED_ARGS_H
 
@@ -14,49 +15,50 @@ SDFGI_ASSERT_SIZE(sdfgi_cascade_args, 4);
 
 /* region_clear, voxel_resolve: a box of cells. */
 struct sdfgi_region_args {
-    ivec3 low;           /* cells [low, high) */
+    ivec3 low; /* cells [low, high) */
     uint cascade;
     ivec3 high;
-    int bounds_axis;     /* axis across which dirty_bounds.glsl cuts its strips; -1: nobody asks for bounds */
-    ivec3 before;        /* low corner of the cells whose storage the box takes over */
+    int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: nobody asks for bounds */
+    ivec3 before;    /* low corner of the cells whose storage the box takes over */
     uint padding_0;
 };
 SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
 
 #define SDFGI_MESH_INDEX_NONE 0u
-#define SDFGI_MESH_INDEX_16 1u
-#define SDFGI_MESH_INDEX_32 2u
-#define SDFGI_MESH_HAS_UV 4u
-#define SDFGI_MESH_HAS_COLOR 8u
-#define SDFGI_MESH_MIRRORED 16u /* the transform turns triangles inside out */
+#define SDFGI_MESH_INDEX_16   1u
+#define SDFGI_MESH_INDEX_32   2u
+#define SDFGI_MESH_HAS_UV     4u
+#define SDFGI_MESH_HAS_COLOR  8u
+#define SDFGI_MESH_MIRRORED   16u /* the transform turns triangles inside out */
 
 /* voxelize, voxelize_raster: one instance. */
 struct sdfgi_voxelize_args {
-    vec4 rows[3];        /* object space to sub-voxels from the instance's anchor: row-major 3x4 */
-    ivec3 anchor;        /* the anchor's sub-voxel in the cascade */
-    uint box_low;        /* low corner of the box of cells to fill, 10 bits per axis */
+    vec4 rows[3]; /* object space to sub-voxels from the instance's anchor: row-major 3x4 */
+    ivec3 anchor; /* the anchor's sub-voxel in the cascade */
+    uint box_low; /* low corner of the box of cells to fill, 10 bits per axis */
     uint cascade;
     uint triangle_count;
-    uint groups;         /* of SDFGI_GROUP_TRIANGLE triangles */
-    uint slices;         /* workgroups that share the columns of a group of triangles */
+    uint groups; /* of SDFGI_GROUP_TRIANGLE triangles */
+    uint slices; /* workgroups that share the columns of a group of triangles */
     uint material;
-    uint flags;          /* SDFGI_MESH_* */
+    uint flags;                            /* SDFGI_MESH_* */
     uint position_offset, position_stride; /* in words, as all that follow */
     uint uv_offset, uv_stride;
     uint color_offset, color_stride;
     uint index_offset;
     uint vertex_count;
-    uint group_width;    /* workgroups along x */
-    uint box_high;       /* high corner of the box, packed as box_low */
+    uint group_width; /* workgroups along x */
+    uint box_high;    /* high corner of the box, packed as box_low */
 };
 SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 128);
 
 /* distance_prepare: which blocks need new distances. */
 struct sdfgi_distance_prepare_args {
     uint cascade;
-    uint first_block;    /* along x */
-    uint box_count;      /* dirty boxes; 0: everything is dirty */
-    uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: low cell in the low 16 bits, high cell in the high ones */
+    uint first_block;                    /* along x */
+    uint box_count;                      /* dirty boxes; 0: everything is dirty */
+    uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: low cell in the low 16 bits, high cell in the
+                                            high ones */
 };
 SDFGI_ASSERT_SIZE(sdfgi_distance_prepare_args, 84);
 
@@ -70,36 +72,36 @@ SDFGI_ASSERT_SIZE(sdfgi_distance_search_args, 12);
 /* flood_seed, flood_step, flood_distance. */
 struct sdfgi_flood_args {
     uint cascade;
-    uint jump;           /* length of the jump in cells */
-    uint source;         /* half of the pointers that is read: 0 or 1 */
+    uint jump;   /* length of the jump in cells */
+    uint source; /* half of the pointers that is read: 0 or 1 */
 };
 SDFGI_ASSERT_SIZE(sdfgi_flood_args, 12);
 
 struct sdfgi_light_mark_args {
     uint cascade;
-    uint rebuild;        /* 1: the list before holds nothing of use */
+    uint rebuild; /* 1: the list before holds nothing of use */
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_mark_args, 8);
 
 /* Entries of the light list: those in dirty blocks, or a range. */
 struct sdfgi_light_direct_args {
     uint cascade;
-    uint only_dirty;     /* 1: cells in dirty blocks; 0: entries [first, end) */
+    uint only_dirty; /* 1: cells in dirty blocks; 0: entries [first, end) */
     uint first, end;
     uint threads_per_ray; /* at most */
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 20);
 
 struct sdfgi_light_bounce_args {
-    uint cascade;        /* of workgroups with y = 0 */
-    uint only_dirty;     /* as in sdfgi_light_direct_args */
+    uint cascade;    /* of workgroups with y = 0 */
+    uint only_dirty; /* as in sdfgi_light_direct_args */
     uint first, end;
     uint without_probes; /* 1: no probe holds light */
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 20);
 
 struct sdfgi_probe_blend_args {
-    uint cycle_ends;     /* 1: this is the last frame of a sample cycle */
+    uint cycle_ends;      /* 1: this is the last frame of a sample cycle */
     uint without_history; /* 1: no sample cycle has been completed since nothing was there */
 };
 SDFGI_ASSERT_SIZE(sdfgi_probe_blend_args, 8);

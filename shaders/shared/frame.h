@@ -15,92 +15,94 @@ struct sdfgi_dirty_box {
 };
 SDFGI_ASSERT_SIZE(sdfgi_dirty_box, 32);
 
-/* Cell space of a cascade: (0, 0, 0) is its low corner, one unit is one cell along each axis; a cell is as high as
- * y_scale times its width. Metric lengths inside a cascade are counted in cell widths. */
+/* Cell space of a cascade: (0, 0, 0) is its low corner, one unit is one cell along each axis; a cell is as
+ * high as y_scale times its width. Metric lengths inside a cascade are counted in cell widths. */
 struct sdfgi_cascade_params {
-    vec3 origin_rel;    /* low corner in metres relative to the host's origin */
-    float cell_m;       /* width of a cell in metres */
-    ivec3 wrap;         /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
+    vec3 origin_rel; /* low corner in metres relative to the host's origin */
+    float cell_m;    /* width of a cell in metres */
+    ivec3 wrap;      /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
     uint padding_0;
-    ivec3 probe_wrap;   /* slot of probe (0, 0, 0), in [0, probes_per_side) */
+    ivec3 probe_wrap; /* slot of probe (0, 0, 0), in [0, probes_per_side) */
     uint padding_1;
-    vec3 from_first;    /* cell space = from_first + from_first_scale * cell space of cascade 0 */
+    vec3 from_first; /* cell space = from_first + from_first_scale * cell space of cascade 0 */
     float from_first_scale;
-    ivec3 probe_base;   /* world index of probe (0, 0, 0), low 32 bits: seeds its ray directions */
+    ivec3 probe_base; /* world index of probe (0, 0, 0), low 32 bits: seeds its ray directions */
     uint padding_2;
-    ivec3 valid_low;    /* valid region: cells [low, high) are complete and may be read; empty if low = high */
-    int dirty_count;    /* boxes in `dirty` */
+    ivec3 valid_low; /* valid region: cells [low, high) are complete and may be read; empty if low = high */
+    int dirty_count; /* boxes in `dirty` */
     ivec3 valid_high;
     uint padding_3;
-    vec3 blend_low;     /* blend region: cells [low, high) that lookups sample, inside the valid region. It follows the */
-    uint padding_4;     /*   valid region smoothly, while that region changes in steps of SDFGI_PROBE_SPACING cells */
+    vec3 blend_low; /* blend region: cells [low, high) that lookups sample, inside the valid region. It
+                       follows the */
+    uint padding_4; /*   valid region smoothly, while that region changes in steps of SDFGI_PROBE_SPACING
+                       cells */
     vec3 blend_high;
     uint padding_5;
-    ivec3 kept_low;     /* cells [low, high) that were complete before this frame */
-    int bounds_axis;    /* axis across which dirty_bounds.glsl cuts its strips; -1: this change has no bounds */
+    ivec3 kept_low;  /* cells [low, high) that were complete before this frame */
+    int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: this change has no bounds */
     ivec3 kept_high;
     uint padding_6;
-    /* Boxes that a change completes in this frame. A scroll names the boxes that left the cascade as well: these lie
-     * outside [0, resolution). */
+    /* Boxes that a change completes in this frame. A scroll names the boxes that left the cascade as well:
+     * these lie outside [0, resolution). */
     SDFGI_STRUCT(sdfgi_dirty_box) dirty[SDFGI_MAX_CHANGES];
 };
 SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 176 + 32 * SDFGI_MAX_CHANGES);
 
 struct sdfgi_frame_params {
     SDFGI_STRUCT(sdfgi_cascade_params) cascades[SDFGI_MAX_CASCADES];
-    vec3 sky_zenith;         /* radiance times exposure; zero when the sky is not read */
+    vec3 sky_zenith; /* radiance times exposure; zero when the sky is not read */
     uint padding_0;
     vec3 sky_horizon;
     uint padding_1;
     vec3 sky_ground;
     uint padding_2;
-    float y_scale;           /* height of a cell over its width */
+    float y_scale; /* height of a cell over its width */
     float exposure;
-    float exposure_inverse;  /* 1 / exposure */
+    float exposure_inverse; /* 1 / exposure */
     float energy;
-    float normal_bias;       /* cells */
-    float probe_bias;        /* cells */
+    float normal_bias; /* cells */
+    float probe_bias;  /* cells */
     float bounce_feedback;
-    float emission_scale;    /* unit of stored emission times exposure */
-    uint resolution;         /* cells along a side */
+    float emission_scale; /* unit of stored emission times exposure */
+    uint resolution;      /* cells along a side */
     uint resolution_log2;
     uint probes_per_side;
     uint cascade_count;
     uint light_count;
-    uint light_cell_room;    /* entries of the light list per cascade */
-    uint visibility;         /* SDFGI_SHADER_VISIBILITY_* */
+    uint light_cell_room; /* entries of the light list per cascade */
+    uint visibility;      /* SDFGI_SHADER_VISIBILITY_* */
     uint seed;
-    uint rays_per_frame;     /* of a probe */
-    uint first_sample;       /* of this frame in the sample cycle */
-    uint cycle_samples;      /* in the sample cycle of a probe */
-    float brightest_texel;   /* of all probes, in the newest cycle known */
+    uint rays_per_frame;   /* of a probe */
+    uint first_sample;     /* of this frame in the sample cycle */
+    uint cycle_samples;    /* in the sample cycle of a probe */
+    float brightest_texel; /* of all probes, in the newest cycle known */
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES * (176 + 32 * SDFGI_MAX_CHANGES) + 8 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 8 * 16);
 
 struct sdfgi_light_params {
-    vec3 position;           /* metres relative to the host's origin */
-    float range_m;           /* 0: unlimited */
-    vec3 direction;          /* unit, the way light travels */
+    vec3 position;  /* metres relative to the host's origin */
+    float range_m;  /* 0: unlimited */
+    vec3 direction; /* unit, the way light travels */
     float cos_outer;
-    vec3 intensity;          /* W/sr or W/m^2, times exposure and indirect energy */
-    float cone_scale;        /* 1 / (cos inner - cos outer) */
-    uint kind;               /* SDFGI_LIGHT_KIND_* | SDFGI_LIGHT_CASTS_SHADOW */
+    vec3 intensity;   /* W/sr or W/m^2, times exposure and indirect energy */
+    float cone_scale; /* 1 / (cos inner - cos outer) */
+    uint kind;        /* SDFGI_LIGHT_KIND_* | SDFGI_LIGHT_CASTS_SHADOW */
     uint padding_0, padding_1, padding_2;
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_params, 64);
 
-#define SDFGI_MATERIAL_ALBEDO_TEXTURE 1u
-#define SDFGI_MATERIAL_EMISSION_TEXTURE 2u
+#define SDFGI_MATERIAL_ALBEDO_TEXTURE        1u
+#define SDFGI_MATERIAL_EMISSION_TEXTURE      2u
 #define SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION 4u
 
 struct sdfgi_material_params {
     vec3 albedo;
     float alpha;
-    vec3 emission;           /* in units of the scene's brightest emission */
-    float alpha_cutoff;      /* 0: opaque */
-    vec4 albedo_uv[2];       /* rows of uv' = M (u, v, 1); w unused */
+    vec3 emission;      /* in units of the scene's brightest emission */
+    float alpha_cutoff; /* 0: opaque */
+    vec4 albedo_uv[2];  /* rows of uv' = M (u, v, 1); w unused */
     vec4 emission_uv[2];
-    uint flags;              /* SDFGI_MATERIAL_* */
+    uint flags; /* SDFGI_MATERIAL_* */
     uint padding_0, padding_1, padding_2;
 };
 SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);

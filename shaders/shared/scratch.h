@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * The scratch buffer. Its tenants follow one another within a frame, and each begins at word 0; no tenant keeps anything
- * for a later one. Offsets are in words (4 bytes). `bits` is the logarithm of the resolution N.
+ * The scratch buffer. Its tenants follow one another within a frame, and each begins at word 0; no tenant
+ * keeps anything for a later one. Offsets are in words (4 bytes). `bits` is the logarithm of the resolution
+ * N.
  *
  *   tenant           passes                                      holds
- *   accumulators     region_clear, voxelize, voxel_resolve       SDFGI_ACCUM_PLANES planes of a word per albedo block
- *   distance search  distance_prepare, _plane, _exact            planes, runs, layers and dirty blocks (occupancy.glsl)
- *   flood            flood_seed, _step, _distance                two halves of a pointer per cell
- *   light list       light_mark, _list, _direct, _bounce, cell_mask   blocks, rows and entries (light_blocks.glsl)
- *   ray queue        ray_list, probe_trace                       a word per ray of the frame
+ *   accumulators     region_clear, voxelize, voxel_resolve       SDFGI_ACCUM_PLANES planes of a word per
+ * albedo block distance search  distance_prepare, _plane, _exact            planes, runs, layers and dirty
+ * blocks (occupancy.glsl) flood            flood_seed, _step, _distance                two halves of a
+ * pointer per cell light list       light_mark, _list, _direct, _bounce, cell_mask   blocks, rows and entries
+ * (light_blocks.glsl) ray queue        ray_list, probe_trace                       a word per ray of the
+ * frame
  */
 #ifndef SDFGI_SHARED_SCRATCH_H
 #define SDFGI_SHARED_SCRATCH_H
@@ -50,7 +52,8 @@ SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
     return 2u << (3u * bits);
 }
 
-/* Light list: four words per light block (4^3 cells) from word 0, then two per row of SDFGI_GROUP_LINEAR blocks. */
+/* Light list: four words per light block (4^3 cells) from word 0, then two per row of SDFGI_GROUP_LINEAR
+ * blocks. */
 SDFGI_FUNCTION uint sdfgi_scratch_light_rows(uint bits)
 {
     return 4u << (3u * bits - 6u);

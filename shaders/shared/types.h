@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Types that C and GLSL share. A struct holds only scalars, vec4, and vec3 followed by a scalar, and every vec3 begins at a
- * multiple of 16 bytes: offsets are then the same in C, std140 and std430, and no layout feature is needed. */
+ * Types that C and GLSL share. A struct holds only scalars, vec4, and vec3 followed by a scalar, and every
+ * vec3 begins at a multiple of 16 bytes: offsets are then the same in C, std140 and std430, and no layout
+ * feature is needed. */
 #ifndef SDFGI_SHARED_TYPES_H
 #define SDFGI_SHARED_TYPES_H
 
@@ -13,11 +14,17 @@
 #include <assert.h>
 #include <stdint.h>
 typedef uint32_t uint;
-typedef struct { float x, y, z; } vec3;
-typedef struct { float x, y, z, w; } vec4;
-typedef struct { int32_t x, y, z; } ivec3;
-#define SDFGI_STRUCT(type) struct type
-#define SDFGI_FUNCTION static inline
+typedef struct {
+    float x, y, z;
+} vec3;
+typedef struct {
+    float x, y, z, w;
+} vec4;
+typedef struct {
+    int32_t x, y, z;
+} ivec3;
+#define SDFGI_STRUCT(type)             struct type
+#define SDFGI_FUNCTION                 static inline
 #define SDFGI_ASSERT_SIZE(type, bytes) static_assert(sizeof(struct type) == (bytes), "size of " #type)
 #endif
 

@@ -5,6 +5,27 @@
 
 const float PI = 3.14159265;
 
+/* Names that hosts have, too: the include brings none without its prefix. */
+vec2 octahedral_encode(vec3 direction)
+{
+    return direction.xz;
+}
+
+uint rgbe_encode(vec3 color)
+{
+    return uint(color.r);
+}
+
+uint cell_index(uint cascade)
+{
+    return cascade;
+}
+
+vec3 trace_ray(vec3 direction)
+{
+    return direction * float(cell_index(rgbe_encode(direction))) + vec3(octahedral_encode(direction), 0.0);
+}
+
 #define SDFGI_SET 1
 #include "sdfgi.glsl"
 
@@ -18,5 +39,5 @@ layout(location = 0) out vec4 color;
 
 void main()
 {
-    color = vec4(albedo.rgb / PI * sdfgi_irradiance(position, normal, eye.xyz - position), 1.0);
+    color = vec4(albedo.rgb / PI * sdfgi_irradiance(position, normal, eye.xyz - position), trace_ray(normal).x);
 }

@@ -19,8 +19,8 @@ void main()
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++)
         axes[a] = data[12u * i + a].rgb;
-    const uvec2 cell = light_pack(axes, random_hash(i));
+    const uvec2 cell = sdfgi_light_pack(axes, sdfgi_random_hash(i));
     const float valid = (cell.y & SDFGI_LIGHT_VALID) != 0u ? 1.0 : 0.0;
     for (uint a = 0u; a < 6u; a++)
-        data[12u * i + 6u + a] = vec4(light_unpack_axis(cell, a), valid);
+        data[12u * i + 6u + a] = vec4(sdfgi_light_unpack_axis(cell, a), valid);
 }

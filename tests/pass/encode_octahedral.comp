@@ -17,8 +17,8 @@ void main()
         return;
     const int texel = int(data[3u * i].w);
     const int n = texel / 10000;
-    const ivec2 source = octahedral_border_source(ivec2(texel % 100, texel / 100 % 100) - 1, n);
-    const vec2 at = octahedral_encode(data[3u * i].xyz);
+    const ivec2 source = sdfgi_octahedral_border_source(ivec2(texel % 100, texel / 100 % 100) - 1, n);
+    const vec2 at = sdfgi_octahedral_encode(data[3u * i].xyz);
     data[3u * i + 1u] = vec4(at, source);
-    data[3u * i + 2u] = vec4(octahedral_decode(at), octahedral_solid_angle(octahedral_point(at)));
+    data[3u * i + 2u] = vec4(sdfgi_octahedral_decode(at), sdfgi_octahedral_solid_angle(sdfgi_octahedral_point(at)));
 }

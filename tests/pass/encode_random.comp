@@ -12,5 +12,5 @@ void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i < count)
-        data[i].zw = floatBitsToUint(random_r2(data[i].x, data[i].y));
+        data[i].zw = floatBitsToUint(sdfgi_random_r2(data[i].x, data[i].y));
 }

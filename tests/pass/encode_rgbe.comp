@@ -13,7 +13,7 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count)
         return;
-    const uint packed = rgbe_encode(data[2u * i].rgb);
+    const uint packed = sdfgi_rgbe_encode(data[2u * i].rgb);
     data[2u * i].w = uintBitsToFloat(packed);
-    data[2u * i + 1u] = vec4(rgbe_decode(packed), 0.0);
+    data[2u * i + 1u] = vec4(sdfgi_rgbe_decode(packed), 0.0);
 }

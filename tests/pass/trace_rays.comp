@@ -15,8 +15,8 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count)
         return;
-    const trace_hit hit =
-        trace_ray(0u, sdfgi_frame.cascade_count - 1u, rays[3u * i].xyz, rays[3u * i + 1u].xyz, rays[3u * i].w);
+    const sdfgi_trace_hit hit =
+        sdfgi_trace_ray(0u, sdfgi_frame.cascade_count - 1u, rays[3u * i].xyz, rays[3u * i + 1u].xyz, rays[3u * i].w);
     rays[3u * i + 1u].w = hit.has_cell ? float(hit.cell.x) : -1.0;
     rays[3u * i + 2u] = vec4(hit.distance, hit.hit ? 1.0 : 0.0, hit.capped ? 1.0 : 0.0, float(hit.axis));
 }
