@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "run_options.h"
 
-#include "output_file.h"
-#include "view_file.h"
+#include "file/output_file.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "walk_run.h"
 
-#include "image.h"
 #include "run_options.h"
-#include "view_file.h"
-#include "walk_sheet.h"
+#include "image/image.h"
+#include "view/view_file.h"
+#include "walk/walk_sheet.h"
 
 #include <math.h>
 #include <modules/gltf/gltf_scene.h>

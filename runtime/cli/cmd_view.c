@@ -2,9 +2,9 @@
  * sdfgi view: a glTF scene in a window. */
 #include "cli.h"
 #include "commands.h"
-#include "host/host.h"
 #include "run_options.h"
-#include "view_file.h"
+#include "host/host.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 

@@ -2,12 +2,12 @@
  * sdfgi render: a picture of a glTF scene, offscreen. */
 #include "cli.h"
 #include "commands.h"
-#include "host/host.h"
-#include "image.h"
-#include "output_file.h"
-#include "report.h"
 #include "run_options.h"
-#include "view_file.h"
+#include "file/output_file.h"
+#include "host/host.h"
+#include "image/image.h"
+#include "report/report.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
