@@ -45,7 +45,7 @@ bool host_check(struct host_device *device, VkResult result, const char *what)
     return host_fail(device, "%s: %s (VkResult %d)", what, result_text(result), (int)result);
 }
 
-void *host_alloc(struct host_device *device, size_t count, size_t size)
+void *host_device_alloc(struct host_device *device, size_t count, size_t size)
 {
     void *memory = calloc(count > 0 ? count : 1, size);
     if (!memory)

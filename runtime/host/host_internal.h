@@ -36,7 +36,7 @@ bool host_check(struct host_device *device, VkResult result, const char *what);
 /* Records a formatted failure and returns false. */
 bool host_fail(struct host_device *device, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* calloc that records its failure. */
-void *host_alloc(struct host_device *device, size_t count, size_t size);
+void *host_device_alloc(struct host_device *device, size_t count, size_t size);
 
 struct host_buffer {
     VkBuffer buffer;
