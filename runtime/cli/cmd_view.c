@@ -52,6 +52,7 @@ int cmd_view(int argc, char **argv)
     if (!gltf)
         return CLI_EXIT_FAILURE;
     const struct host_window_desc desc = { .device_select = options.device,
+                                           .cache_folder = run_cache_folder(),
                                            .gltf = gltf,
                                            .view = &view,
                                            .settings = &settings,

@@ -435,7 +435,10 @@ static bool device_init(struct host_device *device, const struct host_device_des
     if (!instance_create(device, desc) || !choose(device, desc->select))
         return false;
     query_device(device);
-    return create_logical(device, desc);
+    if (!create_logical(device, desc))
+        return false;
+    host_cache_init(device, desc->cache_folder);
+    return true;
 }
 
 struct host_device *host_device_create(const struct host_device_desc *desc, char *error, size_t error_size)
@@ -458,6 +461,7 @@ void host_device_destroy(struct host_device *device)
     if (!device)
         return;
     if (device->device) {
+        host_cache_finish(device);
         vkDestroyCommandPool(device->device, device->pool, NULL);
         vkDestroyDevice(device->device, NULL);
     }

@@ -11,7 +11,16 @@
 
 #define HOST_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* ---- Device (host_device.c, host_resource.c) -------------------------------------------------------- */
+/* ---- Device (host_device.c, host_cache.c, host_resource.c)
+ * -------------------------------------------------- */
+
+/* Pipelines kept on disk (host_cache.c). */
+struct host_cache {
+    VkPipelineCache handle;  /* VK_NULL_HANDLE: none is kept */
+    char path[1024];         /* of the file */
+    uint64_t saved_checksum; /* of what the file holds; size 0: nothing that could be used */
+    size_t saved_size;
+};
 
 struct host_device {
     VkInstance instance;
@@ -23,6 +32,7 @@ struct host_device {
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
+    struct host_cache cache;
     bool anisotropy;
     VkFormat hdr_format;     /* RGBA32F where it can be blended, else RGBA16F */
     uint64_t timestamp_mask; /* valid bits of the queue's timestamps; 0: none */
@@ -30,6 +40,11 @@ struct host_device {
     uint32_t validation_count;
     char error[256];
 };
+
+/* Makes the device's cache and fills it from the file in `folder`; NULL: no cache. */
+void host_cache_init(struct host_device *device, const char *folder);
+/* Writes what has changed, and destroys the cache. */
+void host_cache_finish(struct host_device *device);
 
 /* Records the failure and returns false unless `result` is a success. */
 bool host_check(struct host_device *device, VkResult result, const char *what);

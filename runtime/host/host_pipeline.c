@@ -133,7 +133,8 @@ static bool pipeline_build(struct host_device *device, const struct pipeline_des
         .layout = desc->layout,
         .renderPass = desc->pass,
     };
-    return host_check(device, vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, out),
+    return host_check(device,
+                      vkCreateGraphicsPipelines(device->device, device->cache.handle, 1, &info, NULL, out),
                       "creating a graphics pipeline");
 }
 
@@ -315,9 +316,9 @@ bool host_pipeline_compute_create(struct host_device *device, const uint32_t *wo
                    .pName = "main" },
         .layout = layout,
     };
-    const bool ok =
-        host_check(device, vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, out),
-                   "creating a compute pipeline");
+    const bool ok = host_check(
+        device, vkCreateComputePipelines(device->device, device->cache.handle, 1, &info, NULL, out),
+        "creating a compute pipeline");
     vkDestroyShaderModule(device->device, module, NULL);
     return ok;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Library, host renderer and the program's parts in one program, all of every archive: a name that two of them
- * define is an error of the linker. */
+ * Library, host renderer and the program's parts in one program, all of every archive: a name that two of
+ * them define is an error of the linker. */
 #include "unit.h"
 
 #include "host.h"
