@@ -162,6 +162,10 @@ struct host_scene {
     double center[3], radius; /* of everything drawn; the centre in whole 1/64 m */
 };
 
+const struct host_material *host_instance_material(const struct host_scene *scene, uint32_t instance);
+/* Single-sided faces are invisible from behind; a mirrored instance turns its triangles round. */
+enum host_cull host_instance_cull(const struct host_scene *scene, uint32_t instance);
+
 /* Makes image and sampler of a texture reference; `view` gets a white texel where there is none. */
 bool host_textures_get(struct host_device *device, struct host_textures *textures,
                        const struct gltf_scene *gltf, const struct gltf_texture_ref *ref, bool srgb,
@@ -205,8 +209,10 @@ struct host_pipelines {
         layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI]; plain also for all but forward */
     VkPipelineLayout post_pipeline_layout;
     VkPipeline prepass[HOST_CULL_COUNT];
+    /* Those that the scene needs, once they are wanted. */
     VkPipeline opaque[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
     VkPipeline blend[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
+    bool forward_made[HOST_FORWARD_COUNT];
     VkPipeline shadow_solid, shadow_tested;
     VkPipeline sky, exposure, tonemap;
 };
@@ -334,6 +340,12 @@ struct host_frustum {
     uint32_t count;
     double origin[3];
 };
+
+/* The forward pipelines of frames as things are: with GI's lookup or without. */
+enum host_forward host_forward_kind(const struct host_renderer *renderer);
+/* Makes those that the scene needs and that are missing. Drivers compile the lookup for long, so that
+ * pipelines of the other kind, or for materials that the scene lacks, would cost every start seconds. */
+bool host_forward_prepare(struct host_renderer *renderer);
 
 bool host_frustum_sees(const struct host_frustum *frustum, const struct host_instance *instance);
 

@@ -276,7 +276,7 @@ static bool renderer_init(struct host_renderer *r, const struct host_renderer_de
         if (!slot_init(r, &r->slots[i]))
             return false;
     }
-    return host_targets_init(r);
+    return host_targets_init(r) && host_forward_prepare(r);
 }
 
 struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,

@@ -158,6 +158,18 @@ static bool instances_init(struct host_scene *scene, const struct gltf_scene *gl
     return true;
 }
 
+const struct host_material *host_instance_material(const struct host_scene *scene, uint32_t instance)
+{
+    return &scene->materials[scene->primitives[scene->instances[instance].primitive].material];
+}
+
+enum host_cull host_instance_cull(const struct host_scene *scene, uint32_t instance)
+{
+    if (host_instance_material(scene, instance)->double_sided)
+        return HOST_CULL_NONE;
+    return scene->instances[instance].mirrored ? HOST_CULL_FRONT : HOST_CULL_BACK;
+}
+
 struct host_scene *host_scene_create(struct host_device *device, const struct gltf_scene *gltf,
                                      const struct host_view *view)
 {
