@@ -191,6 +191,18 @@ static bool instance_create(struct host_device *device, const struct host_device
                                    : instance_create_plain(device, version, desc);
 }
 
+static void instance_destroy(struct host_device *device)
+{
+    if (device->messenger) {
+        const PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(device->instance,
+                                                                       "vkDestroyDebugUtilsMessengerEXT");
+        destroy(device->instance, device->messenger, NULL);
+    }
+    if (device->instance)
+        vkDestroyInstance(device->instance, NULL);
+}
+
 /* ---- Physical devices ------------------------------------------------------------------------------- */
 
 static const char *type_name(VkPhysicalDeviceType type)
@@ -355,8 +367,7 @@ uint32_t host_device_list(struct host_device_info *infos, uint32_t capacity, cha
         describe(device.instance, physical[i], i, &infos[i]);
     if (count == 0)
         snprintf(error, error_size, "%s", device.error);
-    if (device.messenger || device.instance)
-        vkDestroyInstance(device.instance, NULL);
+    instance_destroy(&device);
     return count;
 }
 
@@ -465,13 +476,6 @@ void host_device_destroy(struct host_device *device)
         vkDestroyCommandPool(device->device, device->pool, NULL);
         vkDestroyDevice(device->device, NULL);
     }
-    if (device->messenger) {
-        const PFN_vkDestroyDebugUtilsMessengerEXT destroy =
-            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(device->instance,
-                                                                       "vkDestroyDebugUtilsMessengerEXT");
-        destroy(device->instance, device->messenger, NULL);
-    }
-    if (device->instance)
-        vkDestroyInstance(device->instance, NULL);
+    instance_destroy(device);
     free(device);
 }

@@ -131,6 +131,15 @@ static void without_a_vulkan_device_info_says_so(void **state)
     assert_non_null(strstr(run.out, "total"));
 }
 
+static void listing_devices_leaves_nothing_behind(void **state)
+{
+    (void)state;
+    const struct run run = run_program("SDFGI_VALIDATION=1", "info");
+    if (run.code != 0)
+        skip();
+    assert_string_equal(run.err, "");
+}
+
 static void every_command_has_help(void **state)
 {
     (void)state;
@@ -214,6 +223,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_input_gives_one_line_and_no_file),
         cmocka_unit_test(without_a_vulkan_device_info_says_so),
+        cmocka_unit_test(listing_devices_leaves_nothing_behind),
         cmocka_unit_test(every_command_has_help),
         cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
         cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),
