@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds everything, makes the sample world, renders every view of it with global illumination off and on, and walks
-# through it. Pictures, reports, contact sheets and a plot end up under out/. Takes no arguments; see RUN_* below.
+# Builds everything, makes the sample world, renders every view of it with global illumination off and on, and
+# walks through it, on the GPU if there is one that will do. Pictures, reports, contact sheets and a plot end
+# up under out/. Takes no arguments; see RUN_* below.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")"
 # shellcheck source=scripts/packages.sh
@@ -34,10 +35,12 @@ render_pair() { # on first: its exposure is used for both, so that the two can b
         options+=(--set "$setting")
     done
     render "$view" on --frames "$frames" "${options[@]}"
-    exposure=$(sed -n 's/^[[:space:]]*"exposure":[[:space:]]*\([-+.0-9eE]*\),$/\1/p' "$out/reports/$view.on.json")
+    exposure=$(sed -n 's/^[[:space:]]*"exposure":[[:space:]]*\([-+.0-9eE]*\),$/\1/p' \
+        "$out/reports/$view.on.json")
     [ -n "$exposure" ] || die "$out/reports/$view.on.json names no exposure"
     render "$view" off --frames 2 --exposure "$exposure"
-    build/samples/contact_sheet "$out/$view.png" 2 1 "$out/pictures/$view.off.png" "$out/pictures/$view.on.png"
+    build/samples/contact_sheet "$out/$view.png" 2 1 \
+        "$out/pictures/$view.off.png" "$out/pictures/$view.on.png"
 }
 
 render_all() {
@@ -61,10 +64,11 @@ take_walk() {
         --size 320x180 "${options[@]}" --out "$out/walk" || die "the walk failed"
 }
 
-[ $# -eq 0 ] || die "takes no arguments; RUN_SIZE=WxH, RUN_FRAMES=N, RUN_SEED=N, RUN_SET=\"key=value ...\" and RUN_WALK=\"key=value ...\" change what it does"
+[ $# -eq 0 ] || die "takes no arguments; RUN_SIZE=WxH, RUN_FRAMES=N, RUN_SEED=N, RUN_SET=\"key=value ...\"" \
+    "and RUN_WALK=\"key=value ...\" change what it does"
 install_packages
 configure_and_build build
-choose_driver
+choose_device build/sdfgi
 
 mkdir -p "$out/pictures" "$out/reports" || die "cannot make $out/"
 build/samples/open_world --seed "$seed" --out "$out/world.glb" --views "$out/views"
@@ -74,5 +78,6 @@ take_walk
 
 reports=("${views[@]/#/$out/reports/}")
 build/samples/pass_table "${reports[@]/%/.on.json}"
-say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s: GI off on the left, on on the right, in $out/contact_sheet.png;
-   the walk, off above on, in $out/walk/contact_sheet.png, with times and work in walk.svg and report.json there"
+say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s:
+   GI off on the left, on on the right, in $out/contact_sheet.png; the walk, off above on,
+   in $out/walk/contact_sheet.png, with times and work in walk.svg and report.json there"

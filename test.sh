@@ -10,8 +10,8 @@ source scripts/packages.sh
 # Suites that only --full runs. They are left out when no suite is named.
 slow_suites=(full bench)
 
-# Reads meson's log of the run and prints one line per failed case, then the counts. cmocka programs write TAP;
-# a program without TAP counts as one case.
+# Reads meson's log of the run and prints one line per failed case, then the counts. cmocka programs write
+# TAP; a program without TAP counts as one case.
 count_cases() {
     python3 - "$1" <<'PYTHON'
 import json
@@ -61,15 +61,15 @@ fi
 
 install_packages
 configure_and_build build -Dtests=enabled
-choose_driver
+choose_lavapipe
 export CMOCKA_MESSAGE_OUTPUT=TAP SDFGI_VALIDATION=1
 unset CMOCKA_XML_FILE
 
 say "testing"
 rm -f build/meson-logs/testlog.json
 # Its exit code is not needed: the counts below come from the log and decide.
-# Two programs at a time: software drivers use all cores while they draw, and one while they compile. More would run into
-# their time limits.
+# Two programs at a time: software drivers use all cores while they draw, and one while they compile. More
+# would run into their time limits.
 meson test -C build --no-rebuild --quiet --num-processes 2 --timeout-multiplier 2 "${suites[@]}" >&2 || true
 [ -s build/meson-logs/testlog.json ] || die "no test ran"
 count_cases build/meson-logs/testlog.json

@@ -39,5 +39,5 @@ if [ -z "$build" ]; then
     install_packages
     configure_and_build "$build"
 fi
-choose_driver
+choose_lavapipe
 exec python3 scripts/accuracy/main.py --build "$build" "${measure[@]}"

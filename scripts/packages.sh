@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# Shared by run.sh and test.sh: the Debian packages, the build, and messages that say what went wrong.
+# Shared by run.sh and test.sh: the Debian packages, the build, the device, and messages of what went wrong.
 
 packages=(meson ninja-build python3 pkg-config gcc g++ libvulkan-dev glslang-tools spirv-tools
     mesa-vulkan-drivers vulkan-validationlayers libglfw3-dev libtinygltf-dev libstb-dev libcglm-dev
@@ -26,7 +26,8 @@ missing_packages() {
 }
 
 install_packages() {
-    command -v dpkg-query >/dev/null || die "this needs Debian 12 or a relative of it; the packages are listed in scripts/packages.sh"
+    command -v dpkg-query >/dev/null ||
+        die "this needs Debian 12 or a relative of it; the packages are listed in scripts/packages.sh"
     local missing
     mapfile -t missing < <(missing_packages)
     [ "${#missing[@]}" -gt 0 ] || return 0
@@ -63,8 +64,34 @@ configure_and_build() {
     fi
 }
 
+# best_device PROGRAM: the GPU that it renders with if no other is asked for, as "NAME (TYPE)"; none: nothing.
+best_device() {
+    "$1" info 2>/dev/null | awk '
+        /^device [0-9]+: / { name = $0; sub(/^device [0-9]+: /, "", name) }
+        /^  type / { type = $2 }
+        /^  program +usable/ && rank[type] > best { best = rank[type]; found = name " (" type ")" }
+        BEGIN { rank["discrete"] = 3; rank["integrated"] = 2; rank["virtual"] = 1 }
+        END { print found }' || true
+}
+
+# choose_device PROGRAM: drivers that were chosen, else the machine's own GPU, else lavapipe. Says which.
+choose_device() {
+    local gpu
+    if [ -n "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ]; then
+        say "rendering with the driver of ${VK_DRIVER_FILES:-$VK_ICD_FILENAMES}"
+        return 0
+    fi
+    gpu=$(best_device "$1")
+    if [ -n "$gpu" ]; then
+        say "rendering on $gpu"
+        return 0
+    fi
+    choose_lavapipe
+    say "rendering on the CPU with lavapipe: there is no GPU that will do, see $1 info"
+}
+
 # Unless a driver was chosen, lavapipe: it is everywhere and gives the same picture everywhere.
-choose_driver() {
+choose_lavapipe() {
     [ -z "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] || return 0
     local file
     for file in /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json; do

@@ -90,6 +90,7 @@ struct gpu_device {
     struct gpu_functions fn;
     VkDevice handle;
     const VkAllocationCallbacks *callbacks; /* may be NULL */
+    VkPipelineCache pipeline_cache;         /* for every pipeline; may be VK_NULL_HANDLE. Set it after init */
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
     uint32_t timestamp_bits; /* of the queue family; 0: no timestamps */

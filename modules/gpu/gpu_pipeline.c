@@ -30,7 +30,7 @@ VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu
     VkResult result = shader_module(device, shader, &module);
     if (result != VK_SUCCESS)
         return result;
-    result = device->fn.CreateComputePipelines(device->handle, VK_NULL_HANDLE, 1,
+    result = device->fn.CreateComputePipelines(device->handle, device->pipeline_cache, 1,
                                                &(VkComputePipelineCreateInfo){
                                                    .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                                    .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module),
@@ -50,7 +50,7 @@ static VkResult raster_pipeline(const struct gpu_device *device,
     const VkViewport viewport = { 0, 0, (float)extent, (float)extent, 0, 1 };
     const VkRect2D scissor = { { 0, 0 }, { extent, extent } };
     return device->fn.CreateGraphicsPipelines(
-        device->handle, VK_NULL_HANDLE, 1,
+        device->handle, device->pipeline_cache, 1,
         &(VkGraphicsPipelineCreateInfo){
             .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
             .stageCount = 2,

@@ -66,6 +66,7 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
                             "sdfgi_create: importing the device");
     if (result != SDFGI_OK)
         return result;
+    gi->device.pipeline_cache = desc->pipeline_cache;
     result = message_vulkan(gi, pipelines_init(gi), "sdfgi_create: pipelines");
     if (result != SDFGI_OK)
         return result;

@@ -37,6 +37,7 @@ struct host_device_desc {
     bool validation; /* validation layer with synchronization checks; SDFGI_VALIDATION=1 does the same */
     const char *const *instance_extensions; /* what a window system asks for; switches the swapchain on */
     uint32_t instance_extension_count;
+    const char *cache_folder; /* where compiled pipelines are kept from run to run; NULL: they are not */
 };
 
 struct host_device_info {
@@ -193,6 +194,7 @@ typedef bool (*host_camera_fn)(void *user, uint32_t frame, struct host_camera *c
 
 struct host_window_desc {
     const char *device_select; /* as host_device_desc::select */
+    const char *cache_folder;  /* as host_device_desc::cache_folder */
     bool validation;
     const struct gltf_scene *gltf;
     const struct host_view *view;

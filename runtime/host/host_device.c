@@ -45,7 +45,7 @@ bool host_check(struct host_device *device, VkResult result, const char *what)
     return host_fail(device, "%s: %s (VkResult %d)", what, result_text(result), (int)result);
 }
 
-void *host_alloc(struct host_device *device, size_t count, size_t size)
+void *host_device_alloc(struct host_device *device, size_t count, size_t size)
 {
     void *memory = calloc(count > 0 ? count : 1, size);
     if (!memory)
@@ -189,6 +189,18 @@ static bool instance_create(struct host_device *device, const struct host_device
         return false;
     return validation_wanted(desc) ? instance_create_validated(device, version, desc)
                                    : instance_create_plain(device, version, desc);
+}
+
+static void instance_destroy(struct host_device *device)
+{
+    if (device->messenger) {
+        const PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(device->instance,
+                                                                       "vkDestroyDebugUtilsMessengerEXT");
+        destroy(device->instance, device->messenger, NULL);
+    }
+    if (device->instance)
+        vkDestroyInstance(device->instance, NULL);
 }
 
 /* ---- Physical devices ------------------------------------------------------------------------------- */
@@ -355,8 +367,7 @@ uint32_t host_device_list(struct host_device_info *infos, uint32_t capacity, cha
         describe(device.instance, physical[i], i, &infos[i]);
     if (count == 0)
         snprintf(error, error_size, "%s", device.error);
-    if (device.messenger || device.instance)
-        vkDestroyInstance(device.instance, NULL);
+    instance_destroy(&device);
     return count;
 }
 
@@ -435,7 +446,10 @@ static bool device_init(struct host_device *device, const struct host_device_des
     if (!instance_create(device, desc) || !choose(device, desc->select))
         return false;
     query_device(device);
-    return create_logical(device, desc);
+    if (!create_logical(device, desc))
+        return false;
+    host_cache_init(device, desc->cache_folder);
+    return true;
 }
 
 struct host_device *host_device_create(const struct host_device_desc *desc, char *error, size_t error_size)
@@ -458,16 +472,10 @@ void host_device_destroy(struct host_device *device)
     if (!device)
         return;
     if (device->device) {
+        host_cache_finish(device);
         vkDestroyCommandPool(device->device, device->pool, NULL);
         vkDestroyDevice(device->device, NULL);
     }
-    if (device->messenger) {
-        const PFN_vkDestroyDebugUtilsMessengerEXT destroy =
-            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(device->instance,
-                                                                       "vkDestroyDebugUtilsMessengerEXT");
-        destroy(device->instance, device->messenger, NULL);
-    }
-    if (device->instance)
-        vkDestroyInstance(device->instance, NULL);
+    instance_destroy(device);
     free(device);
 }

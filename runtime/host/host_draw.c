@@ -92,19 +92,6 @@ void host_draw_instance(struct host_renderer *renderer, struct host_draw_context
     vkCmdDrawIndexed(draw->cmd, primitive->index_count, 1, 0, 0, 0);
 }
 
-static const struct host_material *material_of(const struct host_scene *scene, uint32_t instance)
-{
-    return &scene->materials[scene->primitives[scene->instances[instance].primitive].material];
-}
-
-/* Single-sided faces are invisible from behind; a mirrored instance turns its triangles round. */
-static enum host_cull cull_of(const struct host_scene *scene, uint32_t instance)
-{
-    if (material_of(scene, instance)->double_sided)
-        return HOST_CULL_NONE;
-    return scene->instances[instance].mirrored ? HOST_CULL_FRONT : HOST_CULL_BACK;
-}
-
 static struct host_draw_context draw_begin(struct host_renderer *renderer, VkCommandBuffer cmd,
                                            enum host_forward kind, const double origin[3])
 {
@@ -123,7 +110,7 @@ void host_draw_shadow(struct host_renderer *renderer, VkCommandBuffer cmd, const
     struct host_draw_context draw = draw_begin(renderer, cmd, HOST_FORWARD_PLAIN, origin);
     push_clip(&draw, clip);
     for (uint32_t i = 0; i < scene->instance_count; i++) {
-        const struct host_material *material = material_of(scene, i);
+        const struct host_material *material = host_instance_material(scene, i);
         if (material->casts_shadow && host_frustum_sees(frustum, &scene->instances[i]))
             host_draw_instance(renderer, &draw, i,
                                material->shadow_test ? pipelines->shadow_tested : pipelines->shadow_solid);
@@ -138,9 +125,9 @@ void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd)
     camera_frustum(&renderer->camera, &frustum);
     push_clip(&draw, &renderer->camera.clip[0][0]);
     for (uint32_t i = 0; i < scene->instance_count; i++) {
-        if (!(material_of(scene, i)->flags & HOST_MATERIAL_BLEND) &&
+        if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) &&
             host_frustum_sees(&frustum, &scene->instances[i]))
-            host_draw_instance(renderer, &draw, i, renderer->pipelines.prepass[cull_of(scene, i)]);
+            host_draw_instance(renderer, &draw, i, renderer->pipelines.prepass[host_instance_cull(scene, i)]);
     }
 }
 
@@ -151,7 +138,7 @@ static uint32_t sort_blended(struct host_renderer *renderer, const struct host_f
     uint32_t *order = renderer->blend_order, count = 0;
     double *distance = renderer->blend_distance;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
-        if (!(material_of(scene, i)->flags & HOST_MATERIAL_BLEND) ||
+        if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) ||
             !host_frustum_sees(frustum, &scene->instances[i]))
             continue;
         double to_center[3];
@@ -180,7 +167,7 @@ void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDe
     const struct host_scene *scene = renderer->scene;
     const struct host_pipelines *pipelines = &renderer->pipelines;
     const VkDescriptorSet gi_set = host_gi_set(renderer->gi);
-    const enum host_forward kind = gi_set ? HOST_FORWARD_GI : HOST_FORWARD_PLAIN;
+    const enum host_forward kind = host_forward_kind(renderer);
     struct host_draw_context draw = draw_begin(renderer, cmd, kind, renderer->camera.origin);
     struct host_frustum frustum;
     camera_frustum(&renderer->camera, &frustum);
@@ -198,9 +185,9 @@ void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDe
     push_clip(&draw, &renderer->camera.clip[0][0]);
 
     for (uint32_t i = 0; i < scene->instance_count; i++) {
-        if (!(material_of(scene, i)->flags & HOST_MATERIAL_BLEND) &&
+        if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) &&
             host_frustum_sees(&frustum, &scene->instances[i]))
-            host_draw_instance(renderer, &draw, i, pipelines->opaque[kind][cull_of(scene, i)]);
+            host_draw_instance(renderer, &draw, i, pipelines->opaque[kind][host_instance_cull(scene, i)]);
     }
 
     /* Depth, normals and albedo of what is behind glass say more than those of the glass. */
@@ -208,6 +195,7 @@ void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDe
         renderer->shown <= HOST_AOV_DIFFUSE_INDIRECT ? sort_blended(renderer, &frustum) : 0;
     for (uint32_t i = 0; i < blended; i++) {
         const uint32_t instance = renderer->blend_order[i];
-        host_draw_instance(renderer, &draw, instance, pipelines->blend[kind][cull_of(scene, instance)]);
+        host_draw_instance(renderer, &draw, instance,
+                           pipelines->blend[kind][host_instance_cull(scene, instance)]);
     }
 }

@@ -173,8 +173,8 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
     const struct host_targets *targets = &renderer->targets;
     VkCommandBuffer cmd = slot->cmd;
 
-    /* Let the library do its share. */
-    if (update_gi && !gi_record(renderer, cmd)) {
+    /* Let the library do its share. GI may have been switched since the last frame. */
+    if ((update_gi && !gi_record(renderer, cmd)) || !host_forward_prepare(renderer)) {
         vkEndCommandBuffer(cmd);
         return false;
     }

@@ -142,8 +142,8 @@ static bool lighting_register(struct host_gi *gi, const struct host_scene *scene
 
 static bool scene_register(struct host_gi *gi, const struct host_scene *scene)
 {
-    sdfgi_material *materials = host_alloc(gi->device, scene->material_count, sizeof(*materials));
-    sdfgi_mesh *meshes = host_alloc(gi->device, scene->primitive_count, sizeof(*meshes));
+    sdfgi_material *materials = host_device_alloc(gi->device, scene->material_count, sizeof(*materials));
+    sdfgi_mesh *meshes = host_device_alloc(gi->device, scene->primitive_count, sizeof(*meshes));
     const bool ok = materials && meshes && materials_register(gi, scene, materials) &&
                     geometry_register(gi, scene, materials, meshes) && lighting_register(gi, scene);
     free(materials);
@@ -162,6 +162,7 @@ static bool context_create(struct host_gi *gi, const struct host_renderer_desc *
                     .get_instance_proc_addr = vkGetInstanceProcAddr },
         .frames_in_flight = frames_in_flight,
         .log = { message_received, gi },
+        .pipeline_cache = gi->device->cache.handle,
     };
     return gi_check(gi, sdfgi_create(&info, &gi->context), "creating the context") &&
            (!desc->settings || host_gi_set_settings(gi, desc->settings));
@@ -170,7 +171,7 @@ static bool context_create(struct host_gi *gi, const struct host_renderer_desc *
 struct host_gi *host_gi_create(struct host_device *device, const struct host_scene *scene,
                                const struct host_renderer_desc *desc, uint32_t frames_in_flight)
 {
-    struct host_gi *gi = host_alloc(device, 1, sizeof(*gi));
+    struct host_gi *gi = host_device_alloc(device, 1, sizeof(*gi));
     if (!gi)
         return NULL;
     gi->device = device;

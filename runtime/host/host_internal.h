@@ -11,7 +11,16 @@
 
 #define HOST_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* ---- Device (host_device.c, host_resource.c) -------------------------------------------------------- */
+/* ---- Device (host_device.c, host_cache.c, host_resource.c)
+ * -------------------------------------------------- */
+
+/* Pipelines kept on disk (host_cache.c). */
+struct host_cache {
+    VkPipelineCache handle;  /* VK_NULL_HANDLE: none is kept */
+    char path[1024];         /* of the file */
+    uint64_t saved_checksum; /* of what the file holds; size 0: nothing that could be used */
+    size_t saved_size;
+};
 
 struct host_device {
     VkInstance instance;
@@ -23,6 +32,7 @@ struct host_device {
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
+    struct host_cache cache;
     bool anisotropy;
     VkFormat hdr_format;     /* RGBA32F where it can be blended, else RGBA16F */
     uint64_t timestamp_mask; /* valid bits of the queue's timestamps; 0: none */
@@ -31,12 +41,17 @@ struct host_device {
     char error[256];
 };
 
+/* Makes the device's cache and fills it from the file in `folder`; NULL: no cache. */
+void host_cache_init(struct host_device *device, const char *folder);
+/* Writes what has changed, and destroys the cache. */
+void host_cache_finish(struct host_device *device);
+
 /* Records the failure and returns false unless `result` is a success. */
 bool host_check(struct host_device *device, VkResult result, const char *what);
 /* Records a formatted failure and returns false. */
 bool host_fail(struct host_device *device, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* calloc that records its failure. */
-void *host_alloc(struct host_device *device, size_t count, size_t size);
+void *host_device_alloc(struct host_device *device, size_t count, size_t size);
 
 struct host_buffer {
     VkBuffer buffer;
@@ -147,6 +162,10 @@ struct host_scene {
     double center[3], radius; /* of everything drawn; the centre in whole 1/64 m */
 };
 
+const struct host_material *host_instance_material(const struct host_scene *scene, uint32_t instance);
+/* Single-sided faces are invisible from behind; a mirrored instance turns its triangles round. */
+enum host_cull host_instance_cull(const struct host_scene *scene, uint32_t instance);
+
 /* Makes image and sampler of a texture reference; `view` gets a white texel where there is none. */
 bool host_textures_get(struct host_device *device, struct host_textures *textures,
                        const struct gltf_scene *gltf, const struct gltf_texture_ref *ref, bool srgb,
@@ -190,8 +209,10 @@ struct host_pipelines {
         layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI]; plain also for all but forward */
     VkPipelineLayout post_pipeline_layout;
     VkPipeline prepass[HOST_CULL_COUNT];
+    /* Those that the scene needs, once they are wanted. */
     VkPipeline opaque[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
     VkPipeline blend[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
+    bool forward_made[HOST_FORWARD_COUNT];
     VkPipeline shadow_solid, shadow_tested;
     VkPipeline sky, exposure, tonemap;
 };
@@ -319,6 +340,12 @@ struct host_frustum {
     uint32_t count;
     double origin[3];
 };
+
+/* The forward pipelines of frames as things are: with GI's lookup or without. */
+enum host_forward host_forward_kind(const struct host_renderer *renderer);
+/* Makes those that the scene needs and that are missing. Drivers compile the lookup for long, so that
+ * pipelines of the other kind, or for materials that the scene lacks, would cost every start seconds. */
+bool host_forward_prepare(struct host_renderer *renderer);
 
 bool host_frustum_sees(const struct host_frustum *frustum, const struct host_instance *instance);
 

@@ -55,8 +55,8 @@ static void file_light_add(struct host_scene *scene, const struct gltf_light *in
 bool host_lights_init(struct host_scene *scene, const struct gltf_scene *gltf, const struct host_view *view)
 {
     const size_t capacity = (size_t)gltf->light_count + view->light_count + 1;
-    scene->suns = host_alloc(scene->device, capacity, sizeof(*scene->suns));
-    scene->lights = host_alloc(scene->device, capacity, sizeof(*scene->lights));
+    scene->suns = host_device_alloc(scene->device, capacity, sizeof(*scene->suns));
+    scene->lights = host_device_alloc(scene->device, capacity, sizeof(*scene->lights));
     if (!scene->suns || !scene->lights)
         return false;
     if (view->sun.enabled)

@@ -206,7 +206,7 @@ bool host_materials_init(struct host_scene *scene, const struct gltf_scene *gltf
     const VkDeviceSize align = device->limits.minUniformBufferOffsetAlignment;
     const VkDeviceSize stride = (sizeof(struct host_material_data) + align - 1) / align * align;
     scene->material_count = gltf->material_count;
-    scene->materials = host_alloc(device, gltf->material_count, sizeof(*scene->materials));
+    scene->materials = host_device_alloc(device, gltf->material_count, sizeof(*scene->materials));
     if (!scene->materials || !host_textures_init(device, &scene->textures, gltf) || !layout_create(scene) ||
         !pool_create(scene) ||
         !host_buffer_create(device, stride * gltf->material_count,

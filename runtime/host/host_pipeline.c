@@ -76,28 +76,35 @@ static VkPipelineColorBlendAttachmentState blend_state(bool blend)
     };
 }
 
+/* The same for every graphics pipeline. */
+static const VkPipelineInputAssemblyStateCreateInfo triangle_list = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+};
+static const VkPipelineViewportStateCreateInfo one_viewport = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1
+};
+static const VkPipelineMultisampleStateCreateInfo one_sample = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+    .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
+};
+static const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR };
+static const VkPipelineDynamicStateCreateInfo dynamic_state = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+    .dynamicStateCount = HOST_COUNT(dynamic_states),
+    .pDynamicStates = dynamic_states,
+};
+
 static bool pipeline_build(struct host_device *device, const struct pipeline_desc *desc,
                            const VkPipelineShaderStageCreateInfo *stages, uint32_t stage_count,
                            VkPipeline *out)
 {
-    static const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR };
     const VkPipelineVertexInputStateCreateInfo input = vertex_input(desc->vertices);
-    const VkPipelineInputAssemblyStateCreateInfo assembly = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-    };
-    const VkPipelineViewportStateCreateInfo viewport = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1
-    };
     const VkPipelineRasterizationStateCreateInfo raster = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
         .cullMode = desc->cull,
         .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .lineWidth = 1.0f,
-    };
-    const VkPipelineMultisampleStateCreateInfo samples = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
     };
     const VkPipelineDepthStencilStateCreateInfo depth = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
@@ -111,27 +118,23 @@ static bool pipeline_build(struct host_device *device, const struct pipeline_des
         .attachmentCount = desc->has_color ? 1 : 0,
         .pAttachments = &attachment,
     };
-    const VkPipelineDynamicStateCreateInfo dynamic = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-        .dynamicStateCount = HOST_COUNT(dynamic_states),
-        .pDynamicStates = dynamic_states,
-    };
     const VkGraphicsPipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
         .stageCount = stage_count,
         .pStages = stages,
         .pVertexInputState = &input,
-        .pInputAssemblyState = &assembly,
-        .pViewportState = &viewport,
+        .pInputAssemblyState = &triangle_list,
+        .pViewportState = &one_viewport,
         .pRasterizationState = &raster,
-        .pMultisampleState = &samples,
+        .pMultisampleState = &one_sample,
         .pDepthStencilState = &depth,
         .pColorBlendState = &blend,
-        .pDynamicState = &dynamic,
+        .pDynamicState = &dynamic_state,
         .layout = desc->layout,
         .renderPass = desc->pass,
     };
-    return host_check(device, vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, out),
+    return host_check(device,
+                      vkCreateGraphicsPipelines(device->device, device->cache.handle, 1, &info, NULL, out),
                       "creating a graphics pipeline");
 }
 
@@ -235,27 +238,44 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
     return true;
 }
 
-static bool forward_create(struct host_device *device, const struct host_passes *passes,
-                           enum host_forward kind, struct host_pipelines *p)
+static bool forward_create(struct host_renderer *renderer, enum host_forward kind, enum host_cull cull,
+                           bool blend, VkPipeline *out)
 {
-    for (int cull = 0; cull < HOST_CULL_COUNT; cull++) {
-        struct pipeline_desc desc = { .vertex = SHADER(host_surface_vert),
-                                      .fragment = kind == HOST_FORWARD_GI ? SHADER(host_forward_gi_frag)
-                                                                          : SHADER(host_forward_frag),
-                                      .layout = p->layouts[kind],
-                                      .pass = passes->forward,
-                                      .vertices = true,
-                                      .has_color = true,
-                                      .has_depth = true,
-                                      .compare = VK_COMPARE_OP_EQUAL,
-                                      .cull = cull_modes[cull] };
-        if (!pipeline_create(device, &desc, &p->opaque[kind][cull]))
-            return false;
-        desc.blend = true;
-        desc.compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        if (!pipeline_create(device, &desc, &p->blend[kind][cull]))
+    const struct pipeline_desc desc = {
+        .vertex = SHADER(host_surface_vert),
+        .fragment = kind == HOST_FORWARD_GI ? SHADER(host_forward_gi_frag) : SHADER(host_forward_frag),
+        .layout = renderer->pipelines.layouts[kind],
+        .pass = renderer->passes.forward,
+        .vertices = true,
+        .has_color = true,
+        .has_depth = true,
+        .blend = blend,
+        .compare = blend ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_EQUAL,
+        .cull = cull_modes[cull],
+    };
+    return pipeline_create(renderer->device, &desc, out);
+}
+
+enum host_forward host_forward_kind(const struct host_renderer *renderer)
+{
+    return host_gi_set(renderer->gi) ? HOST_FORWARD_GI : HOST_FORWARD_PLAIN;
+}
+
+bool host_forward_prepare(struct host_renderer *renderer)
+{
+    struct host_pipelines *p = &renderer->pipelines;
+    const struct host_scene *scene = renderer->scene;
+    const enum host_forward kind = host_forward_kind(renderer);
+    if (p->forward_made[kind])
+        return true;
+    for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const enum host_cull cull = host_instance_cull(scene, i);
+        const bool blend = host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND;
+        VkPipeline *pipeline = blend ? &p->blend[kind][cull] : &p->opaque[kind][cull];
+        if (!*pipeline && !forward_create(renderer, kind, cull, blend, pipeline))
             return false;
     }
+    p->forward_made[kind] = true;
     return true;
 }
 
@@ -313,9 +333,9 @@ bool host_pipeline_compute_create(struct host_device *device, const uint32_t *wo
                    .pName = "main" },
         .layout = layout,
     };
-    const bool ok =
-        host_check(device, vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, out),
-                   "creating a compute pipeline");
+    const bool ok = host_check(
+        device, vkCreateComputePipelines(device->device, device->cache.handle, 1, &info, NULL, out),
+        "creating a compute pipeline");
     vkDestroyShaderModule(device->device, module, NULL);
     return ok;
 }
@@ -325,10 +345,8 @@ bool host_pipelines_init(struct host_device *device, const struct host_passes *p
                          struct host_pipelines *pipelines)
 {
     return layouts_create(device, material_layout, gi_layout, pipelines) &&
-           prepass_create(device, passes, pipelines) &&
-           forward_create(device, passes, HOST_FORWARD_PLAIN, pipelines) &&
-           forward_create(device, passes, HOST_FORWARD_GI, pipelines) &&
-           shadow_create(device, passes, pipelines) && sky_create(device, passes, pipelines) &&
+           prepass_create(device, passes, pipelines) && shadow_create(device, passes, pipelines) &&
+           sky_create(device, passes, pipelines) &&
            host_pipeline_compute_create(device, host_exposure_comp, sizeof(host_exposure_comp),
                                         pipelines->post_pipeline_layout, &pipelines->exposure) &&
            host_pipeline_tonemap_create(device, pipelines, passes->picture, &pipelines->tonemap);

@@ -38,7 +38,7 @@ static float *samples_read(struct host_renderer *renderer)
 {
     const struct host_image *hdr = &renderer->targets.hdr;
     const size_t count = (size_t)4 * hdr->width * hdr->height;
-    float *samples = host_alloc(renderer->device, count, sizeof(float));
+    float *samples = host_device_alloc(renderer->device, count, sizeof(float));
     const bool half = hdr->format == VK_FORMAT_R16G16B16A16_SFLOAT;
     if (!samples || !host_image_download(renderer->device, hdr, half ? 8 : 16, samples)) {
         free(samples);

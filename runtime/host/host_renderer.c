@@ -245,8 +245,8 @@ static bool post_init(struct host_renderer *renderer)
 static bool scratch_init(struct host_renderer *renderer)
 {
     const uint32_t count = renderer->scene->instance_count;
-    renderer->blend_order = host_alloc(renderer->device, count, sizeof(*renderer->blend_order));
-    renderer->blend_distance = host_alloc(renderer->device, count, sizeof(*renderer->blend_distance));
+    renderer->blend_order = host_device_alloc(renderer->device, count, sizeof(*renderer->blend_order));
+    renderer->blend_distance = host_device_alloc(renderer->device, count, sizeof(*renderer->blend_distance));
     return renderer->blend_order && renderer->blend_distance;
 }
 
@@ -276,7 +276,7 @@ static bool renderer_init(struct host_renderer *r, const struct host_renderer_de
         if (!slot_init(r, &r->slots[i]))
             return false;
     }
-    return host_targets_init(r);
+    return host_targets_init(r) && host_forward_prepare(r);
 }
 
 struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,
@@ -285,7 +285,7 @@ struct host_renderer *host_renderer_create(struct host_device *device, struct ho
     const uint32_t supersample = desc->supersample > 0 ? desc->supersample : 1;
     if (!desc_valid(device, desc, supersample))
         return NULL;
-    struct host_renderer *renderer = host_alloc(device, 1, sizeof(*renderer));
+    struct host_renderer *renderer = host_device_alloc(device, 1, sizeof(*renderer));
     if (!renderer)
         return NULL;
     renderer->device = device;

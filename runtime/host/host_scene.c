@@ -73,15 +73,15 @@ static bool geometry_init(struct host_scene *scene, const struct gltf_scene *glt
 {
     const uint32_t white_vertices = white_count(gltf);
     struct packer packer = { 0 };
-    float *white = host_alloc(scene->device, white_vertices, 4 * sizeof(float));
+    float *white = host_device_alloc(scene->device, white_vertices, 4 * sizeof(float));
     scene->primitive_count = gltf->primitive_count;
-    scene->primitives = host_alloc(scene->device, gltf->primitive_count, sizeof(*scene->primitives));
+    scene->primitives = host_device_alloc(scene->device, gltf->primitive_count, sizeof(*scene->primitives));
     bool ok = white && scene->primitives;
     if (ok) {
         for (size_t i = 0; i < (size_t)4 * white_vertices; i++)
             white[i] = 1.0f;
         pack_scene(&packer, scene, gltf, white, white_vertices);
-        packer.bytes = host_alloc(scene->device, packer.size, 1);
+        packer.bytes = host_device_alloc(scene->device, packer.size, 1);
         ok = packer.bytes != NULL;
     }
     if (ok) {
@@ -141,7 +141,7 @@ static void scene_bound(struct host_scene *scene)
 
 static bool instances_init(struct host_scene *scene, const struct gltf_scene *gltf)
 {
-    scene->instances = host_alloc(scene->device, gltf->instance_count, sizeof(*scene->instances));
+    scene->instances = host_device_alloc(scene->device, gltf->instance_count, sizeof(*scene->instances));
     if (!scene->instances)
         return false;
     for (uint32_t i = 0; i < gltf->instance_count; i++) {
@@ -158,10 +158,22 @@ static bool instances_init(struct host_scene *scene, const struct gltf_scene *gl
     return true;
 }
 
+const struct host_material *host_instance_material(const struct host_scene *scene, uint32_t instance)
+{
+    return &scene->materials[scene->primitives[scene->instances[instance].primitive].material];
+}
+
+enum host_cull host_instance_cull(const struct host_scene *scene, uint32_t instance)
+{
+    if (host_instance_material(scene, instance)->double_sided)
+        return HOST_CULL_NONE;
+    return scene->instances[instance].mirrored ? HOST_CULL_FRONT : HOST_CULL_BACK;
+}
+
 struct host_scene *host_scene_create(struct host_device *device, const struct gltf_scene *gltf,
                                      const struct host_view *view)
 {
-    struct host_scene *scene = host_alloc(device, 1, sizeof(*scene));
+    struct host_scene *scene = host_device_alloc(device, 1, sizeof(*scene));
     if (!scene)
         return NULL;
     scene->device = device;

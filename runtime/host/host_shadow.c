@@ -119,8 +119,8 @@ bool host_shadows_init(struct host_renderer *renderer)
     const struct host_scene *scene = renderer->scene;
     budget_split(scene, &s->cube_runs, &s->single_runs);
     s->layer_count = CUBE_FACES * s->cube_runs + s->single_runs;
-    s->light_layer = host_alloc(renderer->device, scene->light_count, sizeof(*s->light_layer));
-    s->wanted = host_alloc(renderer->device, scene->light_count, sizeof(*s->wanted));
+    s->light_layer = host_device_alloc(renderer->device, scene->light_count, sizeof(*s->light_layer));
+    s->wanted = host_device_alloc(renderer->device, scene->light_count, sizeof(*s->wanted));
     for (int i = 0; i < HOST_MAX_LAYERS; i++)
         s->run_light[i] = -1;
     for (uint32_t i = 0; i < scene->light_count && s->light_layer; i++)

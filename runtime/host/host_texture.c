@@ -144,7 +144,7 @@ bool host_textures_init(struct host_device *device, struct host_textures *textur
 {
     static uint8_t white[4] = { 255, 255, 255, 255 };
     textures->image_count = gltf->image_count;
-    textures->images = host_alloc(device, (size_t)2 * gltf->image_count, sizeof(*textures->images));
+    textures->images = host_device_alloc(device, (size_t)2 * gltf->image_count, sizeof(*textures->images));
     return textures->images &&
            texture_create(device, &(struct gltf_image){ .width = 1, .height = 1, .texels = white }, false,
                           &textures->white);

@@ -29,7 +29,7 @@ static uint32_t *words_read(struct host_renderer *renderer, uint32_t cascade, en
     struct host_buffer staging;
     if (!host_buffer_create(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true, &staging))
         return NULL;
-    uint32_t *words = host_alloc(device, bytes, 1);
+    uint32_t *words = host_device_alloc(device, bytes, 1);
     VkCommandBuffer cmd = words ? host_commands_begin(device) : VK_NULL_HANDLE;
     bool ok = cmd && sdfgi_inspect_copy(gi, cmd, cascade, volume, staging.buffer, 0) == SDFGI_OK;
     ok = cmd && host_commands_finish(device, cmd) && ok;
@@ -72,8 +72,8 @@ static bool cascade_read(struct host_renderer *renderer, uint32_t cascade, struc
         return host_fail(renderer->device, "the library has no cascade %u", cascade);
     const size_t n = out->where.resolution;
     uint32_t *words[SDFGI_VOLUME_COUNT] = { 0 };
-    out->bits = host_alloc(renderer->device, n * n * n, sizeof(*out->bits));
-    out->blocks = host_alloc(renderer->device, n * n * n / 8, sizeof(*out->blocks));
+    out->bits = host_device_alloc(renderer->device, n * n * n, sizeof(*out->bits));
+    out->blocks = host_device_alloc(renderer->device, n * n * n / 8, sizeof(*out->blocks));
     bool ok = out->bits && out->blocks;
     for (int i = 0; i < SDFGI_VOLUME_COUNT && ok; i++) {
         words[i] = words_read(renderer, cascade, (enum sdfgi_volume)i);

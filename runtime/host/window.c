@@ -354,6 +354,7 @@ static bool window_run(struct window *window, const struct host_window_desc *des
     glfwSetKeyCallback(window->glfw, key_received);
     glfwSetFramebufferSizeCallback(window->glfw, size_changed);
     const struct host_device_desc device = { .select = desc->device_select,
+                                             .cache_folder = desc->cache_folder,
                                              .validation = desc->validation,
                                              .instance_extensions = extensions,
                                              .instance_extension_count = count };

@@ -21,9 +21,9 @@ float brdf_fresnel_weight(float cosine)
     return x * x * x * x * x;
 }
 
-/* Share of light that the interface above the Lambertian part lets through. That part is dielectric whatever the
- * material's metalness, which only takes area from it; and the share depends on the view alone, so that light from lamps
- * and from everywhere is treated alike, here as in the references (Lambert times 1 - F). */
+/* Share of light that the interface above the Lambertian part lets through. That part is dielectric whatever
+ * the material's metalness, which only takes area from it; and the share depends on the view alone, so that
+ * light from lamps and from everywhere is treated alike, here as in the references (Lambert times 1 - F). */
 float brdf_diffuse_transmission(brdf_surface s)
 {
     if (s.specular == 0.0)

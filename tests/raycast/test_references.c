@@ -5,8 +5,8 @@
 #include "scenes.h"
 #include "ztest.h"
 
-#include "image.h"
-#include "view_file.h"
+#include "image/image.h"
+#include "view/view_file.h"
 
 #include <math.h>
 #include <stdio.h>

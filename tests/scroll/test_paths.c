@@ -5,7 +5,7 @@
  *     test_scroll_paths walk.json flight.json */
 #include "require.h"
 #include "schedule_drive.h"
-#include "walk_path.h"
+#include "walk/walk_path.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "unit.h"
 
-#include "compare.h"
-#include "flip.h"
-#include "tone.h"
+#include "compare/compare.h"
+#include "image/flip.h"
+#include "image/tone.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 #include "files.h"
 #include "unit.h"
 
-#include "image.h"
-#include "output_file.h"
+#include "file/output_file.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <stdio.h>

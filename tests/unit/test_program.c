@@ -131,6 +131,15 @@ static void without_a_vulkan_device_info_says_so(void **state)
     assert_non_null(strstr(run.out, "total"));
 }
 
+static void listing_devices_leaves_nothing_behind(void **state)
+{
+    (void)state;
+    const struct run run = run_program("SDFGI_VALIDATION=1", "info");
+    if (run.code != 0)
+        skip();
+    assert_string_equal(run.err, "");
+}
+
 static void every_command_has_help(void **state)
 {
     (void)state;
@@ -160,6 +169,52 @@ static void a_picture_compared_with_itself_has_no_error(void **state)
     assert_non_null(strstr(run.out, "\"flip\":\t0"));
 }
 
+static void assert_renders(const char *environment, const char *picture)
+{
+    char arguments[256];
+    snprintf(arguments, sizeof arguments, "render tiny.gltf --gi off --size 8x8 --frames 1 --quiet --out %s",
+             picture);
+    /* Mesa keeps compiled shaders too, and does so apart: only the first picture has to wait for them. */
+    setenv("MESA_SHADER_CACHE_DIR", files_path("mesa"), 1);
+    const struct run run = run_program(environment, arguments);
+    unsetenv("MESA_SHADER_CACHE_DIR");
+    assert_string_equal(run.err, "");
+    assert_int_equal(run.code, 0);
+}
+
+static void run_in_folder(const char *command)
+{
+    char line[512];
+    snprintf(line, sizeof line, "cd %s && %s", files_path(""), command);
+    assert_int_equal(system(line), 0);
+}
+
+static void a_picture_needs_no_cache_and_a_damaged_one_is_no_harm(void **state)
+{
+    (void)state;
+    if (run_program("", "info").code != 0)
+        skip();
+    files_write_text(
+        "tiny.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}]}");
+    assert_renders("XDG_CACHE_HOME=$PWD/cache", "first.png");
+    run_in_folder("test $(ls cache/sdfgi | wc -l) = 1");
+    run_in_folder("echo rubbish >$(ls -d cache/sdfgi/*)");
+    assert_renders("XDG_CACHE_HOME=$PWD/cache", "second.png");
+    run_in_folder("test $(ls cache/sdfgi | wc -l) = 1 && ! grep -q rubbish cache/sdfgi/*");
+    run_in_folder("rm -r cache && mkdir cache && touch cache/sdfgi");
+    assert_renders("XDG_CACHE_HOME=$PWD/cache", "third.png");
+    assert_renders("env -u HOME -u XDG_CACHE_HOME", "fourth.png");
+    run_in_folder("cmp first.png second.png && cmp first.png third.png && cmp first.png fourth.png");
+    run_in_folder("rm -rf cache mesa *.png tiny.gltf");
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2)
@@ -168,8 +223,10 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_input_gives_one_line_and_no_file),
         cmocka_unit_test(without_a_vulkan_device_info_says_so),
+        cmocka_unit_test(listing_devices_leaves_nothing_behind),
         cmocka_unit_test(every_command_has_help),
         cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
+        cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),
     };
     return cmocka_run_group_tests(tests, make_files, files_teardown);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "unit.h"
 
-#include "property_docs.h"
+#include "cli/property_docs.h"
 
 #include <cJSON.h>
 #include <sdfgi/settings.h>

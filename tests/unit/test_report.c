@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "unit.h"
 
-#include "report.h"
+#include "report/report.h"
 
 #include <stdlib.h>
 #include <string.h>

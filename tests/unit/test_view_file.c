@@ -2,7 +2,7 @@
 #include "files.h"
 #include "unit.h"
 
-#include "view_file.h"
+#include "view/view_file.h"
 
 #include <math.h>
 #include <modules/gltf/gltf_scene.h>

@@ -3,7 +3,7 @@
 #include "files.h"
 #include "unit.h"
 
-#include "walk_path.h"
+#include "walk/walk_path.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #include "files.h"
 #include "unit.h"
 
-#include "walk_report.h"
-#include "walk_sheet.h"
+#include "walk/walk_report.h"
+#include "walk/walk_sheet.h"
 
 #include <math.h>
 #include <stdio.h>

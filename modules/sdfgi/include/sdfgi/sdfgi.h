@@ -139,6 +139,12 @@ struct sdfgi_desc {
     const struct sdfgi_settings *settings; /* NULL: defaults, that is, disabled */
     struct sdfgi_log log;
     struct sdfgi_allocator allocator;
+    /* The host's; VK_NULL_HANDLE: none. Every pipeline of the context is made with it: by sdfgi_create,
+     * sdfgi_set_settings, sdfgi_material_create and sdfgi_gather. The cache is borrowed and must outlive the
+     * context. The host saves it and loads it. Vulkan wants no call to vkMergePipelineCaches into the cache
+     * during these functions; if VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT is set, no other
+     * thread may use the cache at all meanwhile. */
+    VkPipelineCache pipeline_cache;
 };
 
 typedef struct sdfgi sdfgi;

@@ -5,9 +5,9 @@
 
 #include "cli.h"
 #include "host/host.h"
-#include "walk_path.h"
-#include "walk_record.h"
-#include "walk_report.h"
+#include "walk/walk_path.h"
+#include "walk/walk_record.h"
+#include "walk/walk_report.h"
 
 /* What was asked for, all of it resolved and checked. */
 struct walk_order {

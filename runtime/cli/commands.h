@@ -9,6 +9,6 @@ int cmd_properties(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 int cmd_reference(int argc, char **argv); /* with the raycast feature */
 int cmd_walk(int argc, char **argv);
-int cmd_view(int argc, char **argv);      /* with the window feature */
+int cmd_view(int argc, char **argv); /* with the window feature */
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "image.h"
 #include "image_codec.h"
-#include "output_file.h"
+#include "file/output_file.h"
 
 #include <base/text.h>
 #include <errno.h>

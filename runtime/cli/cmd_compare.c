@@ -2,11 +2,11 @@
  * sdfgi compare: how far a picture is from its reference. */
 #include "cli.h"
 #include "commands.h"
-#include "compare.h"
-#include "flip.h"
-#include "json_write.h"
-#include "output_file.h"
-#include "tone.h"
+#include "compare/compare.h"
+#include "file/json_write.h"
+#include "file/output_file.h"
+#include "image/flip.h"
+#include "image/tone.h"
 
 #include <base/text.h>
 #include <cJSON.h>

@@ -2,7 +2,7 @@
  * The report as JSON. Each function adds everything and answers once, see json_write.h. */
 #include "report.h"
 
-#include "json_write.h"
+#include "file/json_write.h"
 
 #include <math.h>
 #include <stdlib.h>

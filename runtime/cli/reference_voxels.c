@@ -76,13 +76,9 @@ bool reference_voxels_read(const struct gltf_scene *gltf, const struct host_view
                            const struct sdfgi_settings *settings, const char *device,
                            struct reference_voxels *out)
 {
-    char error[CLI_ERROR_BYTES];
-    struct host_device *const opened =
-        host_device_create(&(struct host_device_desc){ .select = device }, error, sizeof error);
-    if (!opened) {
-        cli_error("%s", error);
+    struct host_device *const opened = run_open_device(device);
+    if (!opened)
         return false;
-    }
     bool ok = read_volumes(opened, gltf, view, settings, &out->volumes);
     host_device_destroy(opened);
     if (ok && !convert(out)) {

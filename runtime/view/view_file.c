@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "view_file.h"
 
-#include "json_read.h"
+#include "file/json_read.h"
 
 #include <base/vec.h>
 #include <stdio.h>

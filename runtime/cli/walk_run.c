@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "walk_run.h"
 
-#include "image.h"
 #include "run_options.h"
-#include "view_file.h"
-#include "walk_sheet.h"
+#include "image/image.h"
+#include "view/view_file.h"
+#include "walk/walk_sheet.h"
 
 #include <math.h>
 #include <modules/gltf/gltf_scene.h>
@@ -150,16 +150,6 @@ static bool write_sheet(struct run *run)
 
 /* ---- Offscreen -------------------------------------------------------------------------------------- */
 
-static bool start_device(struct run *run)
-{
-    char error[CLI_ERROR_BYTES];
-    run->device =
-        host_device_create(&(struct host_device_desc){ .select = run->order->device }, error, sizeof error);
-    if (!run->device)
-        cli_error("%s", error);
-    return run->device != NULL;
-}
-
 static struct host_renderer *start_renderer(struct run *run, bool gi)
 {
     const struct walk_order *order = run->order;
@@ -176,7 +166,8 @@ static struct host_renderer *start_renderer(struct run *run, bool gi)
 static bool start_offscreen(struct run *run)
 {
     const struct cli_size size = run->order->size;
-    if (!start_device(run))
+    run->device = run_open_device(run->order->device);
+    if (!run->device)
         return false;
     run->scene = host_scene_create(run->device, run->gltf, &run->view);
     run->on = run->scene ? start_renderer(run, true) : NULL;
@@ -304,6 +295,7 @@ static bool walk_in_window(struct run *run)
     char error[CLI_ERROR_BYTES];
     run->walking = order->hold == 0;
     const struct host_window_desc desc = { .device_select = order->device,
+                                           .cache_folder = run_cache_folder(),
                                            .gltf = run->gltf,
                                            .view = &run->view,
                                            .settings = &order->settings,

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "run_options.h"
 
-#include "output_file.h"
-#include "view_file.h"
+#include "file/cache_file.h"
+#include "file/output_file.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_BYTES = 64 };
+enum { NAME_BYTES = 64, CACHE_PATH_BYTES = 1024 };
 
 static const char name_prefix[] = "sdfgi_";
 
@@ -50,6 +51,22 @@ struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path,
     if (!view_path)
         view_file_from_scene(scene, view);
     return scene;
+}
+
+const char *run_cache_folder(void)
+{
+    static char folder[CACHE_PATH_BYTES];
+    return cache_folder(folder, sizeof folder) ? folder : NULL;
+}
+
+struct host_device *run_open_device(const char *select)
+{
+    char error[CLI_ERROR_BYTES];
+    const struct host_device_desc desc = { .select = select, .cache_folder = run_cache_folder() };
+    struct host_device *const device = host_device_create(&desc, error, sizeof error);
+    if (!device)
+        cli_error("%s", error);
+    return device;
 }
 
 bool run_check_output(const char *path)

@@ -2,9 +2,9 @@
  * sdfgi walk: a camera along a path, GI off and on, with what every frame cost. */
 #include "cli.h"
 #include "commands.h"
-#include "output_file.h"
 #include "run_options.h"
 #include "walk_run.h"
+#include "file/output_file.h"
 
 #include <base/text.h>
 #include <errno.h>

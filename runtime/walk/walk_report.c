@@ -2,7 +2,7 @@
  * The report of a walk. Each function adds everything and answers once, see json_write.h. */
 #include "walk_report.h"
 
-#include "json_write.h"
+#include "file/json_write.h"
 
 #include <stdlib.h>
 

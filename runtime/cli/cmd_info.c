@@ -2,8 +2,8 @@
  * sdfgi info: devices, whether the library runs on them and why not, and the memory that settings need. */
 #include "cli.h"
 #include "commands.h"
-#include "host/host.h"
 #include "run_options.h"
+#include "host/host.h"
 
 #include <inttypes.h>
 #include <stdio.h>

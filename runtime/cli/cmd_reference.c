@@ -2,11 +2,11 @@
  * sdfgi reference: path-traced ground truth. */
 #include "cli.h"
 #include "commands.h"
-#include "image.h"
-#include "output_file.h"
 #include "reference_voxels.h"
 #include "run_options.h"
-#include "view_file.h"
+#include "file/output_file.h"
+#include "image/image.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <modules/raycast/raycast.h>

@@ -2,9 +2,9 @@
  * sdfgi view: a glTF scene in a window. */
 #include "cli.h"
 #include "commands.h"
-#include "host/host.h"
 #include "run_options.h"
-#include "view_file.h"
+#include "host/host.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 
@@ -52,6 +52,7 @@ int cmd_view(int argc, char **argv)
     if (!gltf)
         return CLI_EXIT_FAILURE;
     const struct host_window_desc desc = { .device_select = options.device,
+                                           .cache_folder = run_cache_folder(),
                                            .gltf = gltf,
                                            .view = &view,
                                            .settings = &settings,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "compare.h"
 
-#include "tone.h"
+#include "image/tone.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #ifndef RUNTIME_WALK_REPORT_H
 #define RUNTIME_WALK_REPORT_H
 
-#include "report.h"
 #include "walk_record.h"
+#include "report/report.h"
 
 struct walk_summary {
     struct report_summary run; /* device, size, seconds, settings, memory; its exposure is not used */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * The plot of a walk. gnuplot reads its script, data included, from a file without a name and writes into
  * ours: no name of a file has to survive its quoting. */
-#include "output_file.h"
 #include "walk_report.h"
+#include "file/output_file.h"
 
 #include <base/text.h>
 #include <errno.h>

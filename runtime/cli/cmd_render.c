@@ -2,12 +2,12 @@
  * sdfgi render: a picture of a glTF scene, offscreen. */
 #include "cli.h"
 #include "commands.h"
-#include "host/host.h"
-#include "image.h"
-#include "output_file.h"
-#include "report.h"
 #include "run_options.h"
-#include "view_file.h"
+#include "file/output_file.h"
+#include "host/host.h"
+#include "image/image.h"
+#include "report/report.h"
+#include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
@@ -140,16 +140,12 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
 
 static bool start(struct run *run, const struct options *options)
 {
-    char error[CLI_ERROR_BYTES];
     run->gltf = run_load_scene(options->scene, options->view, &run->view);
     if (!run->gltf)
         return false;
-    run->device =
-        host_device_create(&(struct host_device_desc){ .select = options->device }, error, sizeof error);
-    if (!run->device) {
-        cli_error("%s", error);
+    run->device = run_open_device(options->device);
+    if (!run->device)
         return false;
-    }
     run->scene = host_scene_create(run->device, run->gltf, &run->view);
     const struct host_renderer_desc desc = { .width = options->size.width,
                                              .height = options->size.height,

@@ -4,7 +4,7 @@
 #define RUNTIME_RUN_OPTIONS_H
 
 #include "cli.h"
-#include "host/host_view.h"
+#include "host/host.h"
 
 #include <sdfgi/sdfgi.h>
 #include <stdbool.h>
@@ -18,6 +18,13 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
 /* Loads the scene, and the view from `view_path` or, if that is NULL, from the scene. Prints warnings, and
  * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);
+
+/* A device by its index or a part of its name; NULL: the best one. Prints one line and returns NULL on
+ * failure. */
+struct host_device *run_open_device(const char *select);
+
+/* Where compiled pipelines are kept for the next run; NULL if the user has no such folder. */
+const char *run_cache_folder(void);
 
 /* True if a file can be written there; else prints one line. */
 bool run_check_output(const char *path);

@@ -3,7 +3,7 @@
 #ifndef RUNTIME_COMPARE_H
 #define RUNTIME_COMPARE_H
 
-#include "image.h"
+#include "image/image.h"
 
 /* relMSE divides by reference^2 + this (Rousselle et al. 2011), so that black pixels do not decide. */
 #define COMPARE_RELMSE_EPSILON 0.01

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "compare.h"
 
-#include "flip.h"
-#include "tone.h"
+#include "image/flip.h"
+#include "image/tone.h"
 
 #include <base/arena.h>
 #include <base/text.h>

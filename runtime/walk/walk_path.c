@@ -2,7 +2,7 @@
  * Camera paths: the file. walk_curve.c measures the curve. */
 #include "walk_curve.h"
 
-#include "json_read.h"
+#include "file/json_read.h"
 
 #include <base/text.h>
 #include <math.h>
