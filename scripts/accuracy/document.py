@@ -128,7 +128,8 @@ def scene_text(scene, note):
     if known is not None:
         traced = scene["measures"]["renderer/triangles"]["picture"]["reference_mean"]
         text += f" (known radiance {known:.5g}; truth {traced:.5g})"
-    text += f". {scene['run']['frames']} frames, {'settled' if scene['run']['converged'] else 'not settled'}."
+    state = "converged" if scene["run"]["converged"] else "not converged"
+    text += f". {scene['run']['frames']} frames, {state}."
     out = outside(scene)
     if out:
         text += " Outside the bounds: " + " and ".join(PARTS[part] for part in out) + "."
@@ -137,36 +138,42 @@ def scene_text(scene, note):
     return "\n".join(lines)
 
 
-HOW = """Made by
+HOW = """This page is made by
 
 ```
 scripts/accuracy.sh --docs docs --spp {spp} --error {error}{finer}
 ```
 
-on {device}, {size} pixels of {samples} samples each, frames: {frames}{settings}. The truth is the path tracer's, {spp} samples
-a pixel or a mean relative standard error of {error}, whichever is first.
+on {device}, with {size} pixels of {samples} samples each; frames: {frames}{settings}. The truth is the path
+tracer's, with {spp} samples a pixel or a mean relative standard error of {error}, whichever is first.
 
-*Ratio* is mean luminance over mean luminance; *relMSE* the mean of (a - b)^2 / (b^2 + 0.01); *FLIP* the mean perceived
-difference at 67 pixels per degree after the tone curve of `sdfgi compare`; *p99* the relative error that one pixel in a hundred
-exceeds. *Indirect light* is what leaves the diffuse part of the surfaces that the camera sees, without that from sun and lamps.
+- *Ratio* is mean luminance over mean luminance.
+- *relMSE* is the mean of (a - b)^2 / (b^2 + 0.01).
+- *FLIP* is the mean perceived difference at 67 pixels per degree after the tone curve of `sdfgi compare`.
+- *p99* is the relative error that one pixel in a hundred exceeds.
+- *Indirect light* is what leaves the diffuse part of the surfaces that the camera sees, without that from sun
+  and lamps.
 """
 
 ALL = """*All* compares the renderer with the truth over triangles."""
 
-FINER = """*Finer* is the same with cells, and distances between probes, of half the edge (`sdfgi_min_cell_size=0.1`,
-`sdfgi_resolution=256`)."""
+FINER = """*Finer* is the same with half the cell size, and so half the probe spacing
+(`sdfgi_min_cell_size=0.1`, `sdfgi_resolution=256`)."""
 
-SPLIT = """*Transport* compares the renderer with the truth over voxels: the same path tracer, in which every ray but the camera's
-meets what the renderer's rays meet. *Voxels* compares the two truths."""
+SPLIT = """*Transport* compares the renderer with the truth over voxels. That is the same path tracer, in which every
+ray but the camera's meets what the renderer's rays meet. *Voxels* compares the two truths."""
 
-LEAK = """The closed room is black in truth; a leak is the mean of its indirect light over that of the lit room (`{lit}`).
+LEAK = """The closed room is black in truth. A leak is the mean of its indirect light over that of the lit room
+(`{lit}`).
 """
+
+STRIPS = """Left is the renderer, in the middle the truth, right FLIP's error from black (0) to pale yellow (1)."""
 
 
 def how(results):
     options = results["options"]
     settings = ", " + ", ".join(f"`{pair}`" for pair in options["set"]) if options["set"] else ""
-    frames = "as many as it takes to settle" if options["frames"] == "converged" else options["frames"]
+    frames = "as many as it takes to converge" if options["frames"] == "converged" else options["frames"]
     return HOW.format(
         device=results["device"],
         size=options["size"],
@@ -185,7 +192,7 @@ def text(results):
     legend = [ALL] + [FINER] * results["options"]["finer"] + [SPLIT] * results["voxels"]
     parts += ["## Indirect light", "\n".join(legend), indirect_table(results)]
     parts += ["## Leaks", LEAK.format(lit="two_rooms_lit"), leak_table(results), "## Scene by scene"]
-    parts += ["Left the renderer, in the middle the truth, right FLIP's error from black (0) to pale yellow (1)."]
+    parts += [STRIPS]
     for scene in results["scenes"]:
         note = notes.get(scene["name"], "")
         if outside(scene) and not note:
