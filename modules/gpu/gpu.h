@@ -65,6 +65,7 @@
     X(DestroyRenderPass)                                                                                        \
     X(DestroySampler)                                                                                           \
     X(DestroyShaderModule)                                                                                      \
+    X(FlushMappedMemoryRanges)                                                                                  \
     X(FreeDescriptorSets)                                                                                       \
     X(FreeMemory)                                                                                               \
     X(GetBufferMemoryRequirements)                                                                              \
@@ -128,6 +129,9 @@ enum gpu_placement { GPU_DEVICE_LOCAL, GPU_HOST_READ };
 VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
                          VkBufferUsageFlags usage, enum gpu_placement placement, const char *name);
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer);
+
+/* Fills a host-visible buffer with zeros that the device sees in all work submitted later. */
+VkResult gpu_buffer_zero(const struct gpu_device *device, const struct gpu_buffer *buffer);
 
 /* Makes what the device wrote to a host-visible buffer visible to the host. */
 VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer);
@@ -199,6 +203,9 @@ void gpu_push(struct gpu_recorder *rec, VkPipelineLayout layout, uint32_t size, 
 void gpu_dispatch(struct gpu_recorder *rec, uint32_t x, uint32_t y, uint32_t z);
 void gpu_dispatch_indirect(struct gpu_recorder *rec, const struct gpu_buffer *arguments, uint64_t offset);
 void gpu_draw(struct gpu_recorder *rec, uint32_t vertices);
+/* A render pass over `extent` pixels a side without attachments. */
+void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t extent);
+void gpu_render_pass_end(struct gpu_recorder *rec);
 
 /* ---- Timestamps: gpu_timer.c */
 
@@ -231,5 +238,29 @@ uint32_t gpu_timer_read(const struct gpu_device *device, const struct gpu_timer 
 void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot);
 void gpu_timer_begin(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t tag);
 void gpu_timer_end(struct gpu_timer *timer, struct gpu_recorder *rec);
+
+/* ---- Deferred destruction: gpu_retire.c */
+
+/* Lies in an object that frames in flight may still use, so that retiring it needs no memory. */
+struct gpu_retired {
+    struct gpu_retired *next;
+    uint64_t frame; /* in which it was retired */
+    void (*destroy)(struct gpu_retired *item, void *user);
+    void *user;
+};
+
+struct gpu_retire_queue {
+    struct gpu_retired *first;
+    uint64_t frame; /* the caller counts frames here */
+    uint32_t frames_in_flight;
+};
+
+/* Has `destroy` called once no frame in flight can use the object. `destroy` frees the item too. */
+void gpu_retire(struct gpu_retire_queue *queue, struct gpu_retired *item,
+                void (*destroy)(struct gpu_retired *item, void *user), void *user);
+/* Destroys what no frame in flight can use any more. */
+void gpu_retire_collect(struct gpu_retire_queue *queue);
+/* Destroys all. The device must be idle. */
+void gpu_retire_all(struct gpu_retire_queue *queue);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "gpu.h"
 
+#include <assert.h>
 #include <string.h>
 
 static const struct {
@@ -90,6 +91,20 @@ void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffe
     device->fn.DestroyBuffer(device->handle, buffer->handle, device->callbacks);
     device->fn.FreeMemory(device->handle, buffer->memory, device->callbacks);
     memset(buffer, 0, sizeof *buffer);
+}
+
+VkResult gpu_buffer_zero(const struct gpu_device *device, const struct gpu_buffer *buffer)
+{
+    assert(buffer->mapped);
+    memset(buffer->mapped, 0, buffer->size);
+    if (buffer->coherent)
+        return VK_SUCCESS;
+    return device->fn.FlushMappedMemoryRanges(device->handle, 1,
+                                              &(VkMappedMemoryRange){
+                                                  .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
+                                                  .memory = buffer->memory,
+                                                  .size = VK_WHOLE_SIZE,
+                                              });
 }
 
 VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer)

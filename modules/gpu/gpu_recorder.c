@@ -171,3 +171,21 @@ void gpu_draw(struct gpu_recorder *rec, uint32_t vertices)
     rec->device->fn.CmdDraw(rec->cmd, vertices, 1, 0, 0);
     rec->command_count++;
 }
+
+void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t extent)
+{
+    rec->device->fn.CmdBeginRenderPass(
+        rec->cmd,
+        &(VkRenderPassBeginInfo){ .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                  .renderPass = pass,
+                                  .framebuffer = framebuffer,
+                                  .renderArea = { { 0, 0 }, { extent, extent } } },
+        VK_SUBPASS_CONTENTS_INLINE);
+    rec->command_count++;
+}
+
+void gpu_render_pass_end(struct gpu_recorder *rec)
+{
+    rec->device->fn.CmdEndRenderPass(rec->cmd);
+    rec->command_count++;
+}

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Copies of the volumes for those who want to look inside. */
-#include "internal.h"
+#include "context.h"
 
 #include <math.h>
 #include <sdfgi/inspect.h>
@@ -21,33 +21,33 @@ static bool volume_is_known(enum sdfgi_volume volume)
 enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t cascade,
                                             struct sdfgi_inspect_cascade *out)
 {
-    if (!gi->active)
-        return invalid(gi, "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
+    if (!sdfgi_is_active(gi))
+        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
     if (cascade >= gi->settings.cascades)
-        return invalid(gi, "sdfgi_inspect_get_cascade: cascade %u of %u", cascade, gi->settings.cascades);
-    const struct cascade *from = &gi->cascades[cascade];
+        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: cascade %u of %u", cascade, gi->settings.cascades);
+    const struct cascade *from = &gi->volume.state.cascades.at[cascade];
     for (int i = 0; i < 3; i++) {
         out->origin_cells[i] = from->origin[i];
         out->origin_m[i] = (double)from->origin[i] * from->cell_size[i];
         out->cell_m[i] = from->cell_size[i];
     }
     out->resolution = gi->settings.resolution;
-    out->emission_unit = gi->emission_unit;
+    out->emission_unit = gi->scene.emission_unit;
     return SDFGI_OK;
 }
 
 uint64_t sdfgi_inspect_volume_size(const sdfgi *gi, enum sdfgi_volume volume)
 {
-    if (!gi->resources || !volume_is_known(volume))
+    if (!gi->volume.resources || !volume_is_known(volume))
         return 0;
-    const struct extent *extent = &gi->resources->extent;
+    const struct extent *extent = &gi->volume.resources->extent;
     return resource_size(volume_resources[volume], extent) / extent->cascades;
 }
 
 static const char *copy_problem(const struct sdfgi *gi, uint32_t cascade, enum sdfgi_volume volume,
                                 VkBuffer buffer, VkDeviceSize offset)
 {
-    if (!gi->active || !gi->resources)
+    if (!sdfgi_is_active(gi))
         return "nothing has been voxelised yet";
     if (cascade >= gi->settings.cascades)
         return "there is no such cascade";
@@ -63,14 +63,14 @@ enum sdfgi_result sdfgi_inspect_copy(sdfgi *gi, VkCommandBuffer cmd, uint32_t ca
 {
     const char *problem = copy_problem(gi, cascade, volume, buffer, offset);
     if (problem)
-        return invalid(gi, "sdfgi_inspect_copy: %s", problem);
+        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_copy: %s", problem);
     const enum resource resource = volume_resources[volume];
     const struct gpu_buffer to = { .handle = buffer };
     const uint64_t bytes = sdfgi_inspect_volume_size(gi, volume);
     struct gpu_recorder rec;
-    gpu_recorder_begin(&rec, &gi->device, cmd);
+    gpu_recorder_begin(&rec, &gi->backend.device, cmd);
     gpu_use(&rec, GPU_USAGE_TRANSFER, UINT64_C(1) << resource, 0);
-    gpu_copy(&rec, &gi->resources->buffers[resource], cascade * bytes, &to, offset, bytes);
+    gpu_copy(&rec, &gi->volume.resources->buffers[resource], cascade * bytes, &to, offset, bytes);
     gpu_recorder_end(&rec);
     return SDFGI_OK;
 }

@@ -2,7 +2,7 @@
  * The table of settings. Defaults, parsing, validation, `--set`, the documentation and the inspector all come
  * from its rows. Names and ranges are those of Godot's Environment.sdfgi_*; defaults are the physically right
  * ones, so feedback and energy are 1 and Y is not squeezed. */
-#include <sdfgi/settings.h>
+#include "core/extent.h"
 
 #include <base/text.h>
 #include <math.h>
@@ -48,7 +48,7 @@ static const struct row rows[] = {
     LIVE(enabled, "sdfgi_enabled", BOOL, 0, 0, 1, "", "",
         "indirect light", "memory and GPU time; off costs neither",
         "The one switch. Off, the library records no command and holds no device memory."),
-    LIVE(use_occlusion, "sdfgi_use_occlusion", BOOL, 1, 0, 1, "", "",
+    RECREATE(use_occlusion, "sdfgi_use_occlusion", BOOL, 1, 0, 1, "", "",
         "no light through walls", "a visibility test per probe in every lookup, and its data",
         "Weighs the probes around a point by what they can see of it. Off, light leaks through walls "
         "thinner than the distance between probes."),
@@ -88,10 +88,10 @@ static const struct row rows[] = {
         "no self-shadowing where sdfgi_visibility is probe_depth", "light leaks through thin walls there",
         "How much further than a probe's mean depth a point may be without counting as hidden. Only probe_depth "
         "reads it."),
-    LIVE(ray_count, "sdfgi_ray_count", INT, 25, 1, 128, "rays per probe and frame", "",
+    RECREATE(ray_count, "sdfgi_ray_count", INT, 25, 1, 128, "rays per probe and frame", "",
         "less noise, and light that follows changes sooner", "tracing time in proportion",
         "Rays that each probe sends in a frame while it has not converged."),
-    LIVE(frames_to_converge, "sdfgi_frames_to_converge", INT, 20, 1, 64, "frames", "",
+    RECREATE(frames_to_converge, "sdfgi_frames_to_converge", INT, 20, 1, 64, "frames", "",
         "accuracy: more directions per probe", "frames until light has settled, and memory for the ray cache",
         "Length of the ring of ray directions that is averaged. A static scene repeats after one round per "
         "bounce, and then stops costing anything."),
@@ -106,7 +106,7 @@ static const struct row rows[] = {
     RECREATE(resolution, "sdfgi_resolution", INT, 128, 32, 256, "cells", "32,64,128,256",
         "range at the same cell size, or detail at the same range", "memory and time with the third power",
         "Cells along a side of each cascade, a power of two."),
-    LIVE(visibility, "sdfgi_visibility", ENUM, SDFGI_VISIBILITY_CELL_MASK, 0, 2, "", "cell_mask,probe_depth,traced",
+    RECREATE(visibility, "sdfgi_visibility", ENUM, SDFGI_VISIBILITY_CELL_MASK, 0, 2, "", "cell_mask,probe_depth,traced",
         "nothing: they differ in kind",
         "probe_depth needs 16x16 depths per probe and leaks more behind thin walls; traced needs eight rays per lookup",
         "How a lookup learns which probes see a point: cell_mask traces a ray from each cell to each of its "
@@ -347,4 +347,12 @@ bool sdfgi_settings_validate(const struct sdfgi_settings *settings, char *error,
         return refuse(&rows[i], text, error, error_size);
     }
     return true;
+}
+
+bool settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
+{
+    for (uint32_t i = 0; i < ROW_COUNT; i++)
+        if (rows[i].info.recreates && !rows[i].info.derived && row_get(&rows[i], a) != row_get(&rows[i], b))
+            return true;
+    return false;
 }

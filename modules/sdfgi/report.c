@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * sdfgi_get_report. */
-#include "internal.h"
+#include "context.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,35 +10,23 @@ _Static_assert((int)PASS_COUNT <= (int)SDFGI_MAX_PASSES, "the report has room fo
 static void report_passes(const struct sdfgi *gi, struct sdfgi_report *report)
 {
     report->pass_count = PASS_COUNT;
-    for (int i = 0; i < PASS_COUNT; i++)
+    for (int i = 0; i < PASS_COUNT; i++) {
+        const struct pass_report *pass = &gi->passes[i];
+        const struct feedback_time *time = &gi->volume.feedback.times[i];
         report->passes[i] = (struct sdfgi_pass_report){
-            .name = pass_name((enum pass)i),
-            .ran = gi->passes[i].dispatches > 0,
-            .reason = gi->plan[i].reason ? gi->plan[i].reason : "no frame has been recorded",
-            .dispatches = gi->passes[i].dispatches,
-            .work = gi->passes[i].work,
-            .work_unit = pass_unit((enum pass)i),
-            .gpu_ns = gi->passes[i].gpu_ns,
-            .gpu_ns_valid = gi->passes[i].gpu_ns_valid,
+            .name = pass_row((enum pass)i)->name,
+            .ran = pass->tally.dispatches > 0,
+            .reason = pass->reason ? pass->reason : "no frame has been recorded",
+            .dispatches = pass->tally.dispatches,
+            .work = pass->tally.units,
+            .work_unit = pass_row((enum pass)i)->unit,
+            .gpu_ns = time->ns,
+            .gpu_ns_valid = time->is_new,
         };
+    }
 }
 
-static void add_memory(const struct resources *r, struct sdfgi_memory *memory)
-{
-    for (int i = 0; i < RESOURCE_COUNT; i++)
-        memory->bytes[resource_category((enum resource)i)] += r->buffers[i].size;
-    memory->bytes[SDFGI_MEMORY_READBACK] += r->readback.size;
-}
-
-static void report_memory(const struct sdfgi *gi, struct sdfgi_memory *memory)
-{
-    if (gi->resources)
-        add_memory(gi->resources, memory);
-    for (const struct resources *r = gi->retired; r; r = r->next_retired)
-        add_memory(r, memory);
-    for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
-        memory->total_bytes += memory->bytes[i];
-}
+/* ---- Health */
 
 static void add_health(struct sdfgi_report *report, enum sdfgi_message code, uint64_t count)
 {
@@ -46,68 +34,82 @@ static void add_health(struct sdfgi_report *report, enum sdfgi_message code, uin
         report->health[report->health_count++] = (struct sdfgi_health){ code, count, message_hint(code) };
 }
 
-static bool has_light(const struct sdfgi *gi)
+enum { SDFGI_MESSAGE_NONE = SDFGI_MESSAGE_COUNT };
+
+/* Counters that a message reports. */
+static void report_counters(const uint32_t *counters, struct sdfgi_report *report)
 {
-    static const struct sdfgi_sky none;
-    const bool sky = gi->settings.read_sky_light && memcmp(&gi->scene.sky, &none, sizeof none) != 0;
-    return gi->scene.lights.count > 0 || gi->emission_unit > 0 || sky;
+    static const struct {
+        uint32_t counter, code;
+    } rows[] = {
+#define ROW(id, cleared, health) { SDFGI_COUNTER_##id, SDFGI_MESSAGE_##health },
+        SDFGI_COUNTERS(ROW)
+#undef ROW
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].code != SDFGI_MESSAGE_NONE)
+            add_health(report, (enum sdfgi_message)rows[i].code, counters[rows[i].counter]);
 }
 
 static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
 {
-    if (!gi->active)
-        return;
-    const uint32_t *n = gi->counters;
+    const struct volume *volume = &gi->volume;
+    const uint32_t *counters = volume->feedback.counters;
     uint64_t overflow = 0, cells = 0;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
-        const uint64_t count = n[SDFGI_COUNTER_LIGHT_CELLS + c], room = gi->resources->extent.light_cells;
+    for (uint32_t c = 0; c < volume->state.cascades.count; c++) {
+        const uint64_t count = counters[SDFGI_COUNTER_LIGHT_CELLS + c],
+                       room = volume->resources->extent.light_cells;
         cells += count;
         overflow += count > room ? count - room : 0;
     }
-    add_health(report, SDFGI_MESSAGE_NO_GEOMETRY, gi->known_ring > 0 && cells == 0);
-    add_health(report, SDFGI_MESSAGE_NO_LIGHTS, !has_light(gi));
+    add_health(report, SDFGI_MESSAGE_NO_GEOMETRY,
+               volume->state.accumulation.known_cycle > 0 && cells == 0);
+    add_health(report, SDFGI_MESSAGE_NO_LIGHTS, !scene_has_light(&gi->scene, gi->settings.read_sky_light));
     add_health(report, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW, overflow);
-    add_health(report, SDFGI_MESSAGE_TRIANGLES_SKIPPED, n[SDFGI_COUNTER_TRIANGLES_SKIPPED]);
-    add_health(report, SDFGI_MESSAGE_VALUE_CLAMPED, n[SDFGI_COUNTER_VALUES_CLAMPED]);
-    add_health(report, SDFGI_MESSAGE_BOUNCE_CLAMPED, n[SDFGI_COUNTER_BOUNCE_CLAMPED]);
-    add_health(report, SDFGI_MESSAGE_TRACE_CAP_REACHED, n[SDFGI_COUNTER_TRACE_CAPS]);
-    add_health(report, SDFGI_MESSAGE_UNLIT_HITS, n[SDFGI_COUNTER_UNLIT_HITS]);
+    report_counters(counters, report);
 }
 
-/* Change shrinks by about the same factor from ring to ring: its logarithm measures the way. */
-static float converged_fraction(const struct sdfgi *gi)
+/* ---- Convergence and scrolling */
+
+/* Change shrinks by about the same factor from cycle to cycle: its logarithm measures how far light has come. */
+static float converged_fraction(const struct volume *volume)
 {
-    if (gi->converged)
-        return border_rests(gi) ? 1.0f : 0.99f;
-    if (gi->known_ring <= gi->disturbed_ring || gi->known_change >= 1.0f)
+    const struct accumulation *a = &volume->state.accumulation;
+    if (volume_has_converged(volume))
+        return volume->state.scroll.blends_moving == 0 ? 1.0f : 0.99f;
+    if (a->known_cycle <= a->invalid_cycle || a->known_change >= 1.0f)
         return 0.0f;
-    const float way = logf(fmaxf(gi->known_change, 1e-6f)) / logf(SDFGI_CONVERGED_CHANGE);
-    return fminf(fmaxf(way, 0.0f), 0.99f);
+    const float done = logf(fmaxf(a->known_change, 1e-6f)) / logf(ACCUMULATION_CONVERGED_CHANGE);
+    return fminf(fmaxf(done, 0.0f), 0.99f);
 }
 
 static void report_scroll(const struct sdfgi *gi, struct sdfgi_scroll_report *scroll)
 {
-    scroll->steps_begun = gi->schedule.steps_begun;
-    scroll->cells = gi->schedule.cells;
+    const struct cascades *cascades = &gi->volume.state.cascades;
+    scroll->steps_begun = gi->volume.state.scroll.scrolls_begun;
+    scroll->cells = gi->frame.scroll.cells;
     scroll->budget_cells = gi->settings.max_scroll_cells;
-    for (uint32_t c = 0; c < gi->settings.cascades; c++) {
-        scroll->pending_cells += gi->cascades[c].change.cells_left;
-        scroll->cascades_changing += gi->cascades[c].change.active;
-        scroll->cascades_waiting += gi->cascades[c].waits;
+    for (uint32_t c = 0; c < cascades->count; c++) {
+        scroll->pending_cells += cascades->at[c].change.cells_left;
+        scroll->cascades_changing += cascades->at[c].change.cause != CHANGE_NONE;
+        scroll->cascades_waiting += cascades->at[c].pace != CASCADE_KEEPS_UP;
     }
 }
 
 void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
 {
+    const bool active = sdfgi_is_active(gi);
     memset(report, 0, sizeof *report);
-    report->update_count = gi->update_count;
-    report->active = gi->active;
-    report->converged = gi->active && gi->converged && border_rests(gi);
-    report->converged_fraction = gi->active ? converged_fraction(gi) : 0.0f;
+    report->update_count = gi->volume.state.updates;
+    report->active = active;
+    report->converged =
+        active && volume_has_converged(&gi->volume) && gi->volume.state.scroll.blends_moving == 0;
+    report->converged_fraction = active ? converged_fraction(&gi->volume) : 0.0f;
     report->command_count = gi->command_count;
+    report->memory = gi->backend.held;
     report_passes(gi, report);
-    report_memory(gi, &report->memory);
-    report_health(gi, report);
-    if (gi->resources)
+    if (active) {
+        report_health(gi, report);
         report_scroll(gi, &report->scroll);
+    }
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * What a device must have, as tables. */
-#include "internal.h"
+#include "gpu.h"
+#include "pass/work.h"
+
+#include <sdfgi/sdfgi.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -20,13 +23,12 @@ static void check_limits(const VkPhysicalDeviceLimits *limits, struct sdfgi_requ
         uint64_t have, need;
     } rows[] = {
         { "maxPerStageDescriptorStorageBuffers", limits->maxPerStageDescriptorStorageBuffers,
-          RESOURCE_COUNT + 4 },
+          RESOURCE_COUNT - 1 + 4 },
         { "maxStorageBufferRange", limits->maxStorageBufferRange, UINT64_C(64) << 20 },
-        { "maxPushConstantsSize", limits->maxPushConstantsSize, sizeof(struct sdfgi_voxelize_args) },
+        { "maxPushConstantsSize", limits->maxPushConstantsSize, 128 },
         { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, SDFGI_GROUP_LINES },
         { "maxComputeSharedMemorySize", limits->maxComputeSharedMemorySize, 16384 },
-        { "maxBoundDescriptorSets", limits->maxBoundDescriptorSets, 3 },
-        { "maxImageDimension2D", limits->maxImageDimension2D, 2048 },
+        { "maxBoundDescriptorSets", limits->maxBoundDescriptorSets, 4 },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].have < rows[i].need)

@@ -1,44 +1,73 @@
 /* SPDX-License-Identifier: MIT
- * One row per buffer and image of a context that is switched on: allocation, names, the memory estimate and report,
- * bindings and barriers follow from it.
+ * One row per resource of a volume: allocation, names, bindings, barriers, the memory estimate and report follow from it.
  *
- * X(id, category, size, lifetime)
- *   size      bytes, from `const struct extent *s`: elements of one cascade, cascades, samples in a ring
- *   lifetime  what it holds is valid ...
- * All but FRAME, a uniform buffer, are storage buffers, bound in this order
- * (shaders/shared/bindings.h).
+ * X(id, kind, format, category, scope, set, extent, keep)
+ *   kind      UNIFORM or STORAGE buffer
+ *   format    of an element: RESOURCE_FORMATS
+ *   category  of the memory report
+ *   scope     who owns it: VOLUME (follows a camera) or VIEW (belongs to one picture)
+ *   set       LOOKUP: what hosts bind for sdfgi.glsl; WORK: what only passes bind. Rows of a set stand in the order of
+ *             their bindings (shaders/shared/bindings.h)
+ *   extent    elements, from `const struct extent *e`: elements of one cascade, cascades, samples in a cycle
+ *   keep      SAVED: cannot be made again from the scene at once, as light gathers over many frames;
+ *             DERIVED: made again from the scene and from what is saved; SCRATCH: holds nothing between frames
+ *
+ * FRAME, LIGHTS, MATERIALS  written by the host when anything in them changes
+ * BITS .. NORMALS           valid until the cascade moves or its geometry changes
+ * LIGHT                     outgoing light; holds emissive bits between voxelize and voxel_resolve
+ * LIGHT_CELLS               the light list: grows when it is too short; direct light is valid until a light changes
+ * RAYS                      where rays end: valid until a cascade that the ray may reach changes
+ * SUMS                      of this sample cycle; and each probe's history
+ * PREVIOUS                  the sample cycle before
+ * BOUNDS                    from the start of a change to its end
  */
 #ifndef SDFGI_RESOURCE_TABLE_H
 #define SDFGI_RESOURCE_TABLE_H
 
+/* X(id, bytes) */
+#define RESOURCE_FORMATS(X)                               \
+    X(U8, 1)                                              \
+    X(U16, 2)                                             \
+    X(U32, 4)                                             \
+    X(U32X2, 8)                                           \
+    X(U32X3, 12)                                          \
+    X(U32X4, 16)                                          \
+    X(F16X4, 8)                                           \
+    X(F32X4, 16)                                          \
+    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params))    \
+    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params))    \
+    X(MATERIAL_PARAMS, sizeof(struct sdfgi_material_params))
+
 /* clang-format off */
-#define SDFGI_BUFFERS(X)                                                                                        \
-    X(FRAME,       LISTS,   sizeof(struct sdfgi_frame_params),                    "rewritten when anything in it changes") \
-    X(LIGHTS,      LISTS,   SDFGI_MAX_LIGHTS * sizeof(struct sdfgi_light_params), "rewritten when a light changes")        \
-    X(MATERIALS,   LISTS,   SDFGI_MAX_MATERIALS * sizeof(struct sdfgi_material_params), "rewritten when a material changes") \
-    X(BITS,        VOLUMES, 8 * s->cells * s->cascades,                           "until the cascade moves or its geometry changes") \
-    X(DISTANCE,    VOLUMES, 2 * s->cells * s->cascades,                           "as BITS")                               \
-    X(SCRATCH,     SCRATCH, s->scratch,                                           "one generation of one cascade")         \
-    X(ALBEDO,      VOLUMES, 4 * s->blocks * s->cascades,                          "as BITS")                               \
-    X(EMISSION,    VOLUMES, 8 * s->blocks * s->cascades,                          "as BITS")                               \
-    X(NORMALS,     VOLUMES, 4 * s->blocks * s->cascades,                          "as BITS")                               \
-    X(LIGHT,       VOLUMES, 8 * s->cells * s->cascades,                           "relit while not converged; emissive bits during generation") \
-    X(LIGHT_CELLS, LISTS,   12 * s->light_cells * s->cascades,                    "as BITS; direct light until a light changes; grows")  \
-    X(MASKS,       VOLUMES, s->cells * s->cascades,                               "as BITS")                               \
-    X(PROBES,      PROBES,  4 * s->probes * s->cascades,                          "as BITS")                               \
-    X(RAYS,        PROBES,  4 * s->probes * s->cascades * s->ring_samples,        "until any cascade it may reach changes") \
-    X(SUMS,        PROBES,  16 * SDFGI_SUMS_STRIDE * s->probes * s->cascades,     "one ring")                              \
-    X(PREVIOUS,    PROBES,  8 * 25 * s->probes * s->cascades,                     "until the ring after it ends")          \
-    X(OCCLUSION,   PROBES,  s->occlusion,                                         "as BITS; 4 bytes unless probe_depth is chosen") \
-    X(IRRADIANCE,  PROBES,  8 * 25 * s->probes * s->cascades,                     "what lookups read: until the next frame that blends") \
-    X(COUNTERS,    LISTS,   4 * SDFGI_COUNTER_COUNT,                              "one ring or one generation")            \
-    X(INDIRECT,    LISTS,   16 * SDFGI_INDIRECT_RECORDS,                          "as LIGHT_CELLS")                        \
-    X(BOUNDS,      LISTS,   SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES,             "from the start of a change to its end")
+#define SDFGI_RESOURCES(X)                                                                                        \
+    X(FRAME,       UNIFORM, FRAME_PARAMS,    LISTS,   VOLUME, LOOKUP, 1,                                   DERIVED) \
+    X(BITS,        STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              DERIVED) \
+    X(DISTANCE,    STORAGE, U16,             VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              DERIVED) \
+    X(LIGHT,       STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              SAVED)   \
+    X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              DERIVED) \
+    X(PROBES,      STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->probes * e->cascades,             DERIVED) \
+    X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->occlusion,                        DERIVED) \
+    X(IRRADIANCE,  STORAGE, F16X4,           PROBES,  VOLUME, LOOKUP, IRRADIANCE_TEXELS(e),                SAVED)   \
+    X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,                    DERIVED) \
+    X(MATERIALS,   STORAGE, MATERIAL_PARAMS, LISTS,   VOLUME, WORK,   SDFGI_MAX_MATERIALS,                 DERIVED) \
+    X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                          SCRATCH) \
+    X(ALBEDO,      STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,             DERIVED) \
+    X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,             DERIVED) \
+    X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,             DERIVED) \
+    X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   e->light_cells * e->cascades,        DERIVED) \
+    X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   e->probes * e->cascades * e->cycle_samples, DERIVED) \
+    X(SUMS,        STORAGE, F32X4,           PROBES,  VOLUME, WORK,   SDFGI_SUMS_STRIDE * e->probes * e->cascades, SAVED) \
+    X(PREVIOUS,    STORAGE, F16X4,           PROBES,  VOLUME, WORK,   IRRADIANCE_TEXELS(e),                SAVED)   \
+    X(COUNTERS,    STORAGE, U32,             LISTS,   VOLUME, WORK,   SDFGI_COUNTER_COUNT,                 DERIVED) \
+    X(INDIRECT,    STORAGE, U32X4,           LISTS,   VOLUME, WORK,   SDFGI_INDIRECT_RECORDS,              DERIVED) \
+    X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES, DERIVED)
 /* clang-format on */
 
+#define IRRADIANCE_TEXELS(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
+
 enum resource {
-#define RESOURCE_ENUM(id, category, size, lifetime) RESOURCE_##id,
-    SDFGI_BUFFERS(RESOURCE_ENUM)
+#define RESOURCE_ENUM(id, kind, format, category, scope, set, extent, keep) RESOURCE_##id,
+    SDFGI_RESOURCES(RESOURCE_ENUM)
 #undef RESOURCE_ENUM
     RESOURCE_COUNT,
 };

@@ -326,26 +326,26 @@ static void no_failure_while_the_light_list_grows_is_fatal(void **state)
     struct counting counting = { 0 };
     sdfgi *gi = create_on(&counting);
     add_a_triangle(gi);
-    gi->resources->extent.light_cells = 5;
+    gi->volume.resources->extent.light_cells = 5;
     update_twice(gi);
     const VkDescriptorSet set = sdfgi_get_descriptor_set(gi);
     uint32_t k = 0;
     do {
         const int64_t live = counting.live;
         memset(messages, 0, sizeof messages);
-        gi->resources->light_cells_refused = 0;
+        gi->volume.feedback.light_cells_refused = 0;
         failing_vulkan_reset(++k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         update_twice(gi);
         if (failing_vulkan_calls() < k)
             break;
         REQUIRE_CMP(messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
-        REQUIRE_CMP(gi->resources->extent.light_cells, ==, 5u);
+        REQUIRE_CMP(gi->volume.resources->extent.light_cells, ==, 5u);
         REQUIRE_TRUE(sdfgi_get_descriptor_set(gi) == set);
         REQUIRE_CMP(counting.live, ==, live);
     } while (k < 100);
     printf("%u Vulkan calls of growing the list can fail\n", k - 1);
     REQUIRE_CMP(k, >, 4u);
-    REQUIRE_CMP(gi->resources->extent.light_cells, >, 5u);
+    REQUIRE_CMP(gi->volume.resources->extent.light_cells, >, 5u);
     REQUIRE_TRUE(sdfgi_get_descriptor_set(gi) != set);
     update_twice(gi);
     sdfgi_destroy(gi);

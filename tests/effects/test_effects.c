@@ -90,7 +90,7 @@ static void switching_off_returns_all_memory(void **state)
         settings.enabled = false;
         REQUIRE_CMP(sdfgi_set_settings(t.gi, &settings), ==, SDFGI_OK);
         REQUIRE_TRUE(!sdfgi_is_active(t.gi));
-        gi_test_update(&t, t.gi->frames_in_flight);
+        gi_test_update(&t, t.gi->backend.retired.frames_in_flight);
         REQUIRE_CMP(report_now(&t)->memory.total_bytes, ==, 0ul);
         REQUIRE_CMP(report.command_count, ==, 0u);
         REQUIRE_TRUE(t.gi->retired == NULL);
@@ -238,7 +238,7 @@ static void moving_an_instance_generates_the_cascades_it_touches(void **state)
     gi_test_converge(&t, 120);
     struct sdfgi_transform up = { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 0 } };
     REQUIRE_CMP(sdfgi_instance_set_transform(t.gi, far, &up), ==, SDFGI_OK);
-    REQUIRE_TRUE(t.gi->cascades[0].edit_count == 0 && t.gi->cascades[1].edit_count > 0);
+    REQUIRE_TRUE(t.gi->volume.state.cascades.at[0].edit_count == 0 && t.gi->volume.state.cascades.at[1].edit_count > 0);
     gi_test_update(&t, 1);
     REQUIRE_CMP(report_now(&t)->passes[PASS_PROBE_PLACE].dispatches, ==, 1u);
     REQUIRE_TRUE(ran(PASS_VOXELIZE));

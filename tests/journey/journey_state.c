@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "journey_state.h"
 
-#include "internal.h"
+#include "context.h"
 
 #include <string.h>
 
@@ -16,12 +16,12 @@ static const char *short_name(const char *name)
 
 void journey_state_find(const struct gi_test *t, struct journey_state *state)
 {
-    const struct resources *r = t->gi->resources;
+    const struct resources *r = t->gi->volume.resources;
     *state = (struct journey_state){ 0 };
     if (!r)
         return;
     state->count = RESOURCE_COUNT;
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        state->buffers[i] = (struct journey_buffer){ short_name(resource_name((enum resource)i)),
+        state->buffers[i] = (struct journey_buffer){ short_name(resource_row((enum resource)i)->name),
                                                      r->buffers[i].handle, r->buffers[i].size };
 }

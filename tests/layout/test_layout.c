@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The library's own compiled shaders place every shared struct and every resource where C does. */
-#include "internal.h"
+#include "context.h"
 #include "modules.h"
 #include "require.h"
 
@@ -270,7 +270,7 @@ SDFGI_BUFFERS(SAME_BINDING)
 /* Block of a buffer of the resource table, sdfgi_<id>_buffer; the table's names are "sdfgi <ID>". */
 static void block_name(int resource, char name[static 64])
 {
-    snprintf(name, 64, "%s_buffer", resource_name((enum resource)resource));
+    snprintf(name, 64, "%s_buffer", resource_row((enum resource)resource)->name);
     for (char *c = name; *c; c++)
         *c = *c == ' ' ? '_' : (char)tolower((unsigned char)*c);
 }

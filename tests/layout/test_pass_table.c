@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The rows of pass_table.h say of every pass what its shaders do: barriers follow from them. */
 #include "access.h"
-#include "internal.h"
+#include "context.h"
 #include "modules.h"
 #include "require.h"
 
@@ -38,7 +38,7 @@ static void touch(struct touches *touches, const struct module *module,
     /* Only its length is asked for, or access.c lacks an instruction. */
     if (!access)
         require_fail(__FILE__, __LINE__, "%s: %s: named, but neither read nor written", module->name,
-                     resource_name((enum resource)id));
+                     resource_row((enum resource)id)->name);
     touches->access[id] |= access;
 }
 
@@ -76,7 +76,7 @@ static int compare(const struct module *module, const struct touches *touches)
         if (agree(row, shader))
             continue;
         print_error("%s (%s): %s: by the table the pass %s, the shader %s\n", rows[module->pass].name,
-                    module->name, resource_name((enum resource)i), verbs[row], verbs[shader]);
+                    module->name, resource_row((enum resource)i)->name, verbs[row], verbs[shader]);
         wrong++;
     }
     return wrong;

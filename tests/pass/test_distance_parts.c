@@ -81,12 +81,12 @@ static uint16_t *read_distances(struct gi_test *t)
 
 static void write_buffer(struct gi_test *t, enum resource resource, const void *data, uint64_t size)
 {
-    gpu_test_buffer_write(&t->gpu, t->gi->resources->buffers[resource].handle, 0, size, data);
+    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[resource].handle, 0, size, data);
 }
 
 static void fill_buffer(struct gi_test *t, enum resource resource, uint8_t value)
 {
-    const uint64_t size = t->gi->resources->buffers[resource].size;
+    const uint64_t size = t->gi->volume.resources->buffers[resource].size;
     uint8_t *data = test_array_alloc(size, 1);
     memset(data, value, size);
     write_buffer(t, resource, data, size);
@@ -96,10 +96,10 @@ static void fill_buffer(struct gi_test *t, enum resource resource, uint8_t value
 /* Where the window is stored, as upload.c has it. */
 static void write_window(struct gi_test *t, const struct world *w)
 {
-    ivec3 *wrap = &t->gi->params.cascades[0].wrap;
+    ivec3 *wrap = &t->gi->volume.state.params.cascades[0].wrap;
     *wrap = (ivec3){ (int32_t)floor_mod(w->origin[0], N), (int32_t)floor_mod(w->origin[1], N),
                      (int32_t)floor_mod(w->origin[2], N) };
-    write_buffer(t, RESOURCE_FRAME, &t->gi->params, sizeof t->gi->params);
+    write_buffer(t, RESOURCE_FRAME, &t->gi->volume.state.params, sizeof t->gi->volume.state.params);
     uint64_t *bits = test_array_alloc(CELLS, sizeof *bits);
     for (uint32_t z = 0; z < N; z++)
         for (uint32_t y = 0; y < N; y++)
@@ -131,8 +131,8 @@ static void record_part(VkCommandBuffer cmd, uint32_t index, void *user)
     (void)index;
     const struct recording *r = user;
     struct frame frame = { .gi = r->t->gi };
-    gpu_recorder_begin(&frame.rec, &frame.gi->device, cmd);
-    gpu_timer_begin_frame(&frame.gi->resources->timer, 0);
+    gpu_recorder_begin(&frame.rec, &frame.gi->backend.device, cmd);
+    gpu_timer_begin_frame(&frame.gi->volume.resources->timer, 0);
     distance_field_record(&frame, 0, &r->part);
     gpu_recorder_end(&frame.rec);
 }

@@ -19,7 +19,7 @@ static bool is_solid(const struct gi_test *t, const uint64_t *bits, int x, int y
 
 static bool is_light_cell(const struct gi_test *t, const uint64_t *bits, const uint32_t texel[3])
 {
-    const ivec3 wrap = t->gi->params.cascades[0].wrap;
+    const ivec3 wrap = t->gi->volume.state.params.cascades[0].wrap;
     const int x = (int)(texel[0] - (uint32_t)wrap.x) & (N - 1),
               y = (int)(texel[1] - (uint32_t)wrap.y) & (N - 1),
               z = (int)(texel[2] - (uint32_t)wrap.z) & (N - 1);
@@ -60,7 +60,7 @@ static void open_scene(struct gi_test *t, uint64_t room)
     const struct sdfgi_settings s = settings();
     gi_test_open(t, &s);
     if (room > 0)
-        t->gi->resources->extent.light_cells = t->gi->resources->extent.light_cells_max = room;
+        t->gi->volume.resources->extent.light_cells = t->gi->volume.resources->extent.light_cells_max = room;
     pass_scene_stand(t, (double[]){ 5, -1, -3 });
     gi_test_add(t, &soup, gi_test_material(t, (float[]){ 0.5f, 0.5f, 0.5f }, (float[]){ 0, 0, 0 }));
     test_mesh_destroy(&soup);
@@ -92,7 +92,7 @@ static void the_list_is_complete_and_in_the_order_of_blocks(void **state)
     static struct gi_test t;
     static uint32_t expected[CELLS];
     open_scene(&t, 0);
-    REQUIRE_CMP(t.gi->params.cascades[0].wrap.x, !=, 0);
+    REQUIRE_CMP(t.gi->volume.state.params.cascades[0].wrap.x, !=, 0);
     const uint32_t count = expected_list(&t, expected);
     REQUIRE_CMP(count, >, 2000u);
     REQUIRE_CMP(counted(&t), ==, count);
@@ -107,9 +107,9 @@ static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
     (void)index;
     struct gi_test *t = user;
     struct frame frame = { .gi = t->gi, .slot = 0 };
-    gpu_recorder_begin(&frame.rec, &t->gi->device, cmd);
-    gpu_timer_begin_frame(&t->gi->resources->timer, 0);
-    t->gi->plan[PASS_LIGHT_BOUNCE].run = false;
+    gpu_recorder_begin(&frame.rec, &t->gi->backend.device, cmd);
+    gpu_timer_begin_frame(&t->gi->volume.resources->timer, 0);
+    work_has(&t->gi->frame.work, PASS_LIGHT_BOUNCE) = false;
     light_cache_clear_record(&frame);
     light_cache_mark_record(&frame, 0);
     light_cache_list_record(&frame, 0);
@@ -132,7 +132,7 @@ static void fill_light(struct held light[static CELLS])
 
 static void list_over(struct gi_test *t, const struct held light[static CELLS])
 {
-    gpu_test_buffer_write(&t->gpu, t->gi->resources->buffers[RESOURCE_LIGHT].handle, 0, sizeof *light * CELLS,
+    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[RESOURCE_LIGHT].handle, 0, sizeof *light * CELLS,
                           light);
     gpu_test_submit(&t->gpu, record_list, t);
 }

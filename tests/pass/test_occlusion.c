@@ -139,7 +139,7 @@ static void compare_probe(struct comparison *c, const struct oracle_bits *bits,
 
 static uint32_t probe_slot(const struct gi_test *t, const uint32_t probe[static 3], uint32_t side)
 {
-    const ivec3 wrap = t->gi->params.cascades[0].probe_wrap;
+    const ivec3 wrap = t->gi->volume.state.params.cascades[0].probe_wrap;
     const uint32_t x = (probe[0] + (uint32_t)wrap.x) % side, y = (probe[1] + (uint32_t)wrap.y) % side,
                    z = (probe[2] + (uint32_t)wrap.z) % side;
     return x + side * (y + side * z);

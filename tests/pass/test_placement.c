@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Where cascades are placed, without a device (HARD_CASES rows 22, 24 and 25). */
-#include "internal.h"
+#include "context.h"
 #include "require.h"
 #include "test_memory.h"
 

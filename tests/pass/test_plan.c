@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What a frame runs for each situation, without a device. */
-#include "internal.h"
+#include "context.h"
 #include "require.h"
 
 #define P(id) (UINT64_C(1) << PASS_##id)

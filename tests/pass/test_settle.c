@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * When light counts as settled, without a device. */
-#include "internal.h"
+#include "context.h"
 #include "require.h"
 #include "test_memory.h"
 

@@ -19,9 +19,9 @@ struct sdfgi *schedule_drive_begin(uint32_t budget)
     gi->settings.enabled = true;
     gi->settings.max_scroll_cells = budget;
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
-        gi->cascades[c].rebuild = true;
+        gi->volume.state.cascades.at[c].rebuild = true;
         for (int i = 0; i < 3; i++)
-            gi->cascades[c].cell_size[i] = ldexp(gi->settings.min_cell_size_m, (int)c);
+            gi->volume.state.cascades.at[c].cell_size[i] = ldexp(gi->settings.min_cell_size_m, (int)c);
     }
     return gi;
 }
@@ -42,10 +42,10 @@ uint64_t schedule_drive_frame(struct sdfgi *gi, const double camera[static 3])
 {
     schedule_frame(gi, camera);
     const uint64_t cells = step_cells(gi);
-    REQUIRE_CMP(cells, ==, gi->schedule.cells);
+    REQUIRE_CMP(cells, ==, gi->frame.scroll.cells);
     schedule_finish(gi);
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        gi->cascades[c].fresh = false;
+        gi->volume.state.cascades.at[c].fresh = false;
     return cells;
 }
 
@@ -85,7 +85,7 @@ struct journey schedule_drive_journey(struct sdfgi *gi, const char *what, uint32
             since = 0;
         }
         for (uint32_t c = 0; c < gi->settings.cascades; c++)
-            j.covered[c] += schedule_drive_covers(&gi->cascades[c], camera, 40);
+            j.covered[c] += schedule_drive_covers(&gi->volume.state.cascades.at[c], camera, 40);
     }
     qsort(work, frames, sizeof *work, compare);
     j.median = work[frames / 2];

@@ -3,7 +3,7 @@
 #ifndef SCHEDULE_DRIVE_H
 #define SCHEDULE_DRIVE_H
 
-#include "internal.h"
+#include "context.h"
 
 /* Zeroes a context for its schedule alone: default settings but for the budget. There is one. */
 struct sdfgi *schedule_drive_begin(uint32_t budget);

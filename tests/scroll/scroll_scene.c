@@ -93,9 +93,9 @@ void scroll_stand(struct gi_test *t, const double position[static 3])
 void scroll_place_as(struct gi_test *fresh, const struct gi_test *walked)
 {
     for (uint32_t c = 0; c < fresh->gi->settings.cascades; c++) {
-        struct cascade *cascade = &fresh->gi->cascades[c];
-        memcpy(cascade->origin, walked->gi->cascades[c].origin, sizeof cascade->origin);
-        cascade->placed = true;
+        struct cascade *cascade = &fresh->gi->volume.state.cascades.at[c];
+        memcpy(cascade->origin, walked->gi->volume.state.cascades.at[c].origin, sizeof cascade->origin);
+        cascade->place = CASCADE_OUTDATED;
     }
 }
 
@@ -103,7 +103,7 @@ uint32_t scroll_settle(struct gi_test *t)
 {
     for (uint32_t frames = 1; frames <= 400; frames++) {
         gi_test_update(t, 1);
-        if (schedule_idle(t->gi))
+        if (cascades_rest(&t->gi->volume.state.cascades) && !relight_is_due(&t->gi->volume.state.relight))
             return frames;
     }
     require_fail(__FILE__, __LINE__, "cascades are still at work after 400 frames");
@@ -122,7 +122,7 @@ static void require_same_bytes(struct gi_test *a, struct gi_test *b, enum resour
         }
     if (differ)
         require_fail(__FILE__, __LINE__, "%s: %s: %llu of %llu bytes differ, first at %llu: %#x and %#x",
-                     what, resource_name(resource), (unsigned long long)differ, (unsigned long long)size,
+                     what, resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)size,
                      (unsigned long long)first, x[first], y[first]);
     free(x);
     free(y);
@@ -141,7 +141,7 @@ static void require_same_words(struct gi_test *a, struct gi_test *b, enum resour
         }
     if (differ)
         require_fail(__FILE__, __LINE__, "%s: %s: %llu elements differ, first %llu: %#x and %#x", what,
-                     resource_name(resource), (unsigned long long)differ, (unsigned long long)first,
+                     resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)first,
                      x[first * stride + word], y[first * stride + word]);
     free(x);
     free(y);
@@ -152,8 +152,8 @@ static void require_same_list(struct gi_test *a, struct gi_test *b, const char *
     uint32_t *x = gi_test_read(a, RESOURCE_LIGHT_CELLS, NULL),
              *y = gi_test_read(b, RESOURCE_LIGHT_CELLS, NULL);
     uint32_t *m = gi_test_read(a, RESOURCE_COUNTERS, NULL), *n = gi_test_read(b, RESOURCE_COUNTERS, NULL);
-    const uint64_t room = a->gi->resources->extent.light_cells;
-    REQUIRE_CMP(room, ==, b->gi->resources->extent.light_cells);
+    const uint64_t room = a->gi->volume.resources->extent.light_cells;
+    REQUIRE_CMP(room, ==, b->gi->volume.resources->extent.light_cells);
     for (uint32_t c = 0; c < a->gi->settings.cascades; c++) {
         const uint32_t count = m[SDFGI_COUNTER_LIGHT_CELLS + c];
         if (count != n[SDFGI_COUNTER_LIGHT_CELLS + c])
@@ -175,7 +175,7 @@ static void require_same_list(struct gi_test *a, struct gi_test *b, const char *
 static void require_same_depths(struct gi_test *a, struct gi_test *b, const char *what)
 {
     enum { WORDS = SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE };
-    const uint64_t probes = a->gi->resources->extent.probes * a->gi->settings.cascades;
+    const uint64_t probes = a->gi->volume.resources->extent.probes * a->gi->settings.cascades;
     uint32_t *x = gi_test_read(a, RESOURCE_OCCLUSION, NULL), *y = gi_test_read(b, RESOURCE_OCCLUSION, NULL);
     uint32_t *states = gi_test_read(a, RESOURCE_PROBES, NULL);
     for (uint64_t i = 0; i < probes * WORDS; i++)
@@ -190,8 +190,8 @@ static void require_same_depths(struct gi_test *a, struct gi_test *b, const char
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what)
 {
     for (uint32_t c = 0; c < walked->gi->settings.cascades; c++)
-        REQUIRE_BYTES(walked->gi->cascades[c].origin, fresh->gi->cascades[c].origin,
-                      sizeof walked->gi->cascades[c].origin);
+        REQUIRE_BYTES(walked->gi->volume.state.cascades.at[c].origin, fresh->gi->volume.state.cascades.at[c].origin,
+                      sizeof walked->gi->volume.state.cascades.at[c].origin);
     static const enum resource whole[] = { RESOURCE_BITS, RESOURCE_DISTANCE, RESOURCE_ALBEDO,
                                            RESOURCE_EMISSION, RESOURCE_NORMALS };
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)

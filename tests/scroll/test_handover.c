@@ -111,7 +111,7 @@ static void furnace_walk(double half, double wall, double z)
     walk_steps(&w, 20, 0.001);
     printf("furnace of %.1f m, walls of %.2f m: at most %.2f %% a step, %.2f %% over the walk\n", 2 * half,
            wall, 100 * w.worst_step, 100 * walk_range(&w));
-    REQUIRE_CMP(w.t.gi->schedule.steps_begun, >=, 1ul);
+    REQUIRE_CMP(w.t.gi->volume.state.scroll.scrolls_begun, >=, 1ul);
     REQUIRE_CMP(w.worst_step, <=, 0.005);
     REQUIRE_CMP(walk_range(&w), <=, 0.005);
     for (uint32_t i = 0; i < w.count; i++)
@@ -161,7 +161,7 @@ static void hard_54_a_colored_box_does_not_jump_in_the_blend(void **state)
     walk_steps(&w, 40, way);
     printf("coloured box: at most %.2f %% a step of 1 mm, %.2f %% of %.1f mm; %.1f %% over the walk\n",
            100 * mm, 100 * w.worst_step, 1000 * way, 100 * walk_range(&w));
-    REQUIRE_CMP(w.t.gi->schedule.steps_begun, ==, 0ul);
+    REQUIRE_CMP(w.t.gi->volume.state.scroll.scrolls_begun, ==, 0ul);
     REQUIRE_CMP(w.worst_step, <=, 0.02);
     gi_test_close(&w.t);
 }
@@ -178,7 +178,7 @@ static double walk_behind_border(struct walk *w, double step_m)
         struct sdfgi_report report;
         sdfgi_get_report(w->t.gi, &report);
         REQUIRE_TRUE(!report.converged && report.converged_fraction < 1);
-        REQUIRE_TRUE(!settled || !w->t.gi->plan[PASS_PROBE_TRACE].run);
+        REQUIRE_TRUE(!settled || !w->t.work_has(&t->gi->frame.work, PASS_PROBE_TRACE));
     }
     return w->worst_step;
 }
@@ -190,7 +190,7 @@ static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state
     static struct walk w;
     walk_in_colored_box(&w, (double[]){ 0.79, 0.4, 1.3 });
     const double way = 0.05 * w.t.gi->settings.min_cell_size_m;
-    for (int i = 0; w.t.gi->schedule.steps_begun == 0 && i < 200; i++)
+    for (int i = 0; w.t.gi->volume.state.scroll.scrolls_begun == 0 && i < 200; i++)
         walk_steps(&w, 1, way);
     walk_steps(&w, 20, way);
     const double step = w.worst_step, walking = walk_behind_border(&w, way),
@@ -199,7 +199,7 @@ static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state
            "camera that "
            "walks, %.2f %% with one that rests\n",
            100 * step, 100 * walking, 100 * resting);
-    REQUIRE_CMP(w.t.gi->schedule.steps_begun, >=, 1ul);
+    REQUIRE_CMP(w.t.gi->volume.state.scroll.scrolls_begun, >=, 1ul);
     REQUIRE_CMP(step, <=, 0.02);
     REQUIRE_CMP(walking, <=, 0.02);
     REQUIRE_CMP(resting, <=, 0.01);

@@ -150,7 +150,7 @@ static float brightest_texel(const uint16_t (*texels)[4])
 
 static struct newborn find_newborn(struct gi_test *t, uint32_t cascade)
 {
-    const uint32_t probes = (uint32_t)t->gi->resources->extent.probes;
+    const uint32_t probes = (uint32_t)t->gi->volume.resources->extent.probes;
     const float(*sums)[SDFGI_SUMS_STRIDE][4] = gi_test_read(t, RESOURCE_SUMS, NULL);
     const uint16_t(*previous)[SDFGI_IRRADIANCE_COUNT][4] = gi_test_read(t, RESOURCE_PREVIOUS, NULL);
     struct newborn n = { 0, 0, INFINITY, 0 };
@@ -188,7 +188,7 @@ static void new_probes_start_with_the_next_cascades_light(void **state)
         scroll_stand(&t, camera);
         gi_test_update(&t, 1);
         for (uint32_t c = 0; c < 2; c++)
-            if (n[c].count == 0 && t.gi->light_waits)
+            if (n[c].count == 0 && t.gi->frame.situation.light_waits)
                 n[c] = find_newborn(&t, c);
     }
     for (uint32_t c = 0; c < 2; c++)
@@ -218,15 +218,15 @@ static void hard_39_a_furnace_does_not_drift(void **state)
     gi_test_converge(&t, 400);
     const struct gi_test_point point = at(0.2, -2.3, 0.1, 0, 1, 0);
     const double before = light_white_at(&t, point);
-    for (int i = 0; t.gi->schedule.steps_begun < 100 && i < 400; i++) {
+    for (int i = 0; t.gi->volume.state.scroll.scrolls_begun < 100 && i < 400; i++) {
         camera[0] = i & 1 ? -4.1 : 4.1;
         scroll_stand(&t, camera);
         gi_test_update(&t, 2);
     }
-    REQUIRE_CMP(t.gi->schedule.steps_begun, >=, 100u);
+    REQUIRE_CMP(t.gi->volume.state.scroll.scrolls_begun, >=, 100u);
     camera[0] = 0.1;
     scroll_stand(&t, camera);
-    t.gi->cascades[0].placed = false; /* back where it began, whatever hysteresis would have it */
+    t.gi->volume.state.cascades.at[0].placed = false; /* back where it began, whatever hysteresis would have it */
     gi_test_converge(&t, 400);
     const double after = light_white_at(&t, point);
     printf("furnace: %.4f of exact, after 100 steps %.4f\n", before / PI / 2, after / PI / 2);

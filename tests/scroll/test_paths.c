@@ -90,7 +90,7 @@ static void jumps_along_the_walk_read_all_cascades(void **state)
         along(&path, i * FRAMES_PER_SECOND, camera);
         schedule_drive_frame(gi, camera);
         for (uint32_t c = 0; c < 4; c++) {
-            least[c] = fmin(least[c], cells_read(&gi->cascades[c], camera));
+            least[c] = fmin(least[c], cells_read(&gi->volume.state.cascades.at[c], camera));
         }
     }
     printf("one frame a second, 32 cells: at least %.1f %.1f %.1f %.1f cells are read around the camera\n",

@@ -30,10 +30,10 @@ static void open_at(struct gi_test *t, const double position[static 3])
 static void trace_all(struct gi_test *t)
 {
     scroll_settle(t);
-    gi_test_update(t, t->gi->rays_missing);
-    REQUIRE_CMP(t->gi->rays_missing, ==, 0u);
+    gi_test_update(t, t->gi->volume.state.accumulation.rays_missing);
+    REQUIRE_CMP(t->gi->volume.state.accumulation.rays_missing, ==, 0u);
     gi_test_update(t, 1);
-    REQUIRE_CMP(t->gi->passes[PASS_PROBE_TRACE].dispatches, ==, 0u);
+    REQUIRE_CMP(t->gi->passes[PASS_PROBE_TRACE].tally.dispatches, ==, 0u);
 }
 
 struct comparison {
@@ -45,7 +45,7 @@ static struct comparison compare_rays(struct gi_test *walked, struct gi_test *fr
 {
     uint32_t *a = gi_test_read(walked, RESOURCE_RAYS, NULL), *b = gi_test_read(fresh, RESOURCE_RAYS, NULL),
              *probes = gi_test_read(fresh, RESOURCE_PROBES, NULL);
-    const struct extent *e = &fresh->gi->resources->extent;
+    const struct extent *e = &fresh->gi->volume.resources->extent;
     struct comparison result = { 0 };
     for (uint64_t i = 0; i < e->probes * e->cascades * e->ring_samples; i++) {
         if (probes[i / e->ring_samples] & SDFGI_PROBE_DEAD)
@@ -116,10 +116,10 @@ static uint64_t traced_after(struct gi_test *t, const double position[static 3])
 {
     uint64_t traced = 0;
     scroll_stand(t, position);
-    for (uint32_t frame = 0; frame == 0 || t->gi->rays_missing > 0; frame++) {
+    for (uint32_t frame = 0; frame == 0 || t->gi->volume.state.accumulation.rays_missing > 0; frame++) {
         REQUIRE_CMP(frame, <, 200u);
         gi_test_update(t, 1);
-        if (t->gi->passes[PASS_PROBE_TRACE].dispatches == 0)
+        if (t->gi->passes[PASS_PROBE_TRACE].tally.dispatches == 0)
             continue;
         uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
         traced += counters[SDFGI_COUNTER_RAYS_TRACED];
@@ -140,7 +140,7 @@ static void rays_through_new_air_are_remembered(void **state)
               0.5f, 0);
     trace_all(&t);
     const uint64_t traced = traced_after(&t, (double[]){ 3, 0, 0 });
-    const struct extent *e = &t.gi->resources->extent;
+    const struct extent *e = &t.gi->volume.resources->extent;
     const uint64_t rays = e->probes * e->cascades * e->ring_samples;
     printf("a step over a plain: %llu of %llu rays traced again\n", (unsigned long long)traced,
            (unsigned long long)rays);

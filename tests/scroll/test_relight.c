@@ -29,7 +29,7 @@ static void open_at(struct gi_test *t, const struct sdfgi_settings *settings, co
 {
     gi_test_open(t, settings);
     if (room > 0)
-        t->gi->resources->extent.light_cells = t->gi->resources->extent.light_cells_max = room;
+        t->gi->volume.resources->extent.light_cells = t->gi->volume.resources->extent.light_cells_max = room;
     scroll_world(t, home, 16);
     /* Enters with a step of two metres along x, and throws its shadow four metres back. */
     light_add_box(t, (double[]){ 8.3, 4, -1.5 }, (double[]){ 9.7, 5.5, 1.5 }, (float[]){ 0.5f, 0.5f, 0.5f },
@@ -71,14 +71,14 @@ static bool same_direct(const struct entry *a, const struct entry *b)
 static bool stays(const struct gi_test *t, const struct entry *e)
 {
     const uint32_t n = t->gi->settings.resolution;
-    const uint32_t x = (e->place - (uint32_t)t->gi->params.cascades[0].wrap.x) & (n - 1);
+    const uint32_t x = (e->place - (uint32_t)t->gi->volume.state.params.cascades[0].wrap.x) & (n - 1);
     return x >= 16 && x < n - 16;
 }
 
 /* One step along x, up to the frame that completes it; nothing is lit again meanwhile. */
 static void step_until_complete(struct gi_test *t, const double to[static 3])
 {
-    t->gi->relight_budget = 0;
+    t->gi->volume.state.relight.budget = 0;
     scroll_stand(t, to);
     for (uint32_t frames = 0; frames < 100; frames++) {
         gi_test_update(t, 1);
@@ -128,7 +128,7 @@ static void cells_that_stay_keep_direct_light_and_new_ones_get_theirs_at_once(vo
     REQUIRE_CMP(fresh_lit, >, 500u);
     REQUIRE_CMP(shadows_moved, >, 0u);
 
-    t.gi->relight_budget = 300;
+    t.gi->volume.state.relight.budget = 300;
     REQUIRE_CMP(scroll_settle(&t), <=, (count + 299) / 300 + 5);
     scroll_require_equal(&t, &fresh, "lit again");
     free(before);
@@ -145,14 +145,14 @@ static uint64_t renewed_work(const struct gi_test *t)
     uint64_t cells = 0;
     for (uint32_t c = 0; c < t->gi->settings.cascades; c++)
         if (schedule_completes(t->gi, c))
-            cells += t->gi->counters[SDFGI_COUNTER_LIGHT_DIRTY + c];
+            cells += t->gi->volume.feedback.counters[SDFGI_COUNTER_LIGHT_DIRTY + c];
     return cells;
 }
 
 /* Probes wait where a step leaves a frame enough to do. */
 static bool sent_rays(const struct gi_test *t)
 {
-    return t->gi->passes[PASS_PROBE_SUM].dispatches > 0;
+    return t->gi->passes[PASS_PROBE_SUM].tally.dispatches > 0;
 }
 
 /* So small a budget that steps come while cells still wait for light. */
@@ -165,14 +165,14 @@ static void a_walk_lights_cells_again_within_the_budget(void **state)
     double camera[3] = { home[0], home[1], home[2] };
     open_at(&t, &settings, camera, 0);
     scroll_settle(&t);
-    t.gi->relight_budget = BUDGET;
+    t.gi->volume.state.relight.budget = BUDGET;
     uint32_t busy = 0, completed_on_the_way = 0, waited = 0, since_waited = 3;
     for (uint32_t frame = 0; frame < 60; frame++) {
         const bool waiting = light_cache_relights(t.gi);
         camera[0] += 0.3;
         scroll_stand(&t, camera);
         gi_test_update(&t, 1);
-        const uint64_t again = t.gi->passes[PASS_LIGHT_DIRECT].work - renewed_work(&t);
+        const uint64_t again = t.gi->passes[PASS_LIGHT_DIRECT].tally.units - renewed_work(&t);
         REQUIRE_CMP(again, <=, (uint64_t)BUDGET);
         REQUIRE_TRUE(sent_rays(&t) || schedule_has(t.gi, STEP_COMPLETE));
         REQUIRE_TRUE(sent_rays(&t) || since_waited >= 3);
@@ -203,7 +203,7 @@ static void changes_in_every_frame_keep_nobody_waiting(void **state)
     const sdfgi_instance box =
         light_add_box(&t, (double[]){ 0, 0, 0 }, (double[]){ 1, 1, 1 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
     scroll_settle(&t);
-    t.gi->relight_budget = 2000;
+    t.gi->volume.state.relight.budget = 2000;
     uint32_t turns[2] = { 0 }, completed = 0;
     struct sdfgi_transform transform = { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 0, 0 } };
     for (uint32_t frame = 0; frame < 32; frame++) {
@@ -211,12 +211,12 @@ static void changes_in_every_frame_keep_nobody_waiting(void **state)
         REQUIRE_CMP(sdfgi_instance_set_transform(t.gi, box, &transform), ==, SDFGI_OK);
         uint32_t before[2];
         for (uint32_t c = 0; c < 2; c++)
-            before[c] = t.gi->cascades[c].relight_next;
+            before[c] = t.gi->volume.state.relight.at[c].next;
         gi_test_update(&t, 1);
         REQUIRE_TRUE(sent_rays(&t));
         completed += schedule_has(t.gi, STEP_COMPLETE);
         for (uint32_t c = 0; c < 2; c++)
-            turns[c] += t.gi->cascades[c].relight_next < before[c];
+            turns[c] += t.gi->volume.state.relight.at[c].next < before[c];
     }
     printf("%u frames completed a change, lists lit again %u and %u times\n", completed, turns[0], turns[1]);
     REQUIRE_CMP(completed, >, 24u);
@@ -250,12 +250,12 @@ static void a_change_while_cells_are_lit_again_starts_that_over(void **state)
     open_at(&t, &settings, home, 0);
     const sdfgi_instance roof = add_box(&t, -2, 5, -3, 5);
     scroll_settle(&t);
-    t.gi->relight_budget = 250;
+    t.gi->volume.state.relight.budget = 250;
     add_box(&t, -7, 5, -7, 1);
     uint32_t count, end;
     do
         gi_test_update(&t, 1);
-    while (t.gi->cascades[0].change.active || t.gi->cascades[0].relight_next < 1500);
+    while (t.gi->volume.state.cascades.at[0].change.active || t.gi->volume.state.relight.at[0].next < 1500);
     struct entry *before = read_list(&t, &count);
     REQUIRE_CMP(sdfgi_instance_destroy(t.gi, roof), ==, SDFGI_OK);
     scroll_settle(&t);

@@ -50,8 +50,8 @@ static void open_borders(struct gi_test *t)
 {
     for (uint32_t c = 0; c < t->gi->settings.cascades; c++)
         for (int i = 0; i < 3; i++) {
-            t->gi->cascades[c].share_low[i] = -1e6;
-            t->gi->cascades[c].share_high[i] = 1e6;
+            t->gi->volume.state.cascades.at[c].blend_low[i] = -1e6;
+            t->gi->volume.state.cascades.at[c].blend_high[i] = 1e6;
         }
 }
 

@@ -26,7 +26,7 @@ static void the_first_frame_does_everything(void **state)
     (void)state;
     struct sdfgi *gi = schedule_drive_begin(4194304);
     REQUIRE_CMP(schedule_drive_frame(gi, (double[]){ 3, 4, 5 }), ==, 4u * 2 * 128 * 128 * 128);
-    REQUIRE_TRUE(gi->schedule.from_nothing && schedule_idle(gi));
+    REQUIRE_TRUE(gi->frame.scroll.from_nothing && schedule_idle(gi));
     REQUIRE_CMP(schedule_drive_frame(gi, (double[]){ 3, 4, 5 }), ==, 0u);
 }
 
@@ -67,12 +67,12 @@ static void hard_23_a_cascade_width_per_frame_leaves_no_hole(void **state)
     for (uint32_t i = 0; i < 100; i++) {
         camera[0] += 25.6;
         REQUIRE_CMP(schedule_drive_frame(gi, camera), <=, 4194304u);
-        REQUIRE_TRUE(schedule_drive_covers(&gi->cascades[3], camera, 8));
+        REQUIRE_TRUE(schedule_drive_covers(&gi->volume.state.cascades.at[3], camera, 8));
     }
     for (uint32_t i = 0; i < 200; i++)
         REQUIRE_CMP(schedule_drive_frame(gi, camera), <=, 4194304u);
     for (uint32_t c = 0; c < 4; c++)
-        REQUIRE_TRUE(schedule_drive_covers(&gi->cascades[c], camera, 55));
+        REQUIRE_TRUE(schedule_drive_covers(&gi->volume.state.cascades.at[c], camera, 55));
     REQUIRE_TRUE(schedule_idle(gi));
 }
 
@@ -83,7 +83,7 @@ static void hard_22_a_teleport_is_one_rebuild(void **state)
         struct sdfgi *gi = schedule_drive_begin(4194304);
         const uint64_t whole = schedule_drive_frame(gi, (double[]){ 0, 0, 0 });
         REQUIRE_CMP(schedule_drive_frame(gi, (double[]){ far, -far, 3 }), ==, whole);
-        REQUIRE_TRUE(gi->schedule.from_nothing && schedule_idle(gi));
+        REQUIRE_TRUE(gi->frame.scroll.from_nothing && schedule_idle(gi));
     }
 }
 
@@ -92,10 +92,10 @@ static void hard_24_an_oscillating_camera_steps_once(void **state)
     (void)state;
     struct sdfgi *gi = schedule_drive_begin(4194304);
     schedule_drive_frame(gi, (double[]){ 1.6, 0, 0 });
-    const uint64_t begun = gi->schedule.steps_begun;
+    const uint64_t begun = gi->volume.state.scroll.scrolls_begun;
     for (uint32_t i = 0; i < 1000; i++)
         schedule_drive_frame(gi, (double[]){ i & 1 ? 1.6 + 2e-5 : 1.6 - 2e-5, 0, 0 });
-    REQUIRE_CMP(gi->schedule.steps_begun - begun, <=, 1u);
+    REQUIRE_CMP(gi->volume.state.scroll.scrolls_begun - begun, <=, 1u);
 }
 
 /* A fine cascade that was left behind comes back while the camera still walks, at any
@@ -114,8 +114,8 @@ static void a_lost_cascade_comes_back_on_the_way(void **state)
                 camera[0] += 1.0 / 60;
                 REQUIRE_CMP(schedule_drive_frame(gi, camera), <=, (uint64_t)budget);
             }
-            REQUIRE_TRUE(!cell_box_empty(&gi->cascades[0].window));
-            REQUIRE_TRUE(schedule_drive_covers(&gi->cascades[0], camera, 2));
+            REQUIRE_TRUE(!cell_box_empty(&gi->volume.state.cascades.at[0].valid));
+            REQUIRE_TRUE(schedule_drive_covers(&gi->volume.state.cascades.at[0], camera, 2));
         }
 }
 
@@ -131,13 +131,13 @@ static void a_cascade_that_waits_is_work_to_do(void **state)
         camera[1] -= 2.4;
         schedule_drive_frame(gi, camera);
     }
-    REQUIRE_TRUE(gi->cascades[0].waits);
+    REQUIRE_TRUE(gi->volume.state.cascades.at[0].waits);
     uint32_t frames = 0;
     for (; !schedule_idle(gi) && frames < 200; frames++)
         schedule_drive_frame(gi, camera);
     REQUIRE_CMP(frames, <, 200u);
     for (uint32_t c = 0; c < gi->settings.cascades; c++)
-        REQUIRE_TRUE(schedule_drive_covers(&gi->cascades[c], camera, 55));
+        REQUIRE_TRUE(schedule_drive_covers(&gi->volume.state.cascades.at[c], camera, 55));
 }
 
 /* It cannot be cut, and is done all the same. */
@@ -148,13 +148,13 @@ static void a_flood_is_done_whole(void **state)
     gi->settings.sdf_method = SDFGI_SDF_FLOOD;
     double camera[3] = { 0.1, 0.1, 0.1 };
     schedule_drive_frame(gi, camera);
-    const uint64_t begun = gi->schedule.steps_begun;
+    const uint64_t begun = gi->volume.state.scroll.scrolls_begun;
     for (uint32_t i = 0; i < 600; i++) {
         camera[0] += 5.0 / 60;
         schedule_drive_frame(gi, camera);
     }
-    REQUIRE_CMP(gi->schedule.steps_begun - begun, >, 50u);
-    REQUIRE_TRUE(schedule_drive_covers(&gi->cascades[0], camera, 40));
+    REQUIRE_CMP(gi->volume.state.scroll.scrolls_begun - begun, >, 50u);
+    REQUIRE_TRUE(schedule_drive_covers(&gi->volume.state.cascades.at[0], camera, 40));
 }
 
 /* Lookups never read beyond the window, and their border moves hardly faster than the camera, or by a
@@ -170,7 +170,7 @@ static void borders_move_with_the_camera(void **state)
     for (uint32_t i = 0; i < 4000; i++) {
         double before[4], step = 0;
         for (uint32_t c = 0; c < 4; c++)
-            before[c] = (double)gi->cascades[c].origin[0] + gi->cascades[c].share_high[0];
+            before[c] = (double)gi->volume.state.cascades.at[c].origin[0] + gi->volume.state.cascades.at[c].blend_high[0];
         for (int k = 0; k < 3; k++) {
             velocity[k] = i % 97 == 0 ? test_random_real(&random, -0.12, 0.12) * (i % 2) : velocity[k];
             camera[k] += velocity[k];
@@ -178,7 +178,7 @@ static void borders_move_with_the_camera(void **state)
         }
         schedule_drive_frame(gi, camera);
         for (uint32_t c = 0; c < 4; c++) {
-            const struct cascade *cascade = &gi->cascades[c];
+            const struct cascade *cascade = &gi->volume.state.cascades.at[c];
             const double after = (double)cascade->origin[0] + cascade->share_high[0];
             worst = fmax(worst, fabs(after - before[c]) - fmax(1.25 * step / cascade->cell_size[0], 0.03));
             for (int k = 0; k < 3; k++) {
@@ -214,7 +214,7 @@ static void borders_come_to_rest(void **state)
         REQUIRE_CMP(frames, <=, 400u + 200u * (trial >= 40));
         for (uint32_t c = 0; c < 4; c++)
             for (int k = 0; k < 3; k++) {
-                const struct cascade *cascade = &gi->cascades[c];
+                const struct cascade *cascade = &gi->volume.state.cascades.at[c];
                 const double at = camera[k] / cascade->cell_size[k] - (double)cascade->origin[k];
                 REQUIRE_NEAR(cascade->share_low[k], fmax(at - 64, 0), 0);
                 REQUIRE_NEAR(cascade->share_high[k], fmin(at + 64, 128), 0);

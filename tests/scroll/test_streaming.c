@@ -119,14 +119,14 @@ static void ten_thousand_operations_leave_no_trace(void **state)
         scroll_stand(&walked, camera);
         if (i % PER_FRAME == 0) {
             gi_test_update(&walked, 1);
-            REQUIRE_CMP(walked.gi->schedule.cells, <=, (uint64_t)settings.max_scroll_cells);
+            REQUIRE_CMP(walked.gi->frame.scroll.cells, <=, (uint64_t)settings.max_scroll_cells);
         }
     }
     scroll_settle(&walked);
-    printf("%u steps, memory %llu bytes before and %llu after\n", (unsigned)walked.gi->schedule.steps_begun,
+    printf("%u steps, memory %llu bytes before and %llu after\n", (unsigned)walked.gi->volume.state.scroll.scrolls_begun,
            (unsigned long long)before, (unsigned long long)held(&walked));
     REQUIRE_CMP(held(&walked), ==, before);
-    REQUIRE_CMP(walked.gi->schedule.steps_begun, >, 5u);
+    REQUIRE_CMP(walked.gi->volume.state.scroll.scrolls_begun, >, 5u);
 
     open_world(&same, &fresh, &settings);
     for (uint32_t i = 0; i < SLOTS; i++) {

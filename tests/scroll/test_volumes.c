@@ -89,9 +89,9 @@ static void one_step(struct gi_test *t, double x, double y, double z, const char
     const double spacing = 8 * (double)t->gi->settings.min_cell_size_m;
     const double to[3] = { home[0] + 1.5 * spacing * x, home[1] + 1.5 * spacing * y,
                            home[2] + 1.5 * spacing * z };
-    const uint64_t begun = t->gi->schedule.steps_begun;
+    const uint64_t begun = t->gi->volume.state.scroll.scrolls_begun;
     walk_to(t, to);
-    REQUIRE_CMP(t->gi->schedule.steps_begun, >, begun);
+    REQUIRE_CMP(t->gi->volume.state.scroll.scrolls_begun, >, begun);
     require_as_fresh(t, to, what);
     walk_to(t, home);
     require_as_fresh(t, home, what);
@@ -157,9 +157,9 @@ static void a_step_over_a_plain_searches_little(void **state)
     REQUIRE_NEAR(searched_share(&t), 1, 1e-6);
     static const double ways[2][3] = { { 3.2, 0.2, -0.4 }, { 3.2, 0.2, 2.6 } };
     for (int i = 0; i < 2; i++) {
-        const uint64_t begun = t.gi->schedule.steps_begun;
+        const uint64_t begun = t.gi->volume.state.scroll.scrolls_begun;
         walk_to(&t, ways[i]);
-        REQUIRE_CMP(t.gi->schedule.steps_begun, ==, begun + 1);
+        REQUIRE_CMP(t.gi->volume.state.scroll.scrolls_begun, ==, begun + 1);
         const double share = searched_share(&t);
         printf("a step along %c: %.1f %% searched\n", i ? 'z' : 'x', 100 * share);
         REQUIRE_CMP(share, >=, 0.125);
@@ -179,14 +179,14 @@ static void hard_19_a_journey_of_a_thousand_steps_leaves_no_trace(void **state)
     struct test_random random = { 19 };
     double camera[3] = { home[0], home[1], home[2] };
     uint32_t checked = 0;
-    while (t.gi->schedule.steps_begun < 1000) {
+    while (t.gi->volume.state.scroll.scrolls_begun < 1000) {
         for (int i = 0; i < 3; i++) {
             camera[i] += test_random_real(&random, -9, 9) * (i == 1 ? 0.5 : 1);
             camera[i] = fmin(fmax(camera[i], -world_reach()), world_reach());
         }
         scroll_stand(&t, camera);
         gi_test_update(&t, 1);
-        if (t.gi->schedule.steps_begun / 500 > checked) {
+        if (t.gi->volume.state.scroll.scrolls_begun / 500 > checked) {
             checked++;
             scroll_settle(&t);
             require_fresh_scene(&t, scroll_air, camera, "journey");
@@ -224,7 +224,7 @@ static void hard_20_a_closed_loop_ends_where_it_began(void **state)
     walk_to(&t, home);
     scroll_place_as(&start, &t);
     for (uint32_t c = 0; c < settings.cascades; c++)
-        start.gi->cascades[c].rebuild = true;
+        start.gi->volume.state.cascades.at[c].rebuild = true;
     scroll_settle(&start);
     scroll_require_equal(&t, &start, "loop");
     gi_test_close(&start);
@@ -265,7 +265,7 @@ static void only_depths_that_look_into_news_are_made_again(void **state)
     static struct gi_test t, fresh;
     const struct sdfgi_settings settings = depth_settings(SDFGI_Y_SCALE_100);
     open_world(&t, &settings, home);
-    const struct gpu_buffer *buffer = &t.gi->resources->buffers[RESOURCE_OCCLUSION];
+    const struct gpu_buffer *buffer = &t.gi->volume.resources->buffers[RESOURCE_OCCLUSION];
     uint32_t *depths = test_array_alloc(buffer->size, 1);
     for (uint64_t i = 0; i < buffer->size / 4; i++)
         depths[i] = POISON;
@@ -278,7 +278,7 @@ static void only_depths_that_look_into_news_are_made_again(void **state)
              *expected = gi_test_read(&fresh, RESOURCE_OCCLUSION, NULL),
              *states = gi_test_read(&t, RESOURCE_PROBES, NULL);
     uint32_t probes = 0, whole = 0, texels = 0;
-    for (uint64_t probe = 0; probe < t.gi->resources->extent.probes; probe++) { /* of the first cascade */
+    for (uint64_t probe = 0; probe < t.gi->volume.resources->extent.probes; probe++) { /* of the first cascade */
         if (states[probe] & SDFGI_PROBE_DEAD)
             continue;
         uint32_t made = 0;

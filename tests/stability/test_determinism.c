@@ -58,7 +58,7 @@ static void *take_list(struct gi_test *t, uint64_t *size)
 {
     uint8_t *list = gi_test_read(t, RESOURCE_LIGHT_CELLS, size);
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
-    const uint64_t room = t->gi->resources->extent.light_cells;
+    const uint64_t room = t->gi->volume.resources->extent.light_cells;
     *size = 12 * room * t->gi->settings.cascades;
     for (uint32_t c = 0; c < t->gi->settings.cascades; c++)
         if (counters[SDFGI_COUNTER_LIGHT_CELLS + c] < room)
@@ -93,7 +93,7 @@ static void require_same(struct snapshot *a, struct snapshot *b)
     for (int i = 0; i < COMPARED; i++) {
         REQUIRE_CMP(a->sizes[i], ==, b->sizes[i]);
         if (memcmp(a->buffers[i], b->buffers[i], a->sizes[i]) != 0)
-            printf("%s differs\n", resource_name(compared[i]));
+            printf("%s differs\n", resource_row(compared[i])->name);
     }
     for (int i = 0; i < COMPARED; i++)
         REQUIRE_BYTES(a->buffers[i], b->buffers[i], a->sizes[i]);
@@ -136,7 +136,7 @@ static struct snapshot run_short_of_room(uint32_t first_row)
     struct gi_test t;
     const struct sdfgi_settings settings = two_cascades();
     gi_test_open(&t, &settings);
-    t.gi->resources->extent.light_cells = t.gi->resources->extent.light_cells_max = 400;
+    t.gi->volume.resources->extent.light_cells = t.gi->volume.resources->extent.light_cells_max = 400;
     build_scene(&t, first_row);
     gi_test_update(&t, 14);
     REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), >, 400ul);

@@ -33,7 +33,7 @@ static void build_scene(struct gi_test *t)
 
 static void lower_room(struct gi_test *t, uint64_t room)
 {
-    t->gi->resources->extent.light_cells = room;
+    t->gi->volume.resources->extent.light_cells = room;
 }
 
 static struct outcome take(struct gi_test *t)
@@ -43,7 +43,7 @@ static struct outcome take(struct gi_test *t)
                                                          { { 0.3f, 2.2f, 0.8f }, { 0, -1, 0 } } };
     struct outcome o = { .list = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL),
                          .counters = gi_test_read(t, RESOURCE_COUNTERS, NULL),
-                         .room = t->gi->resources->extent.light_cells };
+                         .room = t->gi->volume.resources->extent.light_cells };
     gi_test_irradiance(t, points, POINTS, o.irradiance);
     return o;
 }
@@ -137,13 +137,13 @@ static void a_settled_scene_goes_on_when_its_list_grows(void **state)
     const struct sdfgi_settings settings = two_cascades();
     gi_test_open(&t, &settings);
     build_scene(&t);
-    const uint64_t most = t.gi->resources->extent.light_cells_max;
+    const uint64_t most = t.gi->volume.resources->extent.light_cells_max;
     lower_room(&t, 300);
-    t.gi->resources->extent.light_cells_max = 300;
+    t.gi->volume.resources->extent.light_cells_max = 300;
     gi_test_converge(&t, 200);
     REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), >, 0ul);
-    t.gi->resources->extent.light_cells_max = most;
-    t.gi->resources->light_cells_refused = 0;
+    t.gi->volume.resources->extent.light_cells_max = most;
+    t.gi->volume.feedback.light_cells_refused = 0;
     gi_test_converge(&t, 200);
     REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, 0ul);
     struct outcome grown = take(&t), roomy = run_with_room();

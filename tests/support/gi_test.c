@@ -133,13 +133,13 @@ uint32_t gi_test_converge(struct gi_test *t, uint32_t limit)
             return frames + 2;
     }
     require_fail(__FILE__, __LINE__, "not converged after %u frames: change %g", limit,
-                 (double)t->gi->known_change);
+                 (double)t->gi->volume.state.accumulation.known_change);
     return limit;
 }
 
 void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size)
 {
-    const struct gpu_buffer *buffer = &t->gi->resources->buffers[resource];
+    const struct gpu_buffer *buffer = &t->gi->volume.resources->buffers[resource];
     uint8_t *data = test_array_alloc(buffer->size, 1);
     gpu_test_buffer_read(&t->gpu, buffer->handle, 0, buffer->size, data);
     if (size)
@@ -149,7 +149,7 @@ void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size)
 
 uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z)
 {
-    const ivec3 wrap = t->gi->params.cascades[cascade].wrap;
+    const ivec3 wrap = t->gi->volume.state.params.cascades[cascade].wrap;
     const uint32_t n = t->gi->settings.resolution, mask = n - 1;
     return ((x + (uint32_t)wrap.x) & mask) +
            n * (((y + (uint32_t)wrap.y) & mask) + n * (((z + (uint32_t)wrap.z) & mask) + n * cascade));
@@ -182,7 +182,7 @@ struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade)
 struct oracle_grid gi_test_grid(const struct gi_test *t, uint32_t cascade)
 {
     struct oracle_grid grid;
-    const struct cascade *c = &t->gi->cascades[cascade];
+    const struct cascade *c = &t->gi->volume.state.cascades.at[cascade];
     for (int i = 0; i < 3; i++) {
         grid.origin[i] = (double)c->origin[i] * c->cell_size[i];
         grid.step[i] = c->cell_size[i] / 4;

@@ -5,7 +5,7 @@
 #define TEST_GI_TEST_H
 
 #include "gpu_test.h"
-#include "internal.h"
+#include "context.h"
 #include "meshes.h"
 #include "oracle_bits.h"
 

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT */
+#include "box.h"
+
+#include <assert.h>
+#include <math.h>
+
+bool box_overlaps(const struct box *a, const struct box *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (a->max[i] < b->min[i] || a->min[i] > b->max[i])
+            return false;
+    return true;
+}
+
+struct box box_around(const struct box *a, const struct box *b)
+{
+    struct box box;
+    for (int i = 0; i < 3; i++) {
+        box.min[i] = fmin(a->min[i], b->min[i]);
+        box.max[i] = fmax(a->max[i], b->max[i]);
+    }
+    return box;
+}
+
+double box_volume(const struct box *box)
+{
+    return (box->max[0] - box->min[0]) * (box->max[1] - box->min[1]) * (box->max[2] - box->min[2]);
+}
+
+void box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
+{
+    assert(*count <= room && room > 0);
+    uint32_t best = 0;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < *count; i++) {
+        const struct box both = box_around(&list[i], box);
+        const double growth = box_volume(&both) - box_volume(&list[i]);
+        if (growth <= 0)
+            return;
+        if (growth < least) {
+            least = growth;
+            best = i;
+        }
+    }
+    if (*count < room)
+        list[(*count)++] = *box;
+    else
+        list[best] = box_around(&list[best], box);
+}
+
+struct cell_box cell_box_whole(uint32_t resolution)
+{
+    const int32_t n = (int32_t)resolution;
+    return (struct cell_box){ { 0, 0, 0 }, { n, n, n } };
+}
+
+struct cell_box cell_box_shifted(const struct cell_box *box, const int32_t by[static 3])
+{
+    struct cell_box shifted;
+    for (int i = 0; i < 3; i++) {
+        shifted.low[i] = box->low[i] + by[i];
+        shifted.high[i] = box->high[i] + by[i];
+    }
+    return shifted;
+}
+
+struct cell_box cell_box_common(const struct cell_box *a, const struct cell_box *b)
+{
+    struct cell_box common;
+    for (int i = 0; i < 3; i++) {
+        common.low[i] = a->low[i] > b->low[i] ? a->low[i] : b->low[i];
+        common.high[i] = a->high[i] < b->high[i] ? a->high[i] : b->high[i];
+    }
+    return cell_box_empty(&common) ? (struct cell_box){ 0 } : common;
+}
+
+struct cell_box cell_box_widened(const struct cell_box *box, int32_t by)
+{
+    struct cell_box wide;
+    for (int i = 0; i < 3; i++) {
+        wide.low[i] = box->low[i] - by;
+        wide.high[i] = box->high[i] + by;
+    }
+    return wide;
+}
+
+bool cell_box_empty(const struct cell_box *box)
+{
+    for (int i = 0; i < 3; i++)
+        if (box->low[i] >= box->high[i])
+            return true;
+    return false;
+}
+
+uint64_t cell_box_cells(const struct cell_box *box)
+{
+    uint64_t cells = 1;
+    for (int i = 0; i < 3; i++)
+        cells *= (uint64_t)(box->high[i] > box->low[i] ? box->high[i] - box->low[i] : 0);
+    return cells;
+}
+
+int cell_box_longest_axis(const struct cell_box *box)
+{
+    int axis = 2;
+    for (int i = 1; i >= 0; i--)
+        if (box->high[i] - box->low[i] > box->high[axis] - box->low[axis])
+            axis = i;
+    return axis;
+}
+
+bool cell_box_contains(const struct cell_box *box, const struct cell_box *other)
+{
+    const struct cell_box common = cell_box_common(box, other);
+    return cell_box_cells(&common) == cell_box_cells(other);
+}
+
+uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole, struct cell_box out[static 3])
+{
+    assert(cell_box_contains(box, hole));
+    uint32_t count = 0;
+    struct cell_box rest = *box;
+    for (int i = 0; i < 3; i++) {
+        struct cell_box below = rest, above = rest;
+        below.high[i] = hole->low[i];
+        above.low[i] = hole->high[i];
+        if (!cell_box_empty(&below))
+            out[count++] = below;
+        if (!cell_box_empty(&above) && count < 3)
+            out[count++] = above;
+        rest.low[i] = hole->low[i];
+        rest.high[i] = hole->high[i];
+    }
+    return count;
+}
+
+int64_t floor_div(int64_t a, int64_t b)
+{
+    return a / b - (a % b != 0 && (a % b < 0) != (b < 0));
+}
+
+int64_t floor_mod(int64_t a, int64_t b)
+{
+    return a - floor_div(a, b) * b;
+}

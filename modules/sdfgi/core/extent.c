@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT */
+#include "extent.h"
+
+#include "shaders/shared/constants.h"
+#include "shaders/shared/scratch.h"
+
+/* Light cells that a list has room for at first, in layers of n^2 cells: surfaces grow with the square of the
+ * resolution. The sample world's village has 5.3. */
+#define LIGHT_CELL_LAYERS 8
+
+/* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades: with the defaults a
+ * cascade then takes just under 64 MiB, scratch included. */
+#define LIGHT_CELL_SHARE (37.0 / 256)
+
+double settings_y_scale(const struct sdfgi_settings *settings)
+{
+    static const double factors[] = {
+        [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1.0
+    };
+    return factors[settings->y_scale];
+}
+
+uint32_t settings_cycle_samples(const struct sdfgi_settings *settings)
+{
+    const uint32_t rays = settings->ray_count * settings->frames_to_converge;
+    return (rays + SDFGI_IRRADIANCE_COUNT - 1) / SDFGI_IRRADIANCE_COUNT * SDFGI_IRRADIANCE_COUNT;
+}
+
+uint32_t settings_cycle_frames(const struct sdfgi_settings *settings)
+{
+    return (settings_cycle_samples(settings) + settings->ray_count - 1) / settings->ray_count;
+}
+
+uint32_t settings_shader_visibility(const struct sdfgi_settings *settings)
+{
+    static const uint32_t methods[] = {
+        [SDFGI_VISIBILITY_CELL_MASK] = SDFGI_SHADER_VISIBILITY_CELL_MASK,
+        [SDFGI_VISIBILITY_PROBE_DEPTH] = SDFGI_SHADER_VISIBILITY_PROBE_DEPTH,
+        [SDFGI_VISIBILITY_TRACED] = SDFGI_SHADER_VISIBILITY_TRACED,
+    };
+    return settings->use_occlusion ? methods[settings->visibility] : SDFGI_SHADER_VISIBILITY_NONE;
+}
+
+uint32_t log2_of(uint64_t power)
+{
+    uint32_t bits = 0;
+    while (power >> (bits + 1))
+        bits++;
+    return bits;
+}
+
+static uint64_t light_cells_max(uint64_t cells)
+{
+    const uint64_t least = 128 * 128 * 128;
+    const uint64_t share = (uint64_t)(LIGHT_CELL_SHARE * (double)(cells > least ? cells : least));
+    return share < cells ? share : cells;
+}
+
+/* Bytes that the largest tenant of the scratch buffer needs: shared/scratch.h. */
+static uint64_t scratch_size(const struct extent *e, uint32_t rays_per_frame)
+{
+    const uint32_t bits = log2_of(e->cells) / 3;
+    const uint64_t tenants[] = {
+        sdfgi_scratch_accumulators_end(bits),
+        sdfgi_scratch_distance_end(bits),
+        sdfgi_scratch_flood_end(bits),
+        sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells_max),
+        e->probes * e->cascades * rays_per_frame,
+    };
+    uint64_t most = 0;
+    for (size_t i = 0; i < sizeof tenants / sizeof *tenants; i++)
+        most = tenants[i] > most ? tenants[i] : most;
+    return 4 * most;
+}
+
+struct extent extent_from_settings(const struct sdfgi_settings *settings)
+{
+    const uint64_t n = settings->resolution, side = n / SDFGI_PROBE_SPACING + 1;
+    struct extent e = {
+        .cells = n * n * n,
+        .blocks = n * n * n / 8,
+        .probes = side * side * side,
+        .probes_per_side = side,
+        .light_cells = LIGHT_CELL_LAYERS * n * n,
+        .light_cells_max = light_cells_max(n * n * n),
+        .cascades = settings->cascades,
+        .cycle_samples = settings_cycle_samples(settings),
+        .occlusion = 1,
+    };
+    e.scratch = scratch_size(&e, settings->ray_count);
+    if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
+        e.occlusion = e.probes * e.cascades * SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE;
+    return e;
+}

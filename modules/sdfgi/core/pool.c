@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+#include "pool.h"
+
+#include "hooks.h"
+
+#include <string.h>
+
+enum { SLOT_BITS = 20, GENERATION_MASK = 0xfff, FIRST_CAPACITY = 64 };
+
+void pool_init(struct pool *pool, size_t item_size, uint32_t limit)
+{
+    *pool = (struct pool){ .item_size = item_size, .limit = limit };
+}
+
+void pool_finish(struct pool *pool, const struct hooks *hooks)
+{
+    hooks_free(hooks, pool->items);
+    hooks_free(hooks, pool->generations);
+    hooks_free(hooks, pool->live);
+    pool_init(pool, pool->item_size, pool->limit);
+}
+
+static bool grow(struct pool *pool, const struct hooks *hooks)
+{
+    uint32_t capacity = pool->capacity ? pool->capacity * 2 : FIRST_CAPACITY;
+    capacity = capacity < pool->limit ? capacity : pool->limit;
+    if (capacity <= pool->capacity)
+        return false;
+    struct pool bigger = *pool;
+    bigger.capacity = capacity;
+    bigger.items = hooks_alloc(hooks, capacity * pool->item_size);
+    bigger.generations = hooks_alloc(hooks, capacity * sizeof *bigger.generations);
+    bigger.live = hooks_alloc(hooks, capacity * sizeof *bigger.live);
+    if (!bigger.items || !bigger.generations || !bigger.live) {
+        pool_finish(&bigger, hooks);
+        return false;
+    }
+    memset(bigger.generations, 0, capacity * sizeof *bigger.generations);
+    memset(bigger.live, 0, capacity * sizeof *bigger.live);
+    if (pool->end > 0) {
+        memcpy(bigger.items, pool->items, pool->end * pool->item_size);
+        memcpy(bigger.generations, pool->generations, pool->end * sizeof *bigger.generations);
+        memcpy(bigger.live, pool->live, pool->end * sizeof *bigger.live);
+    }
+    pool_finish(pool, hooks);
+    *pool = bigger;
+    return true;
+}
+
+static uint32_t free_slot(const struct pool *pool)
+{
+    if (pool->count < pool->end)
+        for (uint32_t i = 0; i < pool->end; i++)
+            if (!pool->live[i])
+                return i;
+    return pool->end;
+}
+
+uint32_t pool_id(const struct pool *pool, uint32_t index)
+{
+    return (index + 1) | (uint32_t)pool->generations[index] << SLOT_BITS;
+}
+
+uint32_t pool_index(uint32_t id)
+{
+    return (id & ((1u << SLOT_BITS) - 1)) - 1;
+}
+
+void *pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id)
+{
+    const uint32_t slot = free_slot(pool);
+    if (slot >= pool->capacity && !grow(pool, hooks))
+        return NULL;
+    pool->live[slot] = true;
+    pool->count++;
+    pool->end = slot + 1 > pool->end ? slot + 1 : pool->end;
+    *id = pool_id(pool, slot);
+    return memset(pool->items + slot * pool->item_size, 0, pool->item_size);
+}
+
+void *pool_at(const struct pool *pool, uint32_t index)
+{
+    return index < pool->end && pool->live[index] ? pool->items + index * pool->item_size : NULL;
+}
+
+void *pool_get(const struct pool *pool, uint32_t id)
+{
+    const uint32_t slot = pool_index(id);
+    if (slot >= pool->end || pool_id(pool, slot) != id)
+        return NULL;
+    return pool_at(pool, slot);
+}
+
+void pool_remove(struct pool *pool, uint32_t id)
+{
+    const uint32_t slot = pool_index(id);
+    if (!pool_get(pool, id))
+        return;
+    pool->live[slot] = false;
+    pool->generations[slot] = (uint16_t)((pool->generations[slot] + 1) & GENERATION_MASK);
+    pool->count--;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+ * Slots of equal size behind 32-bit handles: 20 bits of slot + 1, 12 bits of generation. A handle whose slot
+ * was freed is not found again until its generation comes round after 4,096 reuses. */
+#ifndef SDFGI_POOL_H
+#define SDFGI_POOL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct hooks;
+
+struct pool {
+    size_t item_size;
+    uint32_t limit;           /* most slots */
+    uint32_t capacity, count; /* slots allocated and in use */
+    uint32_t end;             /* slots ever used: all live ones are below */
+    uint8_t *items;
+    uint16_t *generations;
+    bool *live;
+};
+
+void pool_init(struct pool *pool, size_t item_size, uint32_t limit);
+void pool_finish(struct pool *pool, const struct hooks *hooks);
+
+/* Takes a zeroed slot. Returns NULL if memory or slots have run out. */
+void *pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id);
+/* NULL if `id` is not a live handle. */
+void *pool_get(const struct pool *pool, uint32_t id);
+void pool_remove(struct pool *pool, uint32_t id);
+/* The item in slot `index` < end, or NULL if it is not live. */
+void *pool_at(const struct pool *pool, uint32_t index);
+uint32_t pool_index(uint32_t id);
+uint32_t pool_id(const struct pool *pool, uint32_t index);
+
+#endif

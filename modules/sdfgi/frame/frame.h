@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT
+ * A frame: planned as a list of work, then recorded, then committed. docs/frame.md tells the same with reasons. */
+#ifndef SDFGI_FRAME_H
+#define SDFGI_FRAME_H
+
+#include "frame_needs.h"
+#include "pass/pass_record.h"
+#include "volume/volume.h"
+
+/* All that a plan depends on. */
+struct frame_input {
+    const struct volume_state *state;    /* after the frame before */
+    const struct sdfgi_frame_desc *desc; /* checked */
+    const struct sdfgi_settings *settings;
+    const struct scene *scene;
+    const struct journal *journal; /* what changed in the scene */
+    struct extent extent;
+    const uint32_t *counters;      /* of the newest finished frame */
+    struct light_lists lists;
+    bool list_grew;                /* the light lists are empty now */
+    uint32_t threads_per_ray;      /* of light_direct: few threads at once should not idle */
+};
+
+/* Small data that the host writes into buffers. */
+enum frame_upload {
+    FRAME_UPLOAD_PARAMS = 1,
+    FRAME_UPLOAD_LIGHTS = 2,
+    FRAME_UPLOAD_MATERIALS = 4,
+    FRAME_UPLOAD_RAY_QUEUE = 8, /* empties it */
+};
+
+struct frame {
+    struct volume_state next; /* the state once this frame is recorded */
+    struct scroll_plan scroll;
+    struct situation situation;
+    struct work_list work;
+    uint32_t uploads;        /* enum frame_upload */
+    bool cycle_ends;         /* this is the last frame of a sample cycle */
+    const char *reasons[PASS_COUNT]; /* why each pass runs, or not */
+};
+
+/* Fills `frame` from the input alone: the same input gives the same plan. Needs no device. */
+void frame_plan(struct frame *frame, const struct frame_input *input);
+
+/* Records a plan. Changes nothing but the command buffer and what the recorder counts. */
+void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec, uint32_t slot);
+
+/* Makes a recorded plan the volume's state. */
+void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume);
+
+#endif

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+#include "frame_needs.h"
+
+struct need_row {
+    bool (*holds)(const struct situation *s);
+    const char *why;     /* it runs */
+    const char *why_not; /* it does not: true whatever keeps it from running */
+};
+
+static bool needs_voxels(const struct situation *s)
+{
+    return s->geometry_due && !s->raster;
+}
+
+static bool needs_voxels_raster(const struct situation *s)
+{
+    return s->geometry_due && s->raster;
+}
+
+static bool needs_generate(const struct situation *s)
+{
+    return s->voxels_due;
+}
+
+static bool needs_complete(const struct situation *s)
+{
+    return s->completes;
+}
+
+static bool needs_seed(const struct situation *s)
+{
+    return s->completes && !s->from_nothing;
+}
+
+static bool needs_list(const struct situation *s)
+{
+    return s->completes || s->list_grew;
+}
+
+static bool needs_exact(const struct situation *s)
+{
+    return s->distances_due && !s->flood;
+}
+
+static bool needs_flood(const struct situation *s)
+{
+    return s->distances_due && s->flood;
+}
+
+static bool needs_occlusion(const struct situation *s)
+{
+    return s->completes && s->occlusion;
+}
+
+static bool needs_masks(const struct situation *s)
+{
+    return needs_list(s) && s->masks;
+}
+
+static bool needs_direct(const struct situation *s)
+{
+    return ((s->relights || needs_list(s)) && s->has_lights) || s->lights_changed;
+}
+
+static bool needs_trace(const struct situation *s)
+{
+    return !s->converged && !s->light_waits;
+}
+
+static bool needs_rays(const struct situation *s)
+{
+    return needs_trace(s) && s->rays_missing;
+}
+
+static bool needs_blend(const struct situation *s)
+{
+    return !s->converged && s->shows && !s->light_waits;
+}
+
+static bool needs_light(const struct situation *s)
+{
+    return needs_blend(s) || (!s->converged && (needs_list(s) || s->lights_changed));
+}
+
+/* A gather is not planned with the frame: the host asks for it afterwards. */
+static bool needs_gather(const struct situation *s)
+{
+    (void)s;
+    return false;
+}
+
+static const struct need_row needs[NEED_COUNT] = {
+    [NEED_VOXELS] = { needs_voxels, "geometry lies in cells that are voxelised",
+                      "no geometry lies in cells that are voxelised in this frame, or sdfgi_voxelizer is raster" },
+    [NEED_VOXELS_RASTER] = { needs_voxels_raster, "geometry lies in cells that are voxelised",
+                             "sdfgi_voxelizer is compute, or no geometry lies in cells that are voxelised" },
+    [NEED_GENERATE] = { needs_generate, "a cascade moved or its geometry changed",
+                        "no cascade changed, or its voxels are due in another frame" },
+    [NEED_COMPLETE] = { needs_complete, "the voxels and distances of a change are complete",
+                        "no cascade changed, or its voxels and distances are not complete" },
+    [NEED_SEED] = { needs_seed, "a change is complete beside probes and rays that stay",
+                    "no change is complete, or nothing was there before" },
+    [NEED_LIST] = { needs_list, "surfaces in a cascade changed, or the light list grew",
+                    "no change is complete, and the light list has room" },
+    [NEED_EXACT] = { needs_exact, "a change calls for distances and sdfgi_sdf_method is exact",
+                     "sdfgi_sdf_method is flood, or no distances are due" },
+    [NEED_FLOOD] = { needs_flood, "a change calls for distances and sdfgi_sdf_method is flood",
+                     "sdfgi_sdf_method is exact, or no distances are due" },
+    [NEED_OCCLUSION] = { needs_occlusion, "a cascade changed and sdfgi_visibility is probe_depth",
+                         "sdfgi_visibility is not probe_depth, or no change is complete" },
+    [NEED_MASKS] = { needs_masks, "a cascade changed and lookups read cell masks",
+                     "lookups read no cell masks, or no change is complete" },
+    [NEED_DIRECT] = { needs_direct, "lights or the surfaces that they reach changed",
+                      "no light and no surface changed, or cells wait for a later frame to be lit again" },
+    [NEED_LIGHT] = { needs_light, "light has not converged", "light has converged, or is due in a later frame" },
+    [NEED_TRACE] = { needs_trace, "light has not converged",
+                     "light has converged, or waits for the frame after a scroll" },
+    [NEED_RAYS] = { needs_rays, "rays of the sample cycle are not cached",
+                    "all rays are cached, or light has converged or waits" },
+    [NEED_BLEND] = { needs_blend, "light has not converged", "light has converged, or is due in a later frame" },
+    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
+};
+
+struct situation_needs frame_needs(const struct situation *situation)
+{
+    struct situation_needs result;
+    for (int i = 0; i < NEED_COUNT; i++)
+        result.holds[i] = needs[i].holds(situation);
+    return result;
+}
+
+const char *need_reason(enum need need)
+{
+    return needs[need].why;
+}
+
+const char *need_reason_not(enum need need)
+{
+    return needs[need].why_not;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+ * What a frame calls for: one condition per need of the pass table. Pure. */
+#ifndef SDFGI_FRAME_NEEDS_H
+#define SDFGI_FRAME_NEEDS_H
+
+#include "pass/pass_rows.h"
+
+/* What is known about the scene and this frame when its work is planned. */
+struct situation {
+    bool voxels_due, geometry_due; /* voxels of cells; of cells that an instance touches */
+    bool distances_due;
+    bool completes;      /* a change of a cascade completes */
+    bool scroll_completes; /* one that was not an edit */
+    bool from_nothing;   /* no cascade was complete before */
+    bool list_grew;      /* light lists were lost: they are written again */
+    bool has_lights;
+    bool lights_changed;
+    bool relights;       /* light cells wait to be lit again */
+    bool light_waits;    /* light goes on in the next frame */
+    bool rays_missing;   /* some of this frame's rays are not cached */
+    bool shows;          /* probes show in this frame what they have gathered */
+    bool converged;
+    bool raster, flood, occlusion, masks; /* methods that the settings choose */
+};
+
+struct situation_needs {
+    bool holds[NEED_COUNT];
+};
+
+struct situation_needs frame_needs(const struct situation *situation);
+
+/* Static texts for the report: why a pass with this need runs; why it does not although GI is on. */
+const char *need_reason(enum need need);
+const char *need_reason_not(enum need need);
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT
+ * Decides what a frame does, in the order in which it happens. */
+#include "frame_work.h"
+
+#include "volume/change.h"
+
+#include <string.h>
+
+/* Takes over what the host says about the frame and what changed in the scene. */
+static void take_input(struct frame *frame, const struct frame_input *input)
+{
+    const struct sdfgi_frame_desc *desc = input->desc;
+    struct volume_state *next = &frame->next;
+    const float exposure = desc->exposure > 0 ? desc->exposure : 1.0f;
+    const bool first = next->updates == 0, exposure_changed = exposure != next->exposure;
+    volume_apply_journal(input->journal, next);
+    memcpy(next->origin, desc->origin, sizeof next->origin);
+    if (exposure_changed)
+        accumulation_invalidate(&next->accumulation);
+    next->exposure = exposure;
+    if (desc->seed != next->seed)
+        for (uint32_t c = 0; c < next->cascades.count; c++)
+            cascade_outdate(&next->cascades.at[c]);
+    next->seed = desc->seed;
+    frame->situation.lights_changed = first || exposure_changed || (input->journal->notes & JOURNAL_LIGHTS);
+    if (first || (input->journal->notes & JOURNAL_MATERIALS))
+        frame->uploads |= FRAME_UPLOAD_MATERIALS;
+}
+
+/* What cycles have gathered no longer counts: nothing was there before, or light cells were missing. */
+static bool restarts(const struct frame *frame)
+{
+    return frame->situation.from_nothing || frame->situation.list_grew;
+}
+
+/* Moves cascades, and takes the pieces of their changes that are due. */
+static void plan_scroll(struct frame *frame, const struct frame_input *input)
+{
+    struct volume_state *next = &frame->next;
+    const struct scroll_limits limits = { input->settings->max_scroll_cells,
+                                          input->settings->sdf_method == SDFGI_SDF_FLOOD };
+    const bool nothing_shown = next->accumulation.phase < LIGHTING_RUNNING;
+    scroll_plan(&next->scroll, &next->cascades, &limits, input->desc->camera_position, nothing_shown,
+                &frame->scroll);
+    if (frame->scroll.begins)
+        accumulation_invalidate(&next->accumulation);
+    frame->situation.from_nothing = frame->scroll.from_nothing;
+    frame->situation.voxels_due = scroll_plan_has(&frame->scroll, PIECE_VOXELS);
+    frame->situation.distances_due = scroll_plan_has(&frame->scroll, PIECE_DISTANCES);
+    frame->situation.completes = cascades_complete(&next->cascades);
+}
+
+static bool scroll_completes(const struct frame *frame)
+{
+    const struct cascades *cascades = &frame->next.cascades;
+    for (uint32_t c = 0; c < cascades->count; c++)
+        if (cascade_completes(&cascades->at[c]) && cascades->at[c].last_turn != CHANGE_EDIT)
+            return true;
+    return false;
+}
+
+/* A frame in which a scroll completes has enough to do: light goes on in the next one. Not where scrolls come thick and
+ * fast, and not for geometry, which may change in every frame: that would keep light waiting. */
+static bool light_waits(const struct frame *frame)
+{
+    return frame->situation.scroll_completes && !restarts(frame) && frame->next.accumulation.phase != LIGHTING_DARK &&
+           frame->next.scroll.calm_frames >= SCROLL_CALM_FRAMES;
+}
+
+/* Decides where in the sample cycle this frame is. */
+static void plan_cycle(struct frame *frame, const struct frame_input *input)
+{
+    struct accumulation *a = &frame->next.accumulation;
+    const uint32_t cycle_frames = settings_cycle_frames(input->settings);
+    if (restarts(frame))
+        accumulation_restart(a);
+    frame->situation.scroll_completes = scroll_completes(frame);
+    frame->situation.light_waits = light_waits(frame);
+    if (frame->scroll.from_nothing)
+        accumulation_go_dark(a);
+    /* Any change may invalidate cached rays of any sample, so rays are traced for one full cycle afterwards. */
+    bool changes = restarts(frame);
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++)
+        changes = changes || frame->next.cascades.at[c].change.cause != CHANGE_NONE;
+    if (changes)
+        a->rays_missing = cycle_frames;
+    frame->cycle_ends = accumulation_cycle_ends(a, cycle_frames);
+    frame->situation.rays_missing = a->rays_missing > 0;
+    frame->situation.converged = a->phase == LIGHTING_CONVERGED;
+    const bool due = (a->frame + 1) % input->settings->frames_to_update_lights == 0;
+    frame->situation.shows = due || frame->cycle_ends || a->phase == LIGHTING_DARK;
+}
+
+enum relist frame_relist(const struct frame *frame, uint32_t c)
+{
+    const struct cascade *cascade = &frame->next.cascades.at[c];
+    if (frame->situation.list_grew)
+        return RELIST_NEW;
+    if (!cascade_completes(cascade))
+        return RELIST_NOT;
+    return cell_box_empty(&cascade->change.kept) ? RELIST_NEW : RELIST_DIRTY;
+}
+
+/* Decides whose direct light is to be made again. */
+static void plan_relight(struct frame *frame, const struct frame_input *input)
+{
+    enum relist relists[SDFGI_MAX_CASCADES] = { RELIST_NOT };
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++)
+        relists[c] = frame_relist(frame, c);
+    frame->situation.has_lights = input->scene->lights.count > 0;
+    relight_note(&frame->next.relight, &input->lists, relists,
+                 frame->situation.lights_changed || !frame->situation.has_lights);
+    frame->situation.relights = relight_is_due(&frame->next.relight);
+}
+
+static bool geometry_is_due(const struct frame *frame, const struct scene *scene)
+{
+    for (uint32_t i = 0; i < frame->scroll.piece_count; i++) {
+        const struct scroll_piece *piece = &frame->scroll.pieces[i];
+        const struct cascade *cascade = &frame->next.cascades.at[piece->cascade];
+        const struct box box = cascade_world_box(cascade, &piece->box);
+        if (piece->kind == PIECE_VOXELS && scene_touches(scene, &box))
+            return true;
+    }
+    return false;
+}
+
+static void plan_methods(struct situation *s, const struct sdfgi_settings *settings)
+{
+    const bool depth = settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH;
+    s->raster = settings->voxelizer == SDFGI_VOXELIZER_RASTER;
+    s->flood = settings->sdf_method == SDFGI_SDF_FLOOD;
+    s->occlusion = settings->use_occlusion && depth;
+    s->masks = settings->use_occlusion && !depth;
+}
+
+/* Compares the parameters with those that were uploaded last. */
+static void plan_uploads(struct frame *frame, const struct frame_input *input, const struct situation_needs *needs)
+{
+    const struct params_input params_input = { input->settings, input->scene, input->extent.light_cells };
+    struct sdfgi_frame_params params;
+    params_fill(&params, &frame->next, &params_input);
+    if (memcmp(&params, &frame->next.params, sizeof params) != 0)
+        frame->uploads |= FRAME_UPLOAD_PARAMS;
+    frame->next.params = params;
+    if (needs->holds[NEED_DIRECT] && frame->situation.has_lights)
+        frame->uploads |= FRAME_UPLOAD_LIGHTS;
+    if (needs->holds[NEED_TRACE])
+        frame->uploads |= FRAME_UPLOAD_RAY_QUEUE;
+}
+
+static void plan_reasons(struct frame *frame)
+{
+    for (int i = 0; i < PASS_COUNT; i++) {
+        const enum need need = pass_row((enum pass)i)->need;
+        frame->reasons[i] = work_has(&frame->work, (enum pass)i) ? need_reason(need) : need_reason_not(need);
+    }
+}
+
+void frame_plan(struct frame *frame, const struct frame_input *input)
+{
+    memset(frame, 0, sizeof *frame);
+    frame->next = *input->state;
+    frame->situation.list_grew = input->list_grew;
+    take_input(frame, input);
+    plan_scroll(frame, input);
+    plan_cycle(frame, input);
+    plan_relight(frame, input);
+    plan_methods(&frame->situation, input->settings);
+    frame->situation.geometry_due = geometry_is_due(frame, input->scene);
+    const struct situation_needs needs = frame_needs(&frame->situation);
+    plan_uploads(frame, input, &needs);
+    if (!frame->situation.converged)
+        frame_add_work(frame, input, &needs);
+    plan_reasons(frame);
+}
+
+void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume)
+{
+    struct volume_state *state = &volume->state;
+    const struct situation *s = &frame->situation;
+    struct feedback_slot *slot = &volume->feedback.slots[backend_slot(volume->backend)];
+    *state = frame->next;
+    state->updates++;
+    slot->content = s->converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS;
+    if (work_has(&frame->work, PASS_PROBE_BLEND))
+        accumulation_show(&state->accumulation, frame->cycle_ends);
+    if (!s->converged && !s->light_waits) {
+        slot->ended_cycle = frame->cycle_ends ? state->accumulation.cycle : 0;
+        accumulation_advance(&state->accumulation, settings_cycle_frames(settings),
+                             cascades_rest(&state->cascades) && !relight_is_due(&state->relight));
+    }
+    scroll_finish(&state->scroll, &state->cascades);
+    journal_clear(&volume->journal);
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT
+ * Records a plan: uploads, then the list of work, then what goes back to the host. */
+#include "frame.h"
+
+#include "voxelize.h"
+
+/* ---- Uploads: recorded inline, so that frames in flight never meet */
+
+static void upload(struct pass_recorder *r, enum resource resource, uint64_t offset, uint64_t size, const void *data)
+{
+    gpu_update(&r->gpu, &r->resources->buffers[resource], offset, size, data);
+}
+
+static void upload_lights(struct pass_recorder *r, const struct volume_state *state, const struct pool *lights)
+{
+    enum { BATCH = 64 };
+    struct sdfgi_light_params batch[BATCH];
+    uint32_t filled = 0, done = 0;
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(LIGHTS));
+    for (uint32_t i = 0; i < lights->end; i++) {
+        const struct light *light = pool_at(lights, i);
+        if (light)
+            batch[filled++] = params_of_light(state, &light->desc);
+        if (filled == BATCH || (i + 1 == lights->end && filled > 0)) {
+            upload(r, RESOURCE_LIGHTS, done * sizeof *batch, filled * sizeof *batch, batch);
+            done += filled;
+            filled = 0;
+        }
+    }
+}
+
+static void upload_materials(struct pass_recorder *r, const struct scene *scene)
+{
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(MATERIALS));
+    for (uint32_t i = 0; i < scene->materials.end; i++) {
+        const struct material *material = pool_at(&scene->materials, i);
+        if (!material)
+            continue;
+        const struct sdfgi_material_params p = params_of_material(scene, &material->desc);
+        upload(r, RESOURCE_MATERIALS, i * sizeof p, sizeof p, &p);
+    }
+}
+
+/* No workgroups, no rays, none that ran out of steps: shaders/sdfgi/ray_queue.glsl. */
+static void empty_ray_queue(struct pass_recorder *r)
+{
+    const uint32_t empty[5] = { 0, 1, 1, 0, 0 };
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(INDIRECT));
+    upload(r, RESOURCE_INDIRECT, 16 * SDFGI_INDIRECT_RAYS, sizeof empty, empty);
+}
+
+static void record_uploads(struct pass_recorder *r, const struct frame *frame, const struct scene *scene)
+{
+    if (frame->uploads & FRAME_UPLOAD_PARAMS) {
+        gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(FRAME));
+        upload(r, RESOURCE_FRAME, 0, sizeof frame->next.params, &frame->next.params);
+    }
+    if (frame->uploads & FRAME_UPLOAD_RAY_QUEUE)
+        empty_ray_queue(r);
+    if (frame->uploads & FRAME_UPLOAD_LIGHTS)
+        upload_lights(r, &frame->next, &scene->lights);
+    if (frame->uploads & FRAME_UPLOAD_MATERIALS)
+        upload_materials(r, scene);
+}
+
+/* ---- Work */
+
+static void record_item(struct pass_recorder *r, const struct voxelizer *voxelizer, const struct work *work)
+{
+    if (work->kind == WORK_CLEAR)
+        pass_record_clear(r, work);
+    else if (pass_row(work->pass)->domain == DOMAIN_INSTANCES)
+        voxelize_record(voxelizer, work);
+    else
+        pass_record(r, work);
+}
+
+static void record_readback(struct pass_recorder *r, uint32_t slot)
+{
+    const uint64_t bytes = SDFGI_COUNTER_COUNT * sizeof(uint32_t);
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, RESOURCE_BIT(COUNTERS), 0);
+    gpu_copy(&r->gpu, &r->resources->buffers[RESOURCE_COUNTERS], 0, &r->resources->readback, slot * bytes, bytes);
+}
+
+void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r, uint32_t slot)
+{
+    const struct voxelizer voxelizer = { r, scene, &frame->next.cascades };
+    record_uploads(r, frame, scene);
+    for (uint32_t i = 0; i < frame->work.count; i++)
+        record_item(r, &voxelizer, &frame->work.items[i]);
+    pass_close(r);
+    if (!frame->situation.converged)
+        record_readback(r, slot);
+}

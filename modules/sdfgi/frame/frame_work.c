@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#include "frame_work.h"
+
+#include <assert.h>
+
+struct work *stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade)
+{
+    const enum need need = pass_row(pass)->need;
+    return stage->needs->holds[need] ? work_add(&stage->frame->work, pass, cascade, need_reason(need)) : NULL;
+}
+
+uint32_t stage_begin_group(const struct plan_stage *stage)
+{
+    return stage->frame->work.count;
+}
+
+void stage_end_group(const struct plan_stage *stage, uint32_t first)
+{
+    struct work_list *list = &stage->frame->work;
+    assert(first <= list->count);
+    list->groups++;
+    for (uint32_t i = first; i < list->count; i++)
+        list->items[i].group = list->groups;
+}
+
+/* When counters start again. */
+enum cleared { CLEARED_CHANGE, CLEARED_CYCLE };
+
+static const struct {
+    uint32_t counter;
+    enum cleared cleared;
+} counters[] = {
+#define ROW(id, cleared, health) { SDFGI_COUNTER_##id, CLEARED_##cleared },
+    SDFGI_COUNTERS(ROW)
+#undef ROW
+};
+
+/* Clears the counters of a row and those between them. A frame that voxelises clears all. */
+static void clear_counters(struct work_list *list, enum cleared when)
+{
+    uint32_t first = SDFGI_COUNTER_SINGLE_COUNT, end = 0;
+    for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
+        if (counters[i].cleared >= when) {
+            first = counters[i].counter < first ? counters[i].counter : first;
+            end = counters[i].counter + 1 > end ? counters[i].counter + 1 : end;
+        }
+    work_add_clear(list, RESOURCE_COUNTERS, 4 * first, 4 * (end - first));
+}
+
+void frame_add_work(struct frame *frame, const struct frame_input *input, const struct situation_needs *needs)
+{
+    const struct plan_stage stage = { frame, input, needs };
+    if (needs->holds[NEED_GENERATE])
+        clear_counters(&frame->work, CLEARED_CHANGE);
+    else if (frame->next.accumulation.frame == 0)
+        clear_counters(&frame->work, CLEARED_CYCLE);
+    stage_generate(&stage);
+    stage_complete(&stage);
+    stage_light(&stage);
+}

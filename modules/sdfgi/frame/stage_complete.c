@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT
+ * Stages 5 to 7 where a change completes: probes, light cells and their light. */
+#include "frame_work.h"
+
+#include "shaders/shared/scratch.h"
+
+/* Empties the sums of this cycle, the ray cache and, if no cycle has been completed, the cycle before. */
+static void clear_probes(const struct plan_stage *stage, uint32_t c)
+{
+    const struct extent *e = &stage->input->extent;
+    const uint64_t rays = resource_size(RESOURCE_RAYS, e) / e->cascades,
+                   sums = resource_size(RESOURCE_SUMS, e) / e->cascades,
+                   previous = resource_size(RESOURCE_PREVIOUS, e) / e->cascades;
+    struct work_list *list = &stage->frame->work;
+    work_add_clear(list, RESOURCE_RAYS, c * rays, rays);
+    work_add_clear(list, RESOURCE_SUMS, c * sums, sums);
+    if (stage->frame->next.accumulation.phase < LIGHTING_RUNNING)
+        work_add_clear(list, RESOURCE_PREVIOUS, c * previous, previous);
+}
+
+/* Blocks and rows of the light list; entries need no clearing. */
+static void clear_list(const struct plan_stage *stage)
+{
+    const uint32_t bits = log2_of(stage->frame->next.cascades.resolution);
+    work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0, 4 * (uint64_t)sdfgi_scratch_light_before(bits));
+}
+
+/* Cells in the blocks that a change makes dirty, some of them more than once: those in cages that touch it. */
+static uint64_t dirty_cells(const struct plan_stage *stage, uint32_t c)
+{
+    if (frame_relist(stage->frame, c) == RELIST_NEW)
+        return stage->input->extent.cells;
+    const struct change *change = &stage->frame->next.cascades.at[c].change;
+    const struct cell_box whole = cell_box_whole(stage->frame->next.cascades.resolution);
+    uint64_t cells = 0;
+    for (uint32_t i = 0; i < change->count; i++) {
+        const struct cell_box wide = cell_box_widened(&change->boxes[i], SDFGI_PROBE_SPACING);
+        const struct cell_box inside = cell_box_common(&wide, &whole);
+        cells += cell_box_cells(&inside);
+    }
+    return cells;
+}
+
+static void add_probes(const struct plan_stage *stage, enum pass pass, uint32_t c, uint64_t units_per_probe)
+{
+    struct work *work = stage_add(stage, pass, c);
+    if (!work)
+        return;
+    work->args.cascade.cascade = c;
+    work->units = stage->input->extent.probes * units_per_probe;
+}
+
+static void add_mark(const struct plan_stage *stage, uint32_t c)
+{
+    const uint64_t cells = dirty_cells(stage, c), room = stage->input->extent.light_cells;
+    struct work *work = stage_add(stage, PASS_LIGHT_MARK, c);
+    work->args.light_mark =
+        (struct sdfgi_light_mark_args){ .cascade = c, .rebuild = frame_relist(stage->frame, c) == RELIST_NEW };
+    work->count = (uint32_t)(cells > room ? cells : room);
+    work->units = cells;
+}
+
+static void add_list(const struct plan_stage *stage, uint32_t c)
+{
+    struct work *work = stage_add(stage, PASS_LIGHT_LIST, c);
+    work->args.cascade.cascade = c;
+    work->units = stage->input->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
+}
+
+/* A pass over the light cells in dirty blocks, with the workgroups of a record of indirect arguments. How many cells
+ * that is comes back frames later: the work is that of the list before. */
+static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c, uint32_t record,
+                      const union work_args *args)
+{
+    struct work *work = stage_add(stage, pass, c);
+    if (!work)
+        return;
+    work->indirect = record + c;
+    work->args = *args;
+    work->units = stage->input->counters[SDFGI_COUNTER_LIGHT_DIRTY + c];
+}
+
+static void add_direct(const struct plan_stage *stage, uint32_t c)
+{
+    const union work_args args = { .light_direct = { .cascade = c,
+                                                     .only_dirty = 1,
+                                                     .threads_per_ray = stage->input->threads_per_ray } };
+    add_dirty(stage, PASS_LIGHT_DIRECT, c, SDFGI_INDIRECT_DIRECT, &args);
+}
+
+static void add_bounce(const struct plan_stage *stage, uint32_t c)
+{
+    const union work_args args = {
+        .light_bounce = { .cascade = c,
+                          .only_dirty = 1,
+                          .without_probes = stage->frame->next.accumulation.phase == LIGHTING_DARK }
+    };
+    add_dirty(stage, PASS_LIGHT_BOUNCE, c, SDFGI_INDIRECT_CELLS, &args);
+}
+
+/* Rays of a cascade go on into coarser ones, never into finer: those of the finest cascades, up to the coarsest that
+ * completes, may be invalid. Once per frame, with the finest cascade that completes. */
+static void add_ray_forget(const struct plan_stage *stage, uint32_t c)
+{
+    const struct cascades *cascades = &stage->frame->next.cascades;
+    uint32_t finest = SDFGI_MAX_CASCADES, count = 0;
+    for (uint32_t i = cascades->count; i-- > 0;)
+        if (cascade_completes(&cascades->at[i])) {
+            finest = i;
+            count = count > i + 1 ? count : i + 1;
+        }
+    if (c != finest || stage->frame->situation.from_nothing || stage->frame->situation.list_grew)
+        return;
+    struct work *work = stage_add(stage, PASS_RAY_FORGET, 0);
+    work->count = count;
+    work->units = stage->input->extent.probes * stage->input->extent.cycle_samples * count;
+}
+
+/* Probes and light cells of a cascade. The order of passes is such that neighbours touch nothing in common: no barrier
+ * comes between them. */
+static void complete_cascade(const struct plan_stage *stage, uint32_t c)
+{
+    const bool all = cascade_completes(&stage->frame->next.cascades.at[c]);
+    const union work_args mask = { .cascade = { c } };
+    clear_list(stage);
+
+    const uint32_t first = stage_begin_group(stage);
+    add_mark(stage, c);
+    if (all)
+        add_probes(stage, PASS_PROBE_PLACE, c, 1);
+    stage_end_group(stage, first);
+
+    add_list(stage, c);
+
+    const uint32_t second = stage_begin_group(stage);
+    add_direct(stage, c);
+    add_dirty(stage, PASS_CELL_MASK, c, SDFGI_INDIRECT_MASKS, &mask);
+    if (all)
+        add_probes(stage, PASS_OCCLUSION_TRACE, c, SDFGI_OCCLUSION_TEXELS * SDFGI_OCCLUSION_TEXELS);
+    if (all)
+        add_probes(stage, PASS_PROBE_SEED, c, 1);
+    add_ray_forget(stage, c);
+    stage_end_group(stage, second);
+
+    add_bounce(stage, c);
+}
+
+/* Coarse cascades first, from which new probes of finer ones take their start. */
+void stage_complete(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    if (!stage->needs->holds[NEED_LIST])
+        return;
+    for (uint32_t c = frame->next.cascades.count; c-- > 0;) {
+        if (frame->situation.from_nothing || frame->situation.list_grew)
+            clear_probes(stage, c);
+        if (frame_relist(frame, c) != RELIST_NOT)
+            complete_cascade(stage, c);
+    }
+}

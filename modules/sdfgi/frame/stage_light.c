@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT
+ * Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
+#include "frame_work.h"
+
+static void add_direct(const struct plan_stage *stage, const struct relight_range *range)
+{
+    struct work *work = stage_add(stage, PASS_LIGHT_DIRECT, range->cascade);
+    work->first = range->first;
+    work->count = range->count;
+    work->units = range->count;
+    work->args.light_direct = (struct sdfgi_light_direct_args){
+        .cascade = range->cascade,
+        .first = range->first,
+        .end = range->first + range->count,
+        .threads_per_ray = stage->input->threads_per_ray,
+    };
+}
+
+/* What leaves the surfaces, in all cascades. */
+static void add_bounce(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    struct work *work = stage_add(stage, PASS_LIGHT_BOUNCE, 0);
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++) {
+        const uint32_t entries = light_list_entries(&frame->next.relight, &stage->input->lists, c);
+        work->count = entries > work->count ? entries : work->count;
+        work->units += stage->input->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
+    }
+    /* Probes hold light once a frame has shown it: in this one, that is the case behind PROBE_BLEND. */
+    const bool shown = work_has(&frame->work, PASS_PROBE_BLEND);
+    work->args.light_bounce = (struct sdfgi_light_bounce_args){
+        .end = work->count,
+        .without_probes = !shown && frame->next.accumulation.phase == LIGHTING_DARK,
+    };
+}
+
+/* Lights changed: all cells that were there before. */
+static void light_directly(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    bool any = false;
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++) {
+        if (frame_relist(frame, c) == RELIST_NEW)
+            continue;
+        const uint32_t entries = light_list_entries(&frame->next.relight, &stage->input->lists, c);
+        add_direct(stage, &(struct relight_range){ c, 0, entries });
+        any = true;
+    }
+    if (any)
+        add_bounce(stage);
+}
+
+/* Lights this frame's part of the cells again on which shadows may have changed. */
+static void relight(const struct plan_stage *stage)
+{
+    struct frame *frame = stage->frame;
+    struct relight_range ranges[SDFGI_MAX_CASCADES];
+    const uint32_t count =
+        relight_take(&frame->next.relight, &stage->input->lists, frame->situation.scroll_completes, ranges);
+    for (uint32_t i = 0; i < count; i++)
+        add_direct(stage, &ranges[i]);
+    if (count > 0)
+        accumulation_invalidate(&frame->next.accumulation);
+}
+
+static void add_ray_list(const struct plan_stage *stage)
+{
+    const uint64_t rays = stage->input->extent.probes * stage->frame->next.params.rays_per_frame;
+    struct work *work = stage_add(stage, PASS_RAY_LIST, 0);
+    if (!work)
+        return;
+    work->count = (uint32_t)rays;
+    work->units = rays * stage->input->extent.cascades;
+}
+
+/* How many rays are traced comes back frames later: the work is that of the newest frame known. */
+static void add_probe_trace(const struct plan_stage *stage)
+{
+    struct work *work = stage_add(stage, PASS_PROBE_TRACE, 0);
+    if (!work)
+        return;
+    work->indirect = SDFGI_INDIRECT_RAYS;
+    work->units = stage->input->counters[SDFGI_COUNTER_RAYS_TRACED];
+}
+
+static struct work *add_all_probes(const struct plan_stage *stage, enum pass pass, uint64_t units_per_probe)
+{
+    const struct extent *e = &stage->input->extent;
+    struct work *work = stage_add(stage, pass, 0);
+    if (!work)
+        return NULL;
+    work->count = (uint32_t)e->cascades;
+    work->units = e->probes * e->cascades * units_per_probe;
+    return work;
+}
+
+/* This frame's rays, and beside them some direct light. */
+static void trace(const struct plan_stage *stage)
+{
+    add_ray_list(stage);
+    const uint32_t first = stage_begin_group(stage);
+    add_probe_trace(stage);
+    if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
+        relight(stage);
+    stage_end_group(stage, first);
+}
+
+/* Adds up what this frame's rays find, and shows what the probes have gathered. */
+static void light_probes(const struct plan_stage *stage)
+{
+    add_all_probes(stage, PASS_PROBE_SUM, stage->frame->next.params.rays_per_frame);
+    struct work *blend = add_all_probes(stage, PASS_PROBE_BLEND, 1);
+    if (!blend)
+        return;
+    blend->args.probe_blend = (struct sdfgi_probe_blend_args){
+        .cycle_ends = stage->frame->cycle_ends,
+        .without_history = stage->frame->next.accumulation.phase < LIGHTING_RUNNING,
+    };
+    add_bounce(stage);
+}
+
+void stage_light(const struct plan_stage *stage)
+{
+    if (stage->needs->holds[NEED_DIRECT] && stage->frame->situation.lights_changed)
+        light_directly(stage);
+    trace(stage);
+    light_probes(stage);
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+#include "backend.h"
+
+uint32_t backend_slot(const struct backend *backend)
+{
+    return (uint32_t)(backend->retired.frame % backend->retired.frames_in_flight);
+}
+
+VkResult backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
+                             VkBufferUsageFlags usage, enum gpu_placement placement,
+                             enum sdfgi_memory_category category, const char *name)
+{
+    const VkResult result = gpu_buffer_init(&backend->device, buffer, size, usage, placement, name);
+    if (result != VK_SUCCESS)
+        return result;
+    backend->held.bytes[category] += size;
+    backend->held.total_bytes += size;
+    return VK_SUCCESS;
+}
+
+void backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
+                           enum sdfgi_memory_category category)
+{
+    if (buffer->handle) {
+        backend->held.bytes[category] -= buffer->size;
+        backend->held.total_bytes -= buffer->size;
+    }
+    gpu_buffer_finish(&backend->device, buffer);
+}
+
+VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool, VkDescriptorSetLayout layout,
+                              VkDescriptorSet *set)
+{
+    return backend->device.fn.AllocateDescriptorSets(
+        backend->device.handle,
+        &(VkDescriptorSetAllocateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                        .descriptorPool = pool,
+                                        .descriptorSetCount = 1,
+                                        .pSetLayouts = &layout },
+        set);
+}

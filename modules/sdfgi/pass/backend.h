@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ * What scene, volumes and views share: the host's device and hooks, pipelines, and the queue of objects that
+ * frames in flight may still use. */
+#ifndef SDFGI_BACKEND_H
+#define SDFGI_BACKEND_H
+
+#include "core/hooks.h"
+#include "gpu.h"
+#include "pass_rows.h"
+
+enum { PASS_VARIANTS = 2 }; /* without and with textures */
+
+struct pipelines {
+    VkDescriptorSetLayout sets[2]; /* by enum resource_set */
+    VkDescriptorSetLayout mesh, material, view;
+    VkPipelineLayout layouts[PASS_SET_COUNT]; /* by the set beside LOOKUP and WORK */
+    VkPipeline passes[PASS_COUNT][PASS_VARIANTS];
+    VkSampler nearest;
+};
+
+struct backend {
+    struct gpu_device device;
+    VkAllocationCallbacks callbacks;
+    struct hooks hooks;
+    struct pipelines pipelines;
+    struct gpu_retire_queue retired; /* counts frames, too */
+    struct sdfgi_memory held;        /* device bytes of all buffers, retired ones included */
+};
+
+/* Frames recorded so far modulo the frames in flight. */
+uint32_t backend_slot(const struct backend *backend);
+
+/* A buffer whose size counts in `held`. */
+VkResult backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
+                             VkBufferUsageFlags usage, enum gpu_placement placement,
+                             enum sdfgi_memory_category category, const char *name);
+/* Accepts a buffer that was never made. */
+void backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
+                           enum sdfgi_memory_category category);
+
+/* Sampler, layouts, and the pipelines of rows that are made with the context. */
+VkResult pipelines_init(struct backend *backend);
+void pipelines_finish(struct backend *backend);
+/* Makes the pipeline of a variant unless it is there. */
+VkResult pipelines_require(struct backend *backend, enum pass pass, uint32_t variant);
+/* Makes a variant of a raster pass for its render pass, which draws into `extent` pixels a side. */
+VkResult pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant, VkRenderPass render_pass,
+                          uint32_t extent, VkPipeline *pipeline);
+
+/* One set from a pool. */
+VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool, VkDescriptorSetLayout layout,
+                              VkDescriptorSet *set);
+
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ * Recording of work: label, timer, barrier, pipeline, push constants, dispatch, all from the tables. */
+#ifndef SDFGI_PASS_RECORD_H
+#define SDFGI_PASS_RECORD_H
+
+#include "resources.h"
+
+/* What recording a pass amounted to. */
+struct pass_tally {
+    uint32_t dispatches;
+    uint64_t units;
+};
+
+struct pass_recorder {
+    const struct backend *backend;
+    const struct resources *resources;
+    struct gpu_timer *timer;
+    struct gpu_recorder gpu;
+    struct pass_tally tally[PASS_COUNT];
+    const struct work *open; /* the newest item of the pass whose label is open; NULL: none */
+    bool timed;              /* a time span is open */
+    uint32_t bound;          /* a bit per bind point that has the resources' sets */
+};
+
+void pass_recorder_begin(struct pass_recorder *r, const struct backend *backend, struct resources *resources,
+                         VkCommandBuffer cmd);
+void pass_recorder_end(struct pass_recorder *r);
+
+/* Binds LOOKUP and WORK, unless they are bound. */
+void pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint point);
+
+/* Opens label and time span of an item's pass, unless the item before has opened them. */
+void pass_open(struct pass_recorder *r, const struct work *work);
+/* Closes what is open. */
+void pass_close(struct pass_recorder *r);
+
+/* An item of any domain but DOMAIN_INSTANCES. */
+void pass_record(struct pass_recorder *r, const struct work *work);
+void pass_record_clear(struct pass_recorder *r, const struct work *work);
+
+#endif

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT
+ * Layouts and pipelines, derived from the pass and resource tables. */
+#include "backend.h"
+#include "resource_rows.h"
+
+#include "shaders/shared/bindings.h"
+
+#include "sdfgi_shaders.h"
+
+/* Every pipeline layout has the same push constants, so that LOOKUP and WORK stay bound from pass to pass.
+ * Vulkan promises 128 bytes. */
+#define PUSH_BYTES 128
+
+_Static_assert(sizeof(union work_args) <= PUSH_BYTES, "arguments fit the push constants");
+_Static_assert(sizeof(struct sdfgi_voxelize_args) <= PUSH_BYTES, "arguments fit the push constants");
+
+/* Of a pass: a compute shader or a vertex and a fragment shader, by variant. */
+struct pass_shaders {
+    struct gpu_shader compute[PASS_VARIANTS], vertex, fragment[PASS_VARIANTS];
+};
+
+#define SHADER(name) { name, sizeof name }
+#define SHADERS_COMPUTE(file)          { .compute = { SHADER(file##_comp) } }
+#define SHADERS_COMPUTE_TEXTURED(file) { .compute = { SHADER(file##_comp), SHADER(file##_textured_comp) } }
+#define SHADERS_RASTER_TEXTURED(file) \
+    { .vertex = SHADER(file##_vert), .fragment = { SHADER(file##_frag), SHADER(file##_textured_frag) } }
+
+static const struct pass_shaders shaders[PASS_COUNT] = {
+#define ROW(id, kind, shader, unit, need, made, domain, args, group, set, reads, writes)                     \
+    [PASS_##id] = SHADERS_##kind(shader),
+    SDFGI_PASSES(ROW)
+#undef ROW
+};
+
+static VkResult set_layout(const struct gpu_device *device, const VkDescriptorSetLayoutBinding *bindings,
+                           uint32_t count, VkDescriptorSetLayout *layout)
+{
+    return device->fn.CreateDescriptorSetLayout(
+        device->handle,
+        &(VkDescriptorSetLayoutCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                            .bindingCount = count,
+                                            .pBindings = bindings },
+        device->callbacks, layout);
+}
+
+static VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType type, const VkSampler *sampler)
+{
+    return (VkDescriptorSetLayoutBinding){ index, type, 1, VK_SHADER_STAGE_ALL, sampler };
+}
+
+static VkResult resource_set_layout(struct backend *backend, enum resource_set set)
+{
+    VkDescriptorSetLayoutBinding bindings[RESOURCE_COUNT];
+    uint32_t count = 0;
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
+        const struct resource_row *row = resource_row((enum resource)i);
+        if (row->set == set)
+            bindings[count++] = binding(row->binding, resource_descriptor((enum resource)i), NULL);
+    }
+    return set_layout(&backend->device, bindings, count, &backend->pipelines.sets[set]);
+}
+
+static VkResult mesh_layout(struct backend *backend)
+{
+    VkDescriptorSetLayoutBinding bindings[4];
+    for (uint32_t i = 0; i < 4; i++)
+        bindings[i] = binding(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, NULL);
+    return set_layout(&backend->device, bindings, 4, &backend->pipelines.mesh);
+}
+
+static VkResult material_layout(struct backend *backend)
+{
+    const VkDescriptorSetLayoutBinding bindings[2] = {
+        binding(SDFGI_BINDING_MATERIAL_ALBEDO, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, NULL),
+        binding(SDFGI_BINDING_MATERIAL_EMISSION, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, NULL),
+    };
+    return set_layout(&backend->device, bindings, 2, &backend->pipelines.material);
+}
+
+static VkResult view_layout(struct backend *backend)
+{
+    const VkSampler *nearest = &backend->pipelines.nearest;
+    const VkDescriptorSetLayoutBinding bindings[3] = {
+        binding(SDFGI_BINDING_GATHER_DEPTH, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
+        binding(SDFGI_BINDING_GATHER_NORMAL, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
+        binding(SDFGI_BINDING_GATHER_OUTPUT, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL),
+    };
+    return set_layout(&backend->device, bindings, 3, &backend->pipelines.view);
+}
+
+static VkResult pipeline_layout(struct backend *backend, enum pass_set beside)
+{
+    struct pipelines *p = &backend->pipelines;
+    const VkDescriptorSetLayout extra[PASS_SET_COUNT][2] = {
+        [PASS_SET_MESH] = { p->mesh, p->material },
+        [PASS_SET_VIEW] = { p->view },
+    };
+    const VkDescriptorSetLayout sets[4] = { p->sets[RESOURCE_SET_LOOKUP], p->sets[RESOURCE_SET_WORK],
+                                            extra[beside][0], extra[beside][1] };
+    const uint32_t count = 2 + (extra[beside][0] != VK_NULL_HANDLE) + (extra[beside][1] != VK_NULL_HANDLE);
+    const VkPushConstantRange range = { VK_SHADER_STAGE_ALL, 0, PUSH_BYTES };
+    return backend->device.fn.CreatePipelineLayout(
+        backend->device.handle,
+        &(VkPipelineLayoutCreateInfo){ .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                       .setLayoutCount = count,
+                                       .pSetLayouts = sets,
+                                       .pushConstantRangeCount = 1,
+                                       .pPushConstantRanges = &range },
+        backend->device.callbacks, &p->layouts[beside]);
+}
+
+static VkResult make_layouts(struct backend *backend)
+{
+    VkResult result = VK_SUCCESS;
+    for (int i = 0; i < RESOURCE_SET_COUNT && result == VK_SUCCESS; i++)
+        result = resource_set_layout(backend, (enum resource_set)i);
+    if (result == VK_SUCCESS)
+        result = mesh_layout(backend);
+    if (result == VK_SUCCESS)
+        result = material_layout(backend);
+    if (result == VK_SUCCESS)
+        result = view_layout(backend);
+    for (int i = 0; i < PASS_SET_COUNT && result == VK_SUCCESS; i++)
+        result = pipeline_layout(backend, (enum pass_set)i);
+    return result;
+}
+
+VkResult pipelines_require(struct backend *backend, enum pass pass, uint32_t variant)
+{
+    VkPipeline *pipeline = &backend->pipelines.passes[pass][variant];
+    if (*pipeline)
+        return VK_SUCCESS;
+    return gpu_compute_pipeline_create(&backend->device, shaders[pass].compute[variant],
+                                       backend->pipelines.layouts[pass_row(pass)->set], pass_row(pass)->name,
+                                       pipeline);
+}
+
+VkResult pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant, VkRenderPass render_pass,
+                          uint32_t extent, VkPipeline *pipeline)
+{
+    return gpu_raster_pipeline_create(&backend->device, shaders[pass].vertex, shaders[pass].fragment[variant],
+                                      backend->pipelines.layouts[pass_row(pass)->set], render_pass, extent,
+                                      pass_row(pass)->name, pipeline);
+}
+
+static VkResult make_sampler(struct backend *backend)
+{
+    return backend->device.fn.CreateSampler(
+        backend->device.handle,
+        &(VkSamplerCreateInfo){ .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                .magFilter = VK_FILTER_NEAREST,
+                                .minFilter = VK_FILTER_NEAREST,
+                                .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE },
+        backend->device.callbacks, &backend->pipelines.nearest);
+}
+
+VkResult pipelines_init(struct backend *backend)
+{
+    VkResult result = make_sampler(backend);
+    if (result == VK_SUCCESS)
+        result = make_layouts(backend);
+    for (int i = 0; i < PASS_COUNT && result == VK_SUCCESS; i++)
+        if (pass_row((enum pass)i)->made == PASS_MADE_CREATED)
+            result = pipelines_require(backend, (enum pass)i, 0);
+    return result;
+}
+
+void pipelines_finish(struct backend *backend)
+{
+    const struct gpu_device *d = &backend->device;
+    struct pipelines *p = &backend->pipelines;
+    for (int i = 0; i < PASS_COUNT; i++)
+        for (int v = 0; v < PASS_VARIANTS; v++)
+            d->fn.DestroyPipeline(d->handle, p->passes[i][v], d->callbacks);
+    for (int i = 0; i < PASS_SET_COUNT; i++)
+        d->fn.DestroyPipelineLayout(d->handle, p->layouts[i], d->callbacks);
+    for (int i = 0; i < RESOURCE_SET_COUNT; i++)
+        d->fn.DestroyDescriptorSetLayout(d->handle, p->sets[i], d->callbacks);
+    d->fn.DestroyDescriptorSetLayout(d->handle, p->mesh, d->callbacks);
+    d->fn.DestroyDescriptorSetLayout(d->handle, p->material, d->callbacks);
+    d->fn.DestroyDescriptorSetLayout(d->handle, p->view, d->callbacks);
+    d->fn.DestroySampler(d->handle, p->nearest, d->callbacks);
+}

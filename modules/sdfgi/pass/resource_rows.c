@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+#include "resource_rows.h"
+
+#include "work.h"
+
+#include "shaders/shared/bindings.h"
+
+#include <assert.h>
+
+static const struct resource_row rows[RESOURCE_COUNT] = {
+#define ROW(id, kind_, format, category_, scope_, set_, extent, keep_)                                       \
+    [RESOURCE_##id] = { "sdfgi " #id,          RESOURCE_KIND_##kind_, SDFGI_MEMORY_##category_,              \
+                        RESOURCE_SCOPE_##scope_, RESOURCE_SET_##set_,   RESOURCE_KEEP_##keep_,               \
+                        SDFGI_BINDING_##id },
+    SDFGI_RESOURCES(ROW)
+#undef ROW
+};
+
+enum format_size {
+#define SIZE(id, bytes) FORMAT_SIZE_##id = bytes,
+    RESOURCE_FORMATS(SIZE)
+#undef SIZE
+};
+
+const struct resource_row *resource_row(enum resource resource)
+{
+    return &rows[resource];
+}
+
+uint64_t resource_size(enum resource resource, const struct extent *e)
+{
+    switch (resource) {
+#define SIZE(id, kind, format, category, scope, set, extent, keep)                                           \
+    case RESOURCE_##id:                                                                                      \
+        return (uint64_t)FORMAT_SIZE_##format * (extent);
+        SDFGI_RESOURCES(SIZE)
+#undef SIZE
+    case RESOURCE_COUNT:
+        break;
+    }
+    assert(false);
+    return 0;
+}
+
+VkDescriptorType resource_descriptor(enum resource resource)
+{
+    return rows[resource].kind == RESOURCE_KIND_UNIFORM ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                                        : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+uint32_t resource_set_size(enum resource_set set)
+{
+    uint32_t count = 0;
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        count += rows[i].set == set;
+    return count;
+}
+
+uint64_t readback_size(uint32_t frames_in_flight)
+{
+    return (uint64_t)frames_in_flight * SDFGI_COUNTER_COUNT * sizeof(uint32_t);
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ * The rows of resource_table.h as data. Needs no device. */
+#ifndef SDFGI_RESOURCE_ROWS_H
+#define SDFGI_RESOURCE_ROWS_H
+
+#include "core/extent.h"
+#include "resource_table.h"
+
+#include <sdfgi/sdfgi.h>
+
+enum resource_kind { RESOURCE_KIND_UNIFORM, RESOURCE_KIND_STORAGE };
+enum resource_scope { RESOURCE_SCOPE_VOLUME, RESOURCE_SCOPE_VIEW };
+enum resource_set { RESOURCE_SET_LOOKUP, RESOURCE_SET_WORK, RESOURCE_SET_COUNT };
+enum resource_keep { RESOURCE_KEEP_SAVED, RESOURCE_KEEP_DERIVED, RESOURCE_KEEP_SCRATCH };
+
+struct resource_row {
+    const char *name; /* "sdfgi BITS" */
+    enum resource_kind kind;
+    enum sdfgi_memory_category category;
+    enum resource_scope scope;
+    enum resource_set set;
+    enum resource_keep keep;
+    uint32_t binding; /* in its set */
+};
+
+const struct resource_row *resource_row(enum resource resource);
+/* Bytes. */
+uint64_t resource_size(enum resource resource, const struct extent *extent);
+VkDescriptorType resource_descriptor(enum resource resource);
+/* How many resources of a set are bound. */
+uint32_t resource_set_size(enum resource_set set);
+/* Bytes of counters that come back to the host. */
+uint64_t readback_size(uint32_t frames_in_flight);
+
+#endif

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT */
+#include "resources.h"
+
+#include <assert.h>
+#include <string.h>
+
+#define BUFFER_USAGE                                                                                         \
+    (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |                               \
+     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                                   \
+     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
+
+static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer, enum resource resource,
+                              const struct extent *extent)
+{
+    return backend_buffer_init(backend, buffer, resource_size(resource, extent), BUFFER_USAGE, GPU_DEVICE_LOCAL,
+                               resource_row(resource)->category, resource_row(resource)->name);
+}
+
+static VkResult create_buffers(struct backend *backend, struct resources *r)
+{
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
+        const VkResult result = create_buffer(backend, &r->buffers[i], (enum resource)i, &r->extent);
+        if (result != VK_SUCCESS)
+            return result;
+    }
+    return backend_buffer_init(backend, &r->readback, readback_size(backend->retired.frames_in_flight),
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_HOST_READ, SDFGI_MEMORY_READBACK,
+                               "sdfgi readback");
+}
+
+/* ---- Descriptor sets */
+
+/* A pool for `sets` sets with one binding for each of `count` resources. */
+static VkResult create_pool(const struct backend *backend, uint32_t sets, uint32_t count, VkDescriptorPool *pool)
+{
+    const VkDescriptorPoolSize sizes[] = {
+        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
+        { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
+    };
+    return backend->device.fn.CreateDescriptorPool(
+        backend->device.handle,
+        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .maxSets = sets,
+                                       .poolSizeCount = 2,
+                                       .pPoolSizes = sizes },
+        backend->device.callbacks, pool);
+}
+
+static VkResult create_sets(const struct backend *backend, VkDescriptorPool *pool,
+                            VkDescriptorSet sets[static RESOURCE_SET_COUNT])
+{
+    VkResult result = create_pool(backend, RESOURCE_SET_COUNT, RESOURCE_COUNT, pool);
+    for (int i = 0; i < RESOURCE_SET_COUNT && result == VK_SUCCESS; i++)
+        result = backend_set_allocate(backend, *pool, backend->pipelines.sets[i], &sets[i]);
+    return result;
+}
+
+static void write_binding(const struct backend *backend, VkDescriptorSet set, enum resource resource,
+                          VkBuffer buffer)
+{
+    const VkDescriptorBufferInfo info = { buffer, 0, VK_WHOLE_SIZE };
+    backend->device.fn.UpdateDescriptorSets(
+        backend->device.handle, 1,
+        &(VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                 .dstSet = set,
+                                 .dstBinding = resource_row(resource)->binding,
+                                 .descriptorCount = 1,
+                                 .descriptorType = resource_descriptor(resource),
+                                 .pBufferInfo = &info },
+        0, NULL);
+}
+
+static void write_sets(const struct backend *backend, const struct resources *r)
+{
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        write_binding(backend, r->sets[resource_row((enum resource)i)->set], (enum resource)i,
+                      r->buffers[i].handle);
+}
+
+/* ---- The raster voxeliser's target */
+
+static VkResult create_framebuffer(const struct gpu_device *d, struct raster_target *target)
+{
+    const VkSubpassDescription subpass = { .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS };
+    const VkResult result = d->fn.CreateRenderPass(
+        d->handle,
+        &(VkRenderPassCreateInfo){ .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                   .subpassCount = 1,
+                                   .pSubpasses = &subpass },
+        d->callbacks, &target->pass);
+    if (result != VK_SUCCESS)
+        return result;
+    return d->fn.CreateFramebuffer(
+        d->handle,
+        &(VkFramebufferCreateInfo){ .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                    .renderPass = target->pass,
+                                    .width = target->extent,
+                                    .height = target->extent,
+                                    .layers = 1 },
+        d->callbacks, &target->framebuffer);
+}
+
+static VkResult create_raster(struct backend *backend, struct raster_target *target, uint32_t resolution)
+{
+    target->extent = resolution * SDFGI_SUBVOXELS;
+    VkResult result = create_framebuffer(&backend->device, target);
+    for (uint32_t v = 0; v < PASS_VARIANTS && result == VK_SUCCESS; v++)
+        result = pipelines_raster(backend, PASS_VOXELIZE_RASTER, v, target->pass, target->extent,
+                                  &target->pipelines[v]);
+    return result;
+}
+
+/* ---- Life */
+
+static VkResult create_all(struct backend *backend, struct resources *r, const struct sdfgi_settings *settings)
+{
+    VkResult result = create_buffers(backend, r);
+    if (result == VK_SUCCESS)
+        result = create_sets(backend, &r->pool, r->sets);
+    if (result == VK_SUCCESS)
+        result = gpu_timer_init(&backend->device, &r->timer, backend->retired.frames_in_flight, r->timer_tags,
+                                r->timer_counts);
+    if (result == VK_SUCCESS && settings->voxelizer == SDFGI_VOXELIZER_RASTER)
+        result = create_raster(backend, &r->raster, settings->resolution);
+    return result;
+}
+
+static void destroy(struct gpu_retired *item, void *user)
+{
+    struct backend *backend = user;
+    struct resources *r = (struct resources *)item;
+    const struct gpu_device *d = &backend->device;
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        backend_buffer_finish(backend, &r->buffers[i], resource_row((enum resource)i)->category);
+    backend_buffer_finish(backend, &r->readback, SDFGI_MEMORY_READBACK);
+    gpu_timer_finish(d, &r->timer);
+    d->fn.DestroyDescriptorPool(d->handle, r->pool, d->callbacks);
+    for (int v = 0; v < PASS_VARIANTS; v++)
+        d->fn.DestroyPipeline(d->handle, r->raster.pipelines[v], d->callbacks);
+    d->fn.DestroyFramebuffer(d->handle, r->raster.framebuffer, d->callbacks);
+    d->fn.DestroyRenderPass(d->handle, r->raster.pass, d->callbacks);
+    hooks_free(&backend->hooks, r);
+}
+
+_Static_assert(offsetof(struct resources, retired) == 0, "destroy() finds the resources by their first member");
+
+static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent)
+{
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        if (resource_size((enum resource)i, extent) > backend->device.limits.maxStorageBufferRange)
+            return message_invalid(
+                &backend->hooks,
+                "%s exceeds the device's maxStorageBufferRange: lower sdfgi_resolution or sdfgi_cascades",
+                resource_row((enum resource)i)->name);
+    return SDFGI_OK;
+}
+
+enum sdfgi_result resources_create(struct backend *backend, const struct sdfgi_settings *settings,
+                                   struct resources **out)
+{
+    const struct extent extent = extent_from_settings(settings);
+    const enum sdfgi_result fits = check_sizes(backend, &extent);
+    if (fits != SDFGI_OK)
+        return fits;
+    struct resources *r = hooks_alloc_zeroed(&backend->hooks, sizeof *r);
+    if (!r)
+        return message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, "switching on");
+    r->extent = extent;
+    const VkResult result = create_all(backend, r, settings);
+    if (result != VK_SUCCESS) {
+        destroy(&r->retired, backend);
+        return message_vulkan(&backend->hooks, result, "switching on");
+    }
+    write_sets(backend, r);
+    *out = r;
+    return SDFGI_OK;
+}
+
+void resources_retire(struct backend *backend, struct resources *resources)
+{
+    if (resources)
+        gpu_retire(&backend->retired, &resources->retired, destroy, backend);
+}
+
+/* ---- The light list grows */
+
+/* What the longer list replaces. */
+struct old_list {
+    struct gpu_retired retired;
+    struct gpu_buffer buffer;
+    VkDescriptorPool pool;
+};
+
+_Static_assert(offsetof(struct old_list, retired) == 0, "destroy_list() finds the list by its first member");
+
+static void destroy_list(struct gpu_retired *item, void *user)
+{
+    struct backend *backend = user;
+    struct old_list *old = (struct old_list *)item;
+    backend_buffer_finish(backend, &old->buffer, resource_row(RESOURCE_LIGHT_CELLS)->category);
+    backend->device.fn.DestroyDescriptorPool(backend->device.handle, old->pool, backend->device.callbacks);
+    hooks_free(&backend->hooks, old);
+}
+
+bool resources_grow_light_cells(struct backend *backend, struct resources *r, uint64_t light_cells)
+{
+    assert(light_cells > r->extent.light_cells && light_cells <= r->extent.light_cells_max);
+    struct extent extent = r->extent;
+    extent.light_cells = light_cells;
+    /* Made as what is to be destroyed, and exchanged for the old ones. */
+    struct old_list *list = hooks_alloc_zeroed(&backend->hooks, sizeof *list);
+    if (!list)
+        return false;
+    VkDescriptorSet sets[RESOURCE_SET_COUNT];
+    VkResult result = create_buffer(backend, &list->buffer, RESOURCE_LIGHT_CELLS, &extent);
+    if (result == VK_SUCCESS)
+        result = create_sets(backend, &list->pool, sets);
+    if (result != VK_SUCCESS) {
+        destroy_list(&list->retired, backend);
+        return false;
+    }
+    const struct gpu_buffer buffer = list->buffer;
+    const VkDescriptorPool pool = list->pool;
+    list->buffer = r->buffers[RESOURCE_LIGHT_CELLS];
+    list->pool = r->pool;
+    r->buffers[RESOURCE_LIGHT_CELLS] = buffer;
+    r->pool = pool;
+    memcpy(r->sets, sets, sizeof sets);
+    r->extent = extent;
+    write_sets(backend, r);
+    gpu_retire(&backend->retired, &list->retired, destroy_list, backend);
+    return true;
+}
+
+/* ---- The blank set */
+
+VkResult blank_set_init(struct backend *backend, struct blank_set *blank)
+{
+    const struct extent none = { 0 };
+    const uint64_t bytes = resource_size(RESOURCE_FRAME, &none);
+    VkResult result = gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ,
+                                      "sdfgi blank");
+    if (result == VK_SUCCESS)
+        result = gpu_buffer_zero(&backend->device, &blank->buffer);
+    if (result == VK_SUCCESS)
+        result = create_pool(backend, 1, resource_set_size(RESOURCE_SET_LOOKUP), &blank->pool);
+    if (result == VK_SUCCESS)
+        result = backend_set_allocate(backend, blank->pool, backend->pipelines.sets[RESOURCE_SET_LOOKUP],
+                                      &blank->set);
+    if (result != VK_SUCCESS)
+        return result;
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        if (resource_row((enum resource)i)->set == RESOURCE_SET_LOOKUP)
+            write_binding(backend, blank->set, (enum resource)i, blank->buffer.handle);
+    return VK_SUCCESS;
+}
+
+void blank_set_finish(struct backend *backend, struct blank_set *blank)
+{
+    const struct gpu_device *d = &backend->device;
+    d->fn.DestroyDescriptorPool(d->handle, blank->pool, d->callbacks);
+    gpu_buffer_finish(d, &blank->buffer);
+}

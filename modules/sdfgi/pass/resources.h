@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ * Device objects of a volume: the rows of resource_table.h, their descriptor sets, timers. */
+#ifndef SDFGI_RESOURCES_H
+#define SDFGI_RESOURCES_H
+
+#include "backend.h"
+#include "resource_rows.h"
+
+/* Where the raster voxeliser draws: nothing but its fragments' stores. */
+struct raster_target {
+    VkRenderPass pass;
+    VkFramebuffer framebuffer;
+    VkPipeline pipelines[PASS_VARIANTS];
+    uint32_t extent; /* pixels a side */
+};
+
+struct resources {
+    struct gpu_retired retired;
+    struct gpu_buffer buffers[RESOURCE_COUNT];
+    struct gpu_buffer readback; /* counters of the frames in flight */
+    struct gpu_timer timer;
+    uint32_t timer_tags[SDFGI_MAX_FRAMES_IN_FLIGHT * GPU_TIMER_SPANS];
+    uint32_t timer_counts[SDFGI_MAX_FRAMES_IN_FLIGHT];
+    VkDescriptorPool pool;
+    VkDescriptorSet sets[RESOURCE_SET_COUNT];
+    struct raster_target raster;
+    struct extent extent;
+};
+
+/* Reports failures; leaves *out as it was then. */
+enum sdfgi_result resources_create(struct backend *backend, const struct sdfgi_settings *settings,
+                                   struct resources **out);
+/* Destroys them once no frame in flight can use them. NULL is accepted. */
+void resources_retire(struct backend *backend, struct resources *resources);
+/* Exchanges the light lists for empty ones with room for `light_cells` in each cascade, and the descriptor sets
+ * with them. Changes nothing and returns false if memory is short. */
+bool resources_grow_light_cells(struct backend *backend, struct resources *resources, uint64_t light_cells);
+
+/* The LOOKUP set of a context that has no light to show: every lookup is black. At most 64 KiB, and no command. */
+struct blank_set {
+    struct gpu_buffer buffer;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+};
+
+VkResult blank_set_init(struct backend *backend, struct blank_set *blank);
+void blank_set_finish(struct backend *backend, struct blank_set *blank);
+
+#endif

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+#include "work.h"
+
+#include "pass_rows.h"
+
+#include <assert.h>
+
+struct work *work_add(struct work_list *list, enum pass pass, uint32_t cascade, const char *reason)
+{
+    assert(list->count < SDFGI_MAX_WORK);
+    struct work *work = &list->items[list->count++];
+    *work = (struct work){ .pass = pass, .cascade = cascade, .reason = reason, .indirect = WORK_DIRECT };
+    return work;
+}
+
+void work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes)
+{
+    assert(list->count < SDFGI_MAX_WORK);
+    list->items[list->count++] =
+        (struct work){ .kind = WORK_CLEAR, .resource = resource, .offset = offset, .bytes = bytes };
+}
+
+bool work_has(const struct work_list *list, enum pass pass)
+{
+    for (uint32_t i = 0; i < list->count; i++)
+        if (list->items[i].kind == WORK_PASS && list->items[i].pass == pass)
+            return true;
+    return false;
+}
+
+/* Workgroups that share a row of light blocks: along the ground it holds a thousand cells. */
+#define LIST_SHARES 4
+
+static uint32_t groups_for(uint64_t elements, uint64_t per_group)
+{
+    return (uint32_t)((elements + per_group - 1) / per_group);
+}
+
+/* In rows of as many workgroups as every device takes. */
+static struct work_groups in_rows(uint32_t groups)
+{
+    const uint32_t most = SDFGI_MAX_GROUPS;
+    return (struct work_groups){ groups < most ? groups : most, groups_for(groups, most), 1 };
+}
+
+/* Runs of cells that hold the cells of `count` blocks along x. */
+static uint32_t runs_of(const struct work *work, uint32_t per_run)
+{
+    const uint32_t first = 4 * work->first / per_run;
+    return groups_for(4 * ((uint64_t)work->first + work->count), per_run) - first;
+}
+
+struct work_groups work_groups(const struct work *work, const struct extent *e, uint32_t blocks_per_group)
+{
+    const uint32_t group = pass_row(work->pass)->group, probes = (uint32_t)e->probes,
+                   cascades = (uint32_t)e->cascades, n = 8 * ((uint32_t)e->probes_per_side - 1);
+    switch (pass_row(work->pass)->domain) {
+    case DOMAIN_INSTANCES:
+        break;
+    case DOMAIN_BOX:
+        return (struct work_groups){ groups_for(cell_box_cells(&work->box), group), 1, 1 };
+    case DOMAIN_CELLS:
+        return (struct work_groups){ n / group, n / group, n / group };
+    case DOMAIN_DISTANCE_ROWS:
+        return (struct work_groups){ n * n / group + n / 4 * work->count, 1, 1 };
+    case DOMAIN_DISTANCE_LAYERS:
+        return (struct work_groups){ runs_of(work, group), SDFGI_SUBVOXELS * n, 1 };
+    case DOMAIN_DISTANCE_COLUMNS:
+        return (struct work_groups){ 4 * n / group, work->count, 1 };
+    case DOMAIN_PROBES:
+        return (struct work_groups){ probes, 1, 1 };
+    case DOMAIN_ALL_PROBES:
+        return (struct work_groups){ probes, work->count, 1 };
+    case DOMAIN_ALL_RAYS:
+        return (struct work_groups){ groups_for(work->count, group), cascades, 1 };
+    case DOMAIN_LIGHT_BLOCKS:
+        return (struct work_groups){ in_rows(groups_for(work->count, group * blocks_per_group)).x, 1, 1 };
+    case DOMAIN_LIGHT_ROWS:
+        return (struct work_groups){ (uint32_t)(e->cells / 64 / group), LIST_SHARES, 1 };
+    case DOMAIN_LIGHT_CELLS:
+        return in_rows(groups_for(work->count, group));
+    case DOMAIN_ALL_LIGHT_CELLS:
+        return (struct work_groups){ groups_for(work->count, group), cascades, 1 };
+    case DOMAIN_PIXELS:
+        return (struct work_groups){ groups_for(work->args.gather.width, group),
+                                     groups_for(work->args.gather.height, group), 1 };
+    }
+    assert(false);
+    return (struct work_groups){ 0, 0, 0 };
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT
+ * A list of work: what a frame does on the device, decided before anything is recorded. Plain data. */
+#ifndef SDFGI_WORK_H
+#define SDFGI_WORK_H
+
+#include "core/box.h"
+#include "core/extent.h"
+#include "pass_table.h"
+#include "resource_table.h"
+
+#include "shaders/shared/args.h"
+#include "shaders/shared/counters.h"
+#include "shaders/shared/frame.h"
+
+enum {
+    SDFGI_MAX_LIGHTS = 1024,
+    SDFGI_MAX_MATERIALS = 4096,
+    SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
+    SDFGI_MAX_WORK = 512, /* the plan of a frame never has more: asserted */
+};
+
+/* What a pass runs over; work_groups() tells how many workgroups that takes. */
+enum domain {
+    DOMAIN_INSTANCES,        /* mesh instances that touch a box: sized by the voxeliser */
+    DOMAIN_BOX,              /* cells of a box */
+    DOMAIN_CELLS,            /* all cells of a cascade */
+    DOMAIN_DISTANCE_ROWS,    /* columns of cells, and the light blocks of `count` layers along x */
+    DOMAIN_DISTANCE_LAYERS,  /* layers of sub-voxels, for cells [4 first, 4 (first + count)) along x */
+    DOMAIN_DISTANCE_COLUMNS, /* columns of cells, for `count` layers of blocks along x */
+    DOMAIN_PROBES,           /* of a cascade */
+    DOMAIN_ALL_PROBES,       /* of `count` cascades */
+    DOMAIN_ALL_RAYS,         /* `count` rays of each cascade */
+    DOMAIN_LIGHT_BLOCKS,     /* `count` cells, of which a workgroup looks at one block or more in turn */
+    DOMAIN_LIGHT_ROWS,       /* rows of light blocks of a cascade */
+    DOMAIN_LIGHT_CELLS,      /* `count` entries of the light list of a cascade */
+    DOMAIN_ALL_LIGHT_CELLS,  /* `count` entries of the light lists of all cascades */
+    DOMAIN_PIXELS,           /* of a picture */
+};
+
+union work_args {
+    struct sdfgi_cascade_args cascade;
+    struct sdfgi_region_args region;
+    struct sdfgi_distance_prepare_args distance_prepare;
+    struct sdfgi_distance_search_args distance_search;
+    struct sdfgi_flood_args flood;
+    struct sdfgi_light_mark_args light_mark;
+    struct sdfgi_light_direct_args light_direct;
+    struct sdfgi_light_bounce_args light_bounce;
+    struct sdfgi_probe_blend_args probe_blend;
+    struct sdfgi_gather_args gather;
+};
+
+enum work_kind {
+    WORK_PASS,  /* one dispatch of a pass; of voxelisers one per instance */
+    WORK_CLEAR, /* zeros a part of a buffer */
+};
+
+#define WORK_DIRECT UINT32_MAX /* `indirect`: the size follows from the domain */
+
+struct work {
+    enum work_kind kind;
+    enum pass pass;
+    const char *reason;      /* static: why the pass runs */
+    uint32_t cascade;
+    struct cell_box box;     /* DOMAIN_BOX, DOMAIN_INSTANCES */
+    uint32_t first, count;   /* a range of the domain */
+    uint32_t indirect;       /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
+    uint32_t group;          /* neighbours with the same number run side by side and share one time; 0: alone */
+    uint64_t units;          /* what the report counts as work */
+    union work_args args;
+    enum resource resource;  /* WORK_CLEAR: bytes [offset, offset + bytes) of this */
+    uint64_t offset, bytes;
+};
+
+struct work_list {
+    struct work items[SDFGI_MAX_WORK];
+    uint32_t count, groups; /* groups: the last number given out */
+};
+
+/* Appends an item with this pass and reason, and zeros otherwise; the caller fills it in. */
+struct work *work_add(struct work_list *list, enum pass pass, uint32_t cascade, const char *reason);
+void work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes);
+/* True if an item runs the pass. */
+bool work_has(const struct work_list *list, enum pass pass);
+
+struct work_groups {
+    uint32_t x, y, z;
+};
+
+/* Workgroups of an item that is neither indirect nor of DOMAIN_INSTANCES. `blocks_per_group` is how many light
+ * blocks a workgroup marks. */
+struct work_groups work_groups(const struct work *work, const struct extent *extent, uint32_t blocks_per_group);
+
+#endif

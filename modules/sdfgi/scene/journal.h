@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ * What changed in a scene since its reader looked last. */
+#ifndef SDFGI_JOURNAL_H
+#define SDFGI_JOURNAL_H
+
+#include "core/box.h"
+
+enum { JOURNAL_BOXES = 64 };
+
+enum journal_note {
+    JOURNAL_LIGHTS = 1,     /* lights were made, changed or destroyed */
+    JOURNAL_MATERIALS = 2,  /* constants of materials */
+    JOURNAL_SKY = 4,
+    JOURNAL_EVERYTHING = 8, /* all that was voxelised is out of date */
+};
+
+struct journal {
+    uint32_t notes;                  /* enum journal_note */
+    struct box boxes[JOURNAL_BOXES]; /* world: geometry changed there. When they are full, boxes grow */
+    uint32_t box_count;
+    struct journal *next; /* of the same scene */
+};
+
+void journal_note(struct journal *journals, enum journal_note note);
+void journal_add_box(struct journal *journals, const struct box *box);
+bool journal_is_empty(const struct journal *journal);
+/* Forgets all entries; it stays the scene's. */
+void journal_clear(struct journal *journal);
+
+#endif

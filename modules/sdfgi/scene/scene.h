@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT
+ * What the host registered: meshes, materials, instances, lights, sky; and a journal of what changed. The scene
+ * knows no cascades: each volume reads a journal of its own. */
+#ifndef SDFGI_SCENE_H
+#define SDFGI_SCENE_H
+
+#include "core/pool.h"
+#include "journal.h"
+#include "pass/backend.h"
+
+/* A descriptor set of an object, NULL if it has none. Lies in memory of its own, because frames in flight may use
+ * it longer than the object lives. */
+struct object_set {
+    struct gpu_retired retired;
+    VkDescriptorSet set;
+    struct set_pool *pool;
+};
+
+struct mesh {
+    struct sdfgi_mesh_desc desc;
+    struct object_set *set;
+};
+
+struct material {
+    struct sdfgi_material_desc desc;
+    struct object_set *set; /* NULL: no textures */
+};
+
+struct instance {
+    struct sdfgi_instance_desc desc;
+    struct box bounds; /* world */
+};
+
+struct light {
+    struct sdfgi_light_desc desc;
+};
+
+struct set_pool {
+    VkDescriptorPool handle;
+    uint32_t free;
+    struct set_pool *next;
+};
+
+struct scene {
+    struct backend *backend;
+    struct pool meshes, materials, instances, lights;
+    struct set_pool *set_pools;
+    struct sdfgi_sky sky;
+    float emission_unit; /* radiance of the brightest material: emission is stored as a share of it */
+    struct journal *journals;
+};
+
+void scene_init(struct scene *scene, struct backend *backend);
+void scene_finish(struct scene *scene);
+
+/* Has the scene write what changes into a journal too, which must outlive the scene. */
+void scene_add_journal(struct scene *scene, struct journal *journal);
+
+/* The functions of sdfgi.h by the same names: they check what they are given. */
+enum sdfgi_result scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
+                                        sdfgi_material *out);
+enum sdfgi_result scene_material_destroy(struct scene *scene, sdfgi_material material);
+enum sdfgi_result scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out);
+enum sdfgi_result scene_mesh_destroy(struct scene *scene, sdfgi_mesh mesh);
+enum sdfgi_result scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
+                                        sdfgi_instance *out);
+enum sdfgi_result scene_instance_set_transform(struct scene *scene, sdfgi_instance instance,
+                                               const struct sdfgi_transform *transform);
+enum sdfgi_result scene_instance_destroy(struct scene *scene, sdfgi_instance instance);
+enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc, sdfgi_light *out);
+enum sdfgi_result scene_light_update(struct scene *scene, sdfgi_light light, const struct sdfgi_light_desc *desc);
+enum sdfgi_result scene_light_destroy(struct scene *scene, sdfgi_light light);
+enum sdfgi_result scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky);
+enum sdfgi_result scene_invalidate_box(struct scene *scene, const double box_min[static 3],
+                                       const double box_max[static 3]);
+
+/* True if the instance is in the volumes and may touch the box. */
+bool instance_touches(const struct instance *instance, const struct box *box);
+/* True if any instance does. */
+bool scene_touches(const struct scene *scene, const struct box *box);
+/* True if anything in the scene gives light. */
+bool scene_has_light(const struct scene *scene, bool reads_sky);
+
+#endif

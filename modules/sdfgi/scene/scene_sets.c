@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+#include "scene_sets.h"
+
+#include "shaders/shared/bindings.h"
+
+#include <assert.h>
+
+enum { SETS_PER_POOL = 128 };
+
+static VkResult add_pool(struct scene *scene)
+{
+    const struct gpu_device *device = &scene->backend->device;
+    struct set_pool *pool = hooks_alloc_zeroed(&scene->backend->hooks, sizeof *pool);
+    if (!pool)
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
+    const VkDescriptorPoolSize sizes[] = {
+        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * SETS_PER_POOL },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * SETS_PER_POOL },
+    };
+    const VkResult result = device->fn.CreateDescriptorPool(
+        device->handle,
+        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
+                                       .maxSets = SETS_PER_POOL,
+                                       .poolSizeCount = 2,
+                                       .pPoolSizes = sizes },
+        device->callbacks, &pool->handle);
+    if (result != VK_SUCCESS) {
+        hooks_free(&scene->backend->hooks, pool);
+        return result;
+    }
+    pool->free = SETS_PER_POOL;
+    pool->next = scene->set_pools;
+    scene->set_pools = pool;
+    return VK_SUCCESS;
+}
+
+static struct set_pool *pool_with_room(const struct scene *scene)
+{
+    for (struct set_pool *pool = scene->set_pools; pool; pool = pool->next)
+        if (pool->free > 0)
+            return pool;
+    return NULL;
+}
+
+static VkResult allocate(struct scene *scene, VkDescriptorSetLayout layout, struct object_set *set)
+{
+    if (!pool_with_room(scene)) {
+        const VkResult result = add_pool(scene);
+        if (result != VK_SUCCESS)
+            return result;
+    }
+    set->pool = pool_with_room(scene);
+    const VkResult result = backend_set_allocate(scene->backend, set->pool->handle, layout, &set->set);
+    if (result == VK_SUCCESS)
+        set->pool->free--;
+    return result;
+}
+
+static VkResult create(struct scene *scene, VkDescriptorSetLayout layout, struct object_set **out)
+{
+    struct object_set *set = hooks_alloc_zeroed(&scene->backend->hooks, sizeof *set);
+    if (!set)
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
+    const VkResult result = allocate(scene, layout, set);
+    if (result != VK_SUCCESS) {
+        hooks_free(&scene->backend->hooks, set);
+        return result;
+    }
+    *out = set;
+    return VK_SUCCESS;
+}
+
+VkResult scene_sets_mesh(struct scene *scene, struct mesh *mesh)
+{
+    const struct gpu_device *device = &scene->backend->device;
+    const VkResult result = create(scene, scene->backend->pipelines.mesh, &mesh->set);
+    if (result != VK_SUCCESS)
+        return result;
+    /* Shaders do not read what the mesh lacks, but every binding needs a buffer. */
+    const VkBuffer positions = mesh->desc.position_buffer;
+    const VkBuffer buffers[4] = {
+        [SDFGI_BINDING_MESH_POSITIONS] = positions,
+        [SDFGI_BINDING_MESH_UVS] = mesh->desc.uv_buffer ? mesh->desc.uv_buffer : positions,
+        [SDFGI_BINDING_MESH_COLORS] = mesh->desc.color_buffer ? mesh->desc.color_buffer : positions,
+        [SDFGI_BINDING_MESH_INDICES] = mesh->desc.index_buffer ? mesh->desc.index_buffer : positions,
+    };
+    VkDescriptorBufferInfo infos[4];
+    VkWriteDescriptorSet writes[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        infos[i] = (VkDescriptorBufferInfo){ buffers[i], 0, VK_WHOLE_SIZE };
+        writes[i] = (VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                            .dstSet = mesh->set->set,
+                                            .dstBinding = i,
+                                            .descriptorCount = 1,
+                                            .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                            .pBufferInfo = &infos[i] };
+    }
+    device->fn.UpdateDescriptorSets(device->handle, 4, writes, 0, NULL);
+    return VK_SUCCESS;
+}
+
+static VkDescriptorImageInfo image_info(const struct sdfgi_texture *texture)
+{
+    const VkImageLayout layout = texture->layout ? texture->layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    return (VkDescriptorImageInfo){ texture->sampler, texture->view, layout };
+}
+
+static void write_textures(const struct gpu_device *device, const struct material *material)
+{
+    const struct sdfgi_texture *albedo = &material->desc.albedo_texture,
+                               *emission = &material->desc.emission_texture;
+    /* Where only one texture exists it stands in for the other, which shaders then do not read. */
+    const VkDescriptorImageInfo infos[2] = {
+        image_info(albedo->view ? albedo : emission),
+        image_info(emission->view ? emission : albedo),
+    };
+    VkWriteDescriptorSet writes[2];
+    for (uint32_t i = 0; i < 2; i++)
+        writes[i] = (VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                            .dstSet = material->set->set,
+                                            .dstBinding = i,
+                                            .descriptorCount = 1,
+                                            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                            .pImageInfo = &infos[i] };
+    device->fn.UpdateDescriptorSets(device->handle, 2, writes, 0, NULL);
+}
+
+VkResult scene_sets_material(struct scene *scene, struct material *material)
+{
+    if (!material->desc.albedo_texture.view && !material->desc.emission_texture.view)
+        return VK_SUCCESS;
+    VkResult result = pipelines_require(scene->backend, PASS_VOXELIZE, 1);
+    if (result == VK_SUCCESS)
+        result = create(scene, scene->backend->pipelines.material, &material->set);
+    if (result != VK_SUCCESS)
+        return result;
+    write_textures(&scene->backend->device, material);
+    return VK_SUCCESS;
+}
+
+static void destroy(struct gpu_retired *item, void *user)
+{
+    struct scene *scene = user;
+    struct object_set *set = (struct object_set *)item;
+    const struct gpu_device *device = &scene->backend->device;
+    device->fn.FreeDescriptorSets(device->handle, set->pool->handle, 1, &set->set);
+    set->pool->free++;
+    assert(set->pool->free <= SETS_PER_POOL);
+    hooks_free(&scene->backend->hooks, set);
+}
+
+_Static_assert(offsetof(struct object_set, retired) == 0, "destroy() finds the set by its first member");
+
+void scene_sets_retire(struct scene *scene, struct object_set *set)
+{
+    if (set)
+        gpu_retire(&scene->backend->retired, &set->retired, destroy, scene);
+}
+
+void scene_sets_finish(struct scene *scene)
+{
+    const struct gpu_device *device = &scene->backend->device;
+    for (struct set_pool *pool = scene->set_pools, *next; pool; pool = next) {
+        next = pool->next;
+        device->fn.DestroyDescriptorPool(device->handle, pool->handle, device->callbacks);
+        hooks_free(&scene->backend->hooks, pool);
+    }
+    scene->set_pools = NULL;
+}

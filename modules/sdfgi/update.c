@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT
+ * sdfgi_update: a frame, from top to bottom. */
+#include "context.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *frame_problem(const struct sdfgi_frame_desc *d)
+{
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(d->camera_position[i]) || !isfinite(d->origin[i]))
+            return "camera_position or origin is not finite";
+    if (!(isfinite(d->exposure) && d->exposure >= 0))
+        return "exposure is negative or not finite";
+    return NULL;
+}
+
+/* Threads that follow a shadow ray: where few threads run at once none should be idle. */
+static uint32_t threads_per_ray(const struct gpu_device *device)
+{
+    return device->is_cpu ? 1 : SDFGI_GROUP_SURFACES;
+}
+
+static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc, bool list_grew)
+{
+    return (struct frame_input){ .state = &gi->volume.state,
+                                 .desc = desc,
+                                 .settings = &gi->settings,
+                                 .scene = &gi->scene,
+                                 .journal = &gi->volume.journal,
+                                 .extent = gi->volume.resources->extent,
+                                 .counters = gi->volume.feedback.counters,
+                                 .lists = volume_light_lists(&gi->volume),
+                                 .list_grew = list_grew,
+                                 .threads_per_ray = threads_per_ray(&gi->backend.device) };
+}
+
+static void report_off(struct sdfgi *gi)
+{
+    memset(gi->passes, 0, sizeof gi->passes);
+    for (int i = 0; i < PASS_COUNT; i++)
+        gi->passes[i].reason = "GI is switched off";
+    gi->command_count = 0;
+}
+
+static void report_frame(struct sdfgi *gi)
+{
+    for (int i = 0; i < PASS_COUNT; i++)
+        gi->passes[i] = (struct pass_report){ gi->frame.reasons[i], gi->recorder.tally[i] };
+    gi->command_count = gi->recorder.gpu.command_count;
+}
+
+enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc)
+{
+    const char *problem = frame_problem(desc);
+    if (problem)
+        return message_invalid(&gi->backend.hooks, "sdfgi_update: %s", problem);
+    if (gi->backend.hooks.device_lost)
+        return SDFGI_ERROR_DEVICE_LOST;
+
+    /* Destroy what the frame that ends now was the last to use. */
+    gi->backend.retired.frame++;
+    gi->views.used = 0;
+    gpu_retire_collect(&gi->backend.retired);
+    if (!gi->volume.resources) {
+        report_off(gi);
+        return SDFGI_OK;
+    }
+
+    /* Take in what an earlier frame found out. */
+    const uint32_t slot = backend_slot(&gi->backend);
+    volume_read_back(&gi->volume, slot);
+    const bool list_grew = volume_make_room(&gi->volume);
+
+    /* Decide what this frame does. */
+    const struct frame_input input = frame_input(gi, desc, list_grew);
+    frame_plan(&gi->frame, &input);
+
+    /* Record it. */
+    pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd);
+    gpu_timer_begin_frame(&gi->volume.resources->timer, slot);
+    frame_record(&gi->frame, &gi->scene, &gi->recorder, slot);
+    pass_recorder_end(&gi->recorder);
+
+    /* Take it over as done. */
+    frame_commit(&gi->frame, &gi->settings, &gi->volume);
+    report_frame(gi);
+    return SDFGI_OK;
+}

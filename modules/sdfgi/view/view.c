@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+#include "view.h"
+
+#include "shaders/shared/bindings.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { GATHER_IMAGES = 3 };
+
+/* ---- Views */
+
+static VkResult create_pool(const struct backend *backend, VkDescriptorPool *pool)
+{
+    const uint32_t sets = backend->retired.frames_in_flight;
+    const VkDescriptorPoolSize sizes[] = {
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * sets },
+        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets },
+    };
+    return backend->device.fn.CreateDescriptorPool(
+        backend->device.handle,
+        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .maxSets = sets,
+                                       .poolSizeCount = 2,
+                                       .pPoolSizes = sizes },
+        backend->device.callbacks, pool);
+}
+
+static void destroy(struct backend *backend, struct view *view)
+{
+    backend->device.fn.DestroyDescriptorPool(backend->device.handle, view->pool, backend->device.callbacks);
+    hooks_free(&backend->hooks, view);
+}
+
+static struct view *create(struct backend *backend, VkResult *result)
+{
+    struct view *view = hooks_alloc_zeroed(&backend->hooks, sizeof *view);
+    *result = view ? create_pool(backend, &view->pool) : VK_ERROR_OUT_OF_HOST_MEMORY;
+    for (uint32_t f = 0; f < backend->retired.frames_in_flight && *result == VK_SUCCESS; f++)
+        *result = backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
+    if (*result == VK_SUCCESS)
+        return view;
+    if (view)
+        destroy(backend, view);
+    return NULL;
+}
+
+void views_finish(struct backend *backend, struct views *views)
+{
+    for (struct view *view = views->first, *next; view; view = next) {
+        next = view->next;
+        destroy(backend, view);
+    }
+    views->first = NULL;
+}
+
+struct view *views_next(struct backend *backend, struct views *views, VkResult *result)
+{
+    struct view **link = &views->first;
+    *result = VK_SUCCESS;
+    for (uint32_t i = 0; i < views->used; i++)
+        link = &(*link)->next;
+    if (!*link)
+        *link = create(backend, result);
+    views->used += *link != NULL;
+    return *link;
+}
+
+/* ---- Stage 8, diffuse, as a screen pass */
+
+const char *view_gather_problem(const struct sdfgi_gather_desc *d)
+{
+    if (!d->depth || !d->normal || !d->output)
+        return "depth, normal or output is null";
+    if (d->width == 0 || d->height == 0)
+        return "width or height is 0";
+    for (int i = 0; i < 16; i++)
+        if (!isfinite(d->inverse_view_projection[i]))
+            return "inverse_view_projection is not finite";
+    return NULL;
+}
+
+void view_write_set(const struct backend *backend, const struct view *view, const struct sdfgi_gather_desc *d)
+{
+    const VkImageLayout layout = d->input_layout ? d->input_layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkDescriptorImageInfo images[GATHER_IMAGES] = {
+        [SDFGI_BINDING_GATHER_DEPTH] = { VK_NULL_HANDLE, d->depth, layout },
+        [SDFGI_BINDING_GATHER_NORMAL] = { VK_NULL_HANDLE, d->normal, layout },
+        [SDFGI_BINDING_GATHER_OUTPUT] = { VK_NULL_HANDLE, d->output, VK_IMAGE_LAYOUT_GENERAL },
+    };
+    VkWriteDescriptorSet writes[GATHER_IMAGES];
+    for (uint32_t i = 0; i < GATHER_IMAGES; i++)
+        writes[i] = (VkWriteDescriptorSet){
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = view->sets[backend_slot(backend)],
+            .dstBinding = i,
+            .descriptorCount = 1,
+            .descriptorType = i == SDFGI_BINDING_GATHER_OUTPUT ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+                                                               : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            .pImageInfo = &images[i],
+        };
+    backend->device.fn.UpdateDescriptorSets(backend->device.handle, GATHER_IMAGES, writes, 0, NULL);
+}
+
+struct work view_gather_work(const struct sdfgi_gather_desc *d)
+{
+    struct work work = { .pass = PASS_GATHER,
+                         .indirect = WORK_DIRECT,
+                         .units = (uint64_t)d->width * d->height,
+                         .args.gather = { .width = d->width,
+                                          .height = d->height,
+                                          .background_depth = d->background_depth } };
+    memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,
+           sizeof work.args.gather.inverse_view_projection);
+    return work;
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+#include "accumulation.h"
+
+#include <assert.h>
+#include <math.h>
+
+/* Stored light is rounded, and rounding can go round in a circle. Below this change, so many cycles without one that
+ * changed clearly less than all before are an end too. */
+#define CIRCLING_CHANGE (1.0f / 256.0f)
+#define CIRCLING_CYCLES 8
+#define CLEARLY_LESS    0.9f
+
+void convergence_reset(struct convergence *c)
+{
+    *c = (struct convergence){ .change = INFINITY, .least = INFINITY };
+}
+
+void convergence_add(struct convergence *c, float change)
+{
+    c->change = change;
+    c->cycles_without_fall++;
+    if (change < CLEARLY_LESS * c->least) {
+        c->least = change;
+        c->cycles_without_fall = 0;
+    }
+}
+
+bool convergence_done(const struct convergence *c)
+{
+    return c->change < ACCUMULATION_CONVERGED_CHANGE ||
+           (c->change < CIRCLING_CHANGE && c->cycles_without_fall >= CIRCLING_CYCLES);
+}
+
+void accumulation_init(struct accumulation *a)
+{
+    *a = (struct accumulation){ .phase = LIGHTING_DARK, .cycle = 1 };
+    convergence_reset(&a->convergence);
+}
+
+/* All changes of phase go through here. */
+static void enter(struct accumulation *a, enum lighting_phase phase)
+{
+    assert(phase == a->phase || phase == LIGHTING_DARK || phase == a->phase + 1 ||
+           (phase == LIGHTING_RUNNING && a->phase != LIGHTING_RUNNING));
+    a->phase = phase;
+}
+
+static void wake(struct accumulation *a)
+{
+    if (a->phase == LIGHTING_CONVERGED)
+        enter(a, LIGHTING_RUNNING);
+    convergence_reset(&a->convergence);
+}
+
+void accumulation_invalidate(struct accumulation *a)
+{
+    a->invalid_cycle = a->cycle;
+    wake(a);
+}
+
+void accumulation_restart(struct accumulation *a)
+{
+    a->invalid_cycle = a->cycle;
+    a->cycle++;
+    a->frame = 0;
+    wake(a);
+}
+
+void accumulation_go_dark(struct accumulation *a)
+{
+    enter(a, LIGHTING_DARK);
+}
+
+void accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest)
+{
+    assert(cycle <= a->cycle);
+    a->known_cycle = cycle;
+    a->known_change = change;
+    a->known_brightest = brightest;
+    if (cycle > a->invalid_cycle)
+        convergence_add(&a->convergence, change);
+}
+
+void accumulation_show(struct accumulation *a, bool cycle_ends)
+{
+    assert(a->phase != LIGHTING_CONVERGED);
+    if (a->phase != LIGHTING_RUNNING)
+        enter(a, cycle_ends ? LIGHTING_RUNNING : LIGHTING_FIRST_CYCLE);
+}
+
+bool accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames)
+{
+    return a->frame + 1 == cycle_frames;
+}
+
+void accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests)
+{
+    a->rays_missing -= a->rays_missing > 0;
+    if (!accumulation_cycle_ends(a, cycle_frames)) {
+        a->frame++;
+        return;
+    }
+    if (rests && convergence_done(&a->convergence))
+        enter(a, LIGHTING_CONVERGED);
+    a->cycle++;
+    a->frame = 0;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ * Sample cycles, what has been shown of their light, and when it has converged. Plain data: the only place that
+ * changes these states. */
+#ifndef SDFGI_ACCUMULATION_H
+#define SDFGI_ACCUMULATION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The largest relative change of a probe texel, from one cycle to the next, of light that has converged. With a loop
+ * gain g the light still missing is at most g / (1 - g) times as much: 0.4 % of a white room of albedo 0.8. */
+#define ACCUMULATION_CONVERGED_CHANGE (1.0f / 1024.0f)
+
+enum lighting_phase {
+    LIGHTING_DARK,        /* no probe holds light */
+    LIGHTING_FIRST_CYCLE, /* probes hold light of a part of a cycle */
+    LIGHTING_RUNNING,     /* a cycle has been completed since there was nothing */
+    LIGHTING_CONVERGED,   /* nothing changes any more: no work */
+};
+
+/* Of the cycles since light was last invalidated. */
+struct convergence {
+    float change, least;          /* of the newest cycle, and of all */
+    uint32_t cycles_without_fall;
+};
+
+void convergence_reset(struct convergence *convergence);
+/* Takes in the largest relative change of a probe texel over a cycle. */
+void convergence_add(struct convergence *convergence, float change);
+bool convergence_done(const struct convergence *convergence);
+
+struct accumulation {
+    enum lighting_phase phase;
+    uint64_t cycle;         /* cycles are numbered from 1 */
+    uint32_t frame;         /* of the cycle */
+    uint64_t invalid_cycle; /* the last one with light from before it was invalidated */
+    uint32_t rays_missing;  /* frames of rays until all rays of a cycle are cached */
+    struct convergence convergence;
+    /* Of the newest cycle that came back from the GPU; 0: none has. */
+    uint64_t known_cycle;
+    float known_change, known_brightest;
+};
+
+void accumulation_init(struct accumulation *a);
+/* The light is no longer what it was: go on until it has converged again. */
+void accumulation_invalidate(struct accumulation *a);
+/* Begins a cycle anew: what this one has gathered does not count. */
+void accumulation_restart(struct accumulation *a);
+/* Nothing is stored any more: no probe holds light. */
+void accumulation_go_dark(struct accumulation *a);
+/* A cycle that ended came back from the GPU. */
+void accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest);
+/* Probes were given the light of this frame. */
+void accumulation_show(struct accumulation *a, bool cycle_ends);
+/* Goes on to the next frame of the cycle. `rests`: no other work is left, so that light may count as converged. */
+void accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests);
+
+bool accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames);
+
+#endif

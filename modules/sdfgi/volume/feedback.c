@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ * What comes back from the GPU, frames_in_flight frames late: counters, times, how far light is from converged. */
+#include "volume.h"
+
+#include <string.h>
+
+static float float_of(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void read_counters(struct volume *volume, const struct feedback_slot *slot, uint32_t index)
+{
+    const struct gpu_buffer *readback = &volume->resources->readback;
+    uint32_t *counters = volume->feedback.counters;
+    if (gpu_buffer_invalidate(&volume->backend->device, readback) != VK_SUCCESS)
+        return;
+    memcpy(counters, (const uint32_t *)readback->mapped + index * SDFGI_COUNTER_COUNT,
+           sizeof volume->feedback.counters);
+    if (slot->ended_cycle > 0)
+        accumulation_add_known(&volume->state.accumulation, slot->ended_cycle,
+                               float_of(counters[SDFGI_COUNTER_MAX_CHANGE]),
+                               float_of(counters[SDFGI_COUNTER_MAX_IRRADIANCE]));
+}
+
+static void read_times(struct volume *volume, uint32_t index)
+{
+    struct gpu_timer_span spans[GPU_TIMER_SPANS];
+    const uint32_t count =
+        gpu_timer_read(&volume->backend->device, &volume->resources->timer, index, spans);
+    for (uint32_t i = 0; i < count; i++) {
+        struct feedback_time *time = &volume->feedback.times[spans[i].tag];
+        time->ns = spans[i].ns + (time->is_new ? time->ns : 0);
+        time->is_new = true;
+    }
+}
+
+void volume_read_back(struct volume *volume, uint32_t index)
+{
+    struct feedback_slot *slot = &volume->feedback.slots[index];
+    for (int i = 0; i < PASS_COUNT; i++)
+        volume->feedback.times[i].is_new = false;
+    if (slot->content == FEEDBACK_TIMES_AND_COUNTERS)
+        read_counters(volume, slot, index);
+    if (slot->content != FEEDBACK_NOTHING)
+        read_times(volume, index);
+    *slot = (struct feedback_slot){ FEEDBACK_NOTHING, 0 };
+}

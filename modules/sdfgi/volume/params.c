@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT
+ * What shaders know of a volume: frame parameters, lights, materials. */
+#include "volume.h"
+
+#include "change.h"
+
+#include <math.h>
+#include <string.h>
+
+static ivec3 cell_of(const int32_t at[3])
+{
+    return (ivec3){ at[0], at[1], at[2] };
+}
+
+static vec3 point_of(const double at[3])
+{
+    return (vec3){ (float)at[0], (float)at[1], (float)at[2] };
+}
+
+/* What shaders may read of a cascade, and what becomes complete in this frame. */
+static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_params *p)
+{
+    const struct change *change = &cascade->change;
+    const bool completes = cascade_completes(cascade);
+    const struct cell_box *kept = completes ? &change->kept : &cascade->valid;
+    const uint32_t count = completes ? change->count : 0;
+    p->valid_low = cell_of(cascade->valid.low);
+    p->valid_high = cell_of(cascade->valid.high);
+    p->dirty_count = (int32_t)count;
+    p->blend_low = point_of(cascade->blend_low);
+    p->blend_high = point_of(cascade->blend_high);
+    p->kept_low = cell_of(kept->low);
+    p->kept_high = cell_of(kept->high);
+    p->bounds_axis = change_bounds_axis(change);
+    for (uint32_t i = 0; i < count; i++) {
+        p->dirty[i].low = cell_of(change->boxes[i].low);
+        p->dirty[i].high = cell_of(change->boxes[i].high);
+    }
+}
+
+static struct sdfgi_cascade_params cascade_params(const struct volume_state *state, uint32_t c)
+{
+    const struct cascade *cascade = &state->cascades.at[c], *first = &state->cascades.at[0];
+    const int64_t n = state->cascades.resolution, side = n / SDFGI_PROBE_SPACING + 1;
+    double origin[3], shift[3];
+    int32_t wrap[3], probe_wrap[3], probe_base[3];
+    for (int i = 0; i < 3; i++) {
+        const int64_t probe = floor_div(cascade->origin[i], SDFGI_PROBE_SPACING);
+        origin[i] = (double)cascade->origin[i] * cascade->cell_size[i] - state->origin[i];
+        wrap[i] = (int32_t)floor_mod(cascade->origin[i], n);
+        probe_wrap[i] = (int32_t)floor_mod(probe, side);
+        probe_base[i] = (int32_t)(uint32_t)(uint64_t)probe;
+        /* Cell space of cascade c = (cell space of cascade 0 + first origin) / 2^c - own origin. */
+        shift[i] = ldexp((double)first->origin[i], -(int)c) - (double)cascade->origin[i];
+    }
+    struct sdfgi_cascade_params p = {
+        .origin_rel = point_of(origin),
+        .cell_m = (float)cascade->cell_size[0],
+        .wrap = cell_of(wrap),
+        .probe_wrap = cell_of(probe_wrap),
+        .from_first = point_of(shift),
+        .from_first_scale = ldexpf(1.0f, -(int)c),
+        .probe_base = cell_of(probe_base),
+    };
+    fill_change(cascade, &p);
+    return p;
+}
+
+static vec3 scaled(const float color[static 3], float factor)
+{
+    return (vec3){ color[0] * factor, color[1] * factor, color[2] * factor };
+}
+
+static void fill_sky(struct sdfgi_frame_params *p, const struct sdfgi_sky *sky, float factor)
+{
+    p->sky_zenith = scaled(sky->zenith, factor);
+    p->sky_horizon = scaled(sky->horizon, factor);
+    p->sky_ground = scaled(sky->ground, factor);
+}
+
+static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_settings *s)
+{
+    p->y_scale = (float)settings_y_scale(s);
+    p->energy = s->energy;
+    p->normal_bias = s->normal_bias_cells;
+    p->probe_bias = s->probe_bias_cells;
+    p->bounce_feedback = s->bounce_feedback;
+    p->resolution = s->resolution;
+    p->resolution_log2 = log2_of(s->resolution);
+    p->probes_per_side = s->resolution / SDFGI_PROBE_SPACING + 1;
+    p->cascade_count = s->cascades;
+    p->visibility = settings_shader_visibility(s);
+}
+
+/* The rays of this frame. Once light has converged nobody reads these: they stay, and are no reason to upload
+ * anything. */
+static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *state, const struct sdfgi_settings *s)
+{
+    const struct accumulation *a = &state->accumulation;
+    const bool keep = a->phase == LIGHTING_CONVERGED;
+    const struct sdfgi_frame_params *old = &state->params;
+    const uint32_t samples = settings_cycle_samples(s), first = a->frame * s->ray_count;
+    const uint32_t rays = s->ray_count < samples - first ? s->ray_count : samples - first;
+    p->cycle_samples = keep ? old->cycle_samples : samples;
+    p->first_sample = keep ? old->first_sample : first;
+    p->rays_per_frame = keep ? old->rays_per_frame : rays;
+    p->brightest_texel = keep ? old->brightest_texel : a->known_brightest;
+}
+
+void params_fill(struct sdfgi_frame_params *p, const struct volume_state *state, const struct params_input *input)
+{
+    memset(p, 0, sizeof *p);
+    for (uint32_t c = 0; c < state->cascades.count; c++)
+        p->cascades[c] = cascade_params(state, c);
+    fill_sky(p, &input->scene->sky, input->settings->read_sky_light ? state->exposure : 0.0f);
+    fill_settings(p, input->settings);
+    p->exposure = state->exposure;
+    p->exposure_inverse = 1.0f / state->exposure;
+    p->emission_scale = input->scene->emission_unit * state->exposure;
+    p->light_count = input->scene->lights.count;
+    p->light_cell_room = (uint32_t)input->light_cell_room;
+    p->seed = state->seed;
+    fill_cycle(p, state, input->settings);
+}
+
+struct sdfgi_light_params params_of_light(const struct volume_state *state, const struct sdfgi_light_desc *l)
+{
+    /* Squares of floats fit a double, however long or short the vector. */
+    const double x = (double)l->direction[0], y = (double)l->direction[1], z = (double)l->direction[2];
+    const double length = sqrt(x * x + y * y + z * z), unit = length > 0 ? 1 / length : 0;
+    const float cos_inner = cosf(l->inner_angle_rad), cos_outer = cosf(l->outer_angle_rad);
+    const double *o = state->origin;
+    return (struct sdfgi_light_params){
+        .position = { (float)(l->position[0] - o[0]), (float)(l->position[1] - o[1]),
+                      (float)(l->position[2] - o[2]) },
+        .range_m = l->range_m,
+        .direction = { (float)(x * unit), (float)(y * unit), (float)(z * unit) },
+        .cos_outer = cos_outer,
+        .intensity = scaled(l->intensity, l->indirect_energy * state->exposure),
+        .cone_scale = 1 / fmaxf(cos_inner - cos_outer, 1e-4f),
+        .kind = (uint32_t)l->type | (l->casts_shadow ? SDFGI_LIGHT_CASTS_SHADOW : 0),
+    };
+}
+
+static void uv_rows(const float m[6], vec4 rows[2])
+{
+    static const float identity[6] = { 1, 0, 0, 0, 1, 0 };
+    bool zero = true;
+    for (int i = 0; i < 6; i++)
+        zero = zero && m[i] == 0;
+    const float *use = zero ? identity : m;
+    rows[0] = (vec4){ use[0], use[1], use[2], 0 };
+    rows[1] = (vec4){ use[3], use[4], use[5], 0 };
+}
+
+struct sdfgi_material_params params_of_material(const struct scene *scene, const struct sdfgi_material_desc *m)
+{
+    struct sdfgi_material_params p = {
+        .albedo = { m->albedo[0], m->albedo[1], m->albedo[2] },
+        .alpha = m->alpha,
+        .emission = scaled(m->emission, scene->emission_unit > 0 ? 1 / scene->emission_unit : 0),
+        .alpha_cutoff = m->alpha_cutoff,
+        .flags = (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
+                 (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
+                 (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0),
+    };
+    uv_rows(m->albedo_texture.uv_transform, p.albedo_uv);
+    uv_rows(m->emission_texture.uv_transform, p.emission_uv);
+    return p;
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+#include "relight.h"
+
+#include <assert.h>
+
+/* Of frames that are all busy, one in so many lights cells again. */
+#define PATIENCE 4
+
+void relight_init(struct relight *relight)
+{
+    *relight = (struct relight){ .budget = RELIGHT_CELLS };
+}
+
+uint32_t light_list_entries(const struct relight *relight, const struct light_lists *lists, uint32_t c)
+{
+    const bool known = lists->frame >= relight->at[c].listed_at + lists->frames_in_flight;
+    return known && lists->counted[c] < lists->room ? lists->counted[c] : lists->room;
+}
+
+/* Goes on to the next entry that there is. */
+static void skip_room(struct relight *relight, const struct light_lists *lists, uint32_t c)
+{
+    struct relight_cursor *cursor = &relight->at[c];
+    const uint32_t entries = light_list_entries(relight, lists, c);
+    while (cursor->left > 0 && cursor->next >= entries) {
+        assert(cursor->next <= lists->room);
+        const uint32_t gap = lists->room - cursor->next;
+        cursor->left -= gap < cursor->left ? gap : cursor->left;
+        cursor->next = 0;
+    }
+}
+
+bool relight_is_due(const struct relight *relight)
+{
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+        if (relight->at[c].left > 0)
+            return true;
+    return false;
+}
+
+/* A change of a cascade throws shadows on finer ones, too: their rays go on into coarser cascades. */
+static uint32_t cascades_in_shadow(const struct light_lists *lists, const enum relist *relists)
+{
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < lists->cascades; c++)
+        if (relists[c] != RELIST_NOT)
+            count = c + 1;
+    return count;
+}
+
+/* Where a list changes while a pass over it is under way, the pass goes on at the same entry until it has come round
+ * once more: it may have passed by cells that have moved to entries before it. */
+void relight_note(struct relight *relight, const struct light_lists *lists,
+                  const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway)
+{
+    const uint32_t in_shadow = cascades_in_shadow(lists, relists);
+    for (uint32_t c = 0; c < lists->cascades; c++)
+        if (relists[c] != RELIST_NOT)
+            relight->at[c].listed_at = lists->frame;
+    if (!relight_is_due(relight))
+        relight->cascade = 0;
+    for (uint32_t c = 0; c < lists->cascades; c++) {
+        if (c < in_shadow)
+            relight->at[c].left = lists->room;
+        if (relists[c] == RELIST_NEW || lit_anyway)
+            relight->at[c].left = 0;
+        skip_room(relight, lists, c);
+    }
+}
+
+/* Goes on with a cascade, at most to the end of its list. */
+static struct relight_range take(struct relight *relight, const struct light_lists *lists, uint32_t c, uint32_t most)
+{
+    struct relight_cursor *cursor = &relight->at[c];
+    struct relight_range range = { .cascade = c, .first = cursor->next };
+    if (cursor->left == 0)
+        return range;
+    range.count = light_list_entries(relight, lists, c) - cursor->next;
+    range.count = range.count < cursor->left ? range.count : cursor->left;
+    range.count = range.count < most ? range.count : most;
+    cursor->next += range.count;
+    cursor->left -= range.count;
+    skip_room(relight, lists, c);
+    return range;
+}
+
+uint32_t relight_take(struct relight *relight, const struct light_lists *lists, bool busy,
+                      struct relight_range ranges[static SDFGI_MAX_CASCADES])
+{
+    uint32_t count = 0, left = relight->budget;
+    relight->waits = busy ? (relight->waits + 1) % PATIENCE : 0;
+    if (relight->waits > 0 || !relight_is_due(relight))
+        return 0;
+    for (uint32_t i = 0; i < lists->cascades && left > 0; i++) {
+        const struct relight_range range = take(relight, lists, relight->cascade, left);
+        left -= range.count;
+        if (range.count > 0)
+            ranges[count++] = range;
+        /* In turn, so that changes frame after frame do not keep coarse cascades waiting for ever. */
+        if (left > 0)
+            relight->cascade = (relight->cascade + 1) % lists->cascades;
+    }
+    return count;
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ * Which part of what cascades need is done in this frame.
+ *
+ * A cascade that scrolls keeps serving the cells that its old and its new place share. All volumes are toroidal, so
+ * the cells that enter take the storage of those that leave, and nothing is held twice. The work of a change is cut
+ * into whole slices and layers: voxels, then distances, then, in one frame, probes, light cells and light. With
+ * that the valid region opens.
+ *
+ * Each frame does as much as keeps all cascades just ahead of the camera, near ones first, so that work is even
+ * from frame to frame. The budget is a hard limit: where the camera is faster, fine cascades wait and coarser ones
+ * answer. */
+#ifndef SDFGI_SCROLL_H
+#define SDFGI_SCROLL_H
+
+#include "cascade.h"
+
+enum { SCROLL_CALM_FRAMES = 3 }; /* at a slow pace, between frames in which cascades complete */
+
+/* How the camera moves, and what that asks for. */
+struct scroll {
+    double camera[3];       /* m */
+    double moved, pace;     /* probe spacings of cascade 0 along the fastest axis: in this frame, lasting */
+    double heading[3];      /* fraction of that along each axis: a running mean */
+    uint64_t frames;        /* that the camera has been followed */
+    uint64_t scrolls_begun; /* since the start */
+    uint32_t calm_frames;   /* before this one, in a row, in which no cascade completed */
+    uint32_t blends_moving; /* cascades whose blend region still moves */
+};
+
+enum piece_kind { PIECE_VOXELS, PIECE_DISTANCES };
+
+/* A part of a change that this frame does. */
+struct scroll_piece {
+    enum piece_kind kind;
+    uint32_t cascade;
+    bool begins;           /* voxels: the first of its change */
+    struct cell_box box;   /* voxels */
+    uint32_t first, count; /* distances: layers of light blocks along x */
+};
+
+enum { SCROLL_MAX_PIECES = 64 };
+
+struct scroll_plan {
+    struct scroll_piece pieces[SCROLL_MAX_PIECES];
+    uint32_t piece_count;
+    uint64_t cells;    /* voxelised or given distances */
+    bool from_nothing; /* no cascade was complete before this frame */
+    bool begins;       /* a change begins */
+};
+
+/* What of the settings matters here. */
+struct scroll_limits {
+    uint64_t max_cells; /* in a frame */
+    bool flood;         /* distances cannot be cut: a cascade's are made at once */
+};
+
+void scroll_init(struct scroll *scroll);
+/* Begins what cascades need and decides how much of it this frame does. `blend_jumps`: no light has been shown yet, so
+ * that blend regions need not move smoothly. */
+void scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
+                 const double camera[static 3], bool blend_jumps, struct scroll_plan *plan);
+/* After the frame: what completed is finished. */
+void scroll_finish(struct scroll *scroll, struct cascades *cascades);
+
+bool scroll_plan_has(const struct scroll_plan *plan, enum piece_kind kind);
+
+#endif

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+#include "volume.h"
+
+#include <assert.h>
+#include <string.h>
+
+/* Room beyond what is needed, so that a scene that grows a little does not grow the list each time. */
+#define SPARE_PART 8
+
+void volume_init(struct volume *volume, struct backend *backend, struct scene *scene)
+{
+    volume->backend = backend;
+    scene_add_journal(scene, &volume->journal);
+}
+
+void volume_finish(struct volume *volume)
+{
+    resources_retire(volume->backend, volume->resources);
+    volume->resources = NULL;
+}
+
+void volume_reset(struct volume *volume, struct resources *resources, const struct sdfgi_settings *settings)
+{
+    resources_retire(volume->backend, volume->resources);
+    volume->resources = resources;
+    struct volume_state *state = &volume->state;
+    memset(state, 0, sizeof *state);
+    memset(&volume->feedback, 0, sizeof volume->feedback);
+    journal_clear(&volume->journal);
+    cascades_init(&state->cascades, settings);
+    scroll_init(&state->scroll);
+    accumulation_init(&state->accumulation);
+    relight_init(&state->relight);
+    state->exposure = 1;
+}
+
+void volume_apply_journal(const struct journal *journal, struct volume_state *state)
+{
+    bool invalidates = journal->notes & (JOURNAL_LIGHTS | JOURNAL_SKY | JOURNAL_EVERYTHING);
+    for (uint32_t c = 0; c < state->cascades.count; c++) {
+        struct cascade *cascade = &state->cascades.at[c];
+        if (journal->notes & JOURNAL_EVERYTHING)
+            cascade_outdate(cascade);
+        for (uint32_t i = 0; i < journal->box_count; i++)
+            if (cascade_add_edit(cascade, state->cascades.resolution, &journal->boxes[i]))
+                invalidates = true;
+    }
+    if (invalidates)
+        accumulation_invalidate(&state->accumulation);
+}
+
+bool volume_has_converged(const struct volume *volume)
+{
+    return volume->state.accumulation.phase == LIGHTING_CONVERGED && journal_is_empty(&volume->journal);
+}
+
+static uint64_t most_light_cells(const struct volume *volume)
+{
+    uint64_t most = 0;
+    for (uint32_t c = 0; c < volume->state.cascades.count; c++)
+        if (volume->feedback.counters[SDFGI_COUNTER_LIGHT_CELLS + c] > most)
+            most = volume->feedback.counters[SDFGI_COUNTER_LIGHT_CELLS + c];
+    return most;
+}
+
+bool volume_make_room(struct volume *volume)
+{
+    struct resources *r = volume->resources;
+    const uint64_t needed = most_light_cells(volume), wanted = needed + needed / SPARE_PART;
+    const uint64_t room = wanted < r->extent.light_cells_max ? wanted : r->extent.light_cells_max;
+    if (needed <= r->extent.light_cells || needed == volume->feedback.light_cells_refused)
+        return false;
+    if (room > r->extent.light_cells && resources_grow_light_cells(volume->backend, r, room))
+        return true;
+    if (volume->feedback.light_cells_refused == 0)
+        message(&volume->backend->hooks, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW,
+                "sdfgi_update: %llu light cells in a cascade, room for %llu, and no memory for more",
+                (unsigned long long)needed, (unsigned long long)r->extent.light_cells);
+    volume->feedback.light_cells_refused = needed;
+    return false;
+}
+
+struct light_lists volume_light_lists(const struct volume *volume)
+{
+    struct light_lists lists = { .cascades = volume->state.cascades.count,
+                                 .room = (uint32_t)volume->resources->extent.light_cells,
+                                 .frame = volume->backend->retired.frame,
+                                 .frames_in_flight = volume->backend->retired.frames_in_flight };
+    memcpy(lists.counted, volume->feedback.counters + SDFGI_COUNTER_LIGHT_CELLS, sizeof lists.counted);
+    return lists;
+}

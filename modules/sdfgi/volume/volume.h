@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT
+ * A volume: cascades that follow one camera, their light, and how far it has converged. */
+#ifndef SDFGI_VOLUME_H
+#define SDFGI_VOLUME_H
+
+#include "accumulation.h"
+#include "pass/resources.h"
+#include "relight.h"
+#include "scene/scene.h"
+#include "scroll.h"
+
+/* All that a volume knows on the host. Plain data: a frame is planned on a copy, which replaces it once the frame has
+ * been recorded. */
+struct volume_state {
+    struct cascades cascades;
+    struct scroll scroll;
+    struct accumulation accumulation;
+    struct relight relight;
+    double origin[3]; /* world position of (0, 0, 0) in the host's shaders */
+    float exposure;
+    uint32_t seed;
+    struct sdfgi_frame_params params; /* as last uploaded */
+    uint64_t updates;                 /* frames recorded since there was nothing */
+};
+
+/* What a frame in flight brings back. */
+enum feedback_content { FEEDBACK_NOTHING, FEEDBACK_TIMES, FEEDBACK_TIMES_AND_COUNTERS };
+
+struct feedback_slot {
+    enum feedback_content content;
+    uint64_t ended_cycle; /* the sample cycle that ended in it; 0: none */
+};
+
+struct feedback_time {
+    uint64_t ns;
+    bool is_new; /* arrived with the last update */
+};
+
+/* What came back from the GPU, frames_in_flight frames late. */
+struct feedback {
+    struct feedback_slot slots[SDFGI_MAX_FRAMES_IN_FLIGHT];
+    uint32_t counters[SDFGI_COUNTER_COUNT]; /* of the newest finished frame */
+    struct feedback_time times[PASS_COUNT];
+    uint64_t light_cells_refused; /* light cells for which there was no room; 0: there always was */
+};
+
+struct volume {
+    struct backend *backend;
+    struct resources *resources; /* NULL while GI is off */
+    struct journal journal;      /* of the scene */
+    struct volume_state state;
+    struct feedback feedback;
+};
+
+/* A volume of a scene, without resources. */
+void volume_init(struct volume *volume, struct backend *backend, struct scene *scene);
+void volume_finish(struct volume *volume);
+/* Replaces the resources (NULL: none) and forgets all light and cascades. */
+void volume_reset(struct volume *volume, struct resources *resources, const struct sdfgi_settings *settings);
+
+/* Applies what changed in the scene since the last frame to a state: boxes become edits, light is invalidated. */
+void volume_apply_journal(const struct journal *journal, struct volume_state *state);
+/* True if the light has converged and nothing has changed since. */
+bool volume_has_converged(const struct volume *volume);
+
+/* Takes in what the frame that last used the slot left there. */
+void volume_read_back(struct volume *volume, uint32_t slot);
+/* Makes the light lists longer where the newest counters say that they were too short. Returns true if they are empty
+ * now and have to be written again. */
+bool volume_make_room(struct volume *volume);
+/* The lists as far as counters know them. */
+struct light_lists volume_light_lists(const struct volume *volume);
+
+/* Frame parameters of a state. */
+struct params_input {
+    const struct sdfgi_settings *settings;
+    const struct scene *scene;
+    uint64_t light_cell_room;
+};
+void params_fill(struct sdfgi_frame_params *params, const struct volume_state *state,
+                 const struct params_input *input);
+struct sdfgi_light_params params_of_light(const struct volume_state *state, const struct sdfgi_light_desc *light);
+struct sdfgi_material_params params_of_material(const struct scene *scene, const struct sdfgi_material_desc *material);
+
+#endif
