@@ -168,7 +168,7 @@ static void forget_rays(struct frame *frame)
         if (schedule_completes(gi, c))
             cascades = c + 1;
     if (cascades > 0)
-        ray_forget_record(frame, cascades);
+        ray_invalidate_record(frame, cascades);
 }
 
 static bool last_to_complete(const struct sdfgi *gi, uint32_t c)

@@ -478,7 +478,7 @@ void light_cache_bounce_record(struct frame *frame);
 void probe_reset_record(struct frame *frame, uint32_t cascade);
 void probe_seed_record(struct frame *frame, uint32_t cascade);
 /* In the finest `cascades` of them. */
-void ray_forget_record(struct frame *frame, uint32_t cascades);
+void ray_invalidate_record(struct frame *frame, uint32_t cascades);
 /* Lists those rays of this frame that are not remembered, and traces them; adds up what light all of them find; publishes it. */
 void ray_list_record(struct frame *frame);
 void probe_trace_record(struct frame *frame);

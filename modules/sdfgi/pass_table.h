@@ -29,7 +29,7 @@
     X(LIGHT_MARK,      light_mark,      "cells",       R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH), LIST) \
     X(LIGHT_LIST,      light_list,      "light cells", 0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT), LIST) \
     X(CELL_MASK,       cell_mask,       "light cells", R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH) | R(INDIRECT), R(MASKS), MASKS) \
-    X(RAY_FORGET,      ray_forget,      "rays",        R(PROBES) | R(BOUNDS), R(RAYS), SEED)                                     \
+    X(RAY_INVALIDATE,  ray_invalidate,  "rays",        R(PROBES) | R(BOUNDS), R(RAYS), SEED)                                     \
     X(LIGHT_DIRECT,    light_direct,    "light cells", R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS), DIRECT) \
     X(LIGHT_BOUNCE,    light_bounce,    "light cells", R(BITS) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS), LIGHT) \
     X(RAY_LIST,        ray_list,        "rays",        R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT), RAYS) \

@@ -25,7 +25,7 @@
 #include "light_bounce.comp.h"
 #include "probe_sum.comp.h"
 #include "probe_trace.comp.h"
-#include "ray_forget.comp.h"
+#include "ray_invalidate.comp.h"
 #include "ray_list.comp.h"
 #include "probe_blend.comp.h"
 #include "gather.comp.h"

@@ -35,12 +35,12 @@ void probe_seed_record(struct frame *frame, uint32_t c)
     record_probes(frame, PASS_PROBE_SEED, c, frame->gi->resources->extent.probes);
 }
 
-void ray_forget_record(struct frame *frame, uint32_t cascades)
+void ray_invalidate_record(struct frame *frame, uint32_t cascades)
 {
     const struct extent *e = &frame->gi->resources->extent;
-    pass_begin(frame, PASS_RAY_FORGET);
-    pass_dispatch(frame, PASS_RAY_FORGET, NO_ARGS, (uint32_t)e->probes, cascades, 1);
-    frame->gi->passes[PASS_RAY_FORGET].work += e->probes * e->ring_samples * cascades;
+    pass_begin(frame, PASS_RAY_INVALIDATE);
+    pass_dispatch(frame, PASS_RAY_INVALIDATE, NO_ARGS, (uint32_t)e->probes, cascades, 1);
+    frame->gi->passes[PASS_RAY_INVALIDATE].work += e->probes * e->ring_samples * cascades;
     pass_end(frame);
 }
 
