@@ -14,12 +14,12 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_distance_prepare_args args;
 };
 
-/* ---- Runs and layers: one workgroup per y of cells and COLUMNS cells along z, one run per thread. A run has
+/* ---- Runs and layers: one workgroup per y of cells and CELLS_Z cells along z, one run per thread. A run has
  * 16 rows: four layers of four positions along z each. */
 
-const uint COLUMNS = SDFGI_GROUP_COLUMNS;
+const uint CELLS_Z = SDFGI_GROUP_COLUMNS;
 
-shared uint runs[16u * COLUMNS]; /* as in the scratch buffer; all of it is used where a row has 32 runs */
+shared uint runs[16u * CELLS_Z]; /* as in the scratch buffer; all of it is used where a row has 32 runs */
 shared uint layers;              /* any bit set in bits 4 i to 4 i + 3: layer i holds bits */
 
 uint runs_per_row()
@@ -48,11 +48,11 @@ uint rows_of_run(uint y, uint z, uint run)
     return (low & 0xffffu) | (low >> 16u) << 1u | (high & 0xffffu) << 2u | (high >> 16u) << 3u;
 }
 
-void add_rows(uint rows, uint column, uint run)
+void add_rows(uint rows, uint cell_z, uint run)
 {
     for (uint row = 0u; row < 16u; row++)
         if ((rows >> row & 1u) != 0u) {
-            const uint local_row = (row >> 2u) * 4u * COLUMNS + 4u * column + (row & 3u);
+            const uint local_row = (row >> 2u) * 4u * CELLS_Z + 4u * cell_z + (row & 3u);
             const uint bit = local_row * runs_per_row() + run;
             atomicOr(runs[bit >> 5u], 1u << (bit & 31u));
         }
@@ -63,23 +63,23 @@ void add_rows(uint rows, uint column, uint run)
 void find_rows(uint group)
 {
     const uint lane = gl_LocalInvocationIndex, per_row = runs_per_row(),
-               groups = sdfgi_frame.resolution / COLUMNS;
-    const uint y = group / groups, first_z = COLUMNS * (group % groups),
-               words = COLUMNS * per_row / 8u; /* of a layer */
+               groups = sdfgi_frame.resolution / CELLS_Z;
+    const uint y = group / groups, first_z = CELLS_Z * (group % groups),
+               words = CELLS_Z * per_row / 8u; /* of a layer */
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         runs[i] = 0u;
     if (lane == 0u)
         layers = 0u;
     barrier();
-    for (uint i = lane; i < COLUMNS * per_row; i += SDFGI_GROUP_LINES) {
-        const uint column = i / per_row, run = i % per_row;
-        add_rows(rows_of_run(y, first_z + column, run), column, run);
+    for (uint i = lane; i < CELLS_Z * per_row; i += SDFGI_GROUP_LINES) {
+        const uint cell_z = i / per_row, run = i % per_row;
+        add_rows(rows_of_run(y, first_z + cell_z, run), cell_z, run);
     }
     barrier();
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
         sdfgi_scratch[runs_slot(runs_bit(4u * y + i / words, 4u * first_z)) + i % words] = runs[i];
     if (lane == 0u)
-        sdfgi_scratch[layers_slot(y, first_z / COLUMNS)] =
+        sdfgi_scratch[layers_slot(y, first_z / CELLS_Z)] =
             (layers & 1u) | (layers >> 3u & 2u) | (layers >> 6u & 4u) | (layers >> 9u & 8u);
 }
 
@@ -201,7 +201,7 @@ void find_blocks(uint group)
 
 void main()
 {
-    const uint n = sdfgi_frame.resolution, row_groups = n * n / COLUMNS;
+    const uint n = sdfgi_frame.resolution, row_groups = n * n / CELLS_Z;
     if (gl_WorkGroupID.x < row_groups)
         find_rows(gl_WorkGroupID.x);
     else

@@ -6,7 +6,7 @@
  * samples that are missing. Per texel there are the sum S and the weight w of this cycle so far, the mean P
  * and the weight p of the cycle before, and the weight W of a complete cycle:
  *
- *     missing weight   m = min(p, max(W - w, 0));  m = 0 once the cycle is complete
+ *     missing weight   m = min(p, max(W - w, 0)), and 0 once the cycle is complete
  *     estimate         E = (S + m P) / (w + m)
  *     change           c = |E - P| / (max(E, P) + a little)
  *
@@ -26,12 +26,13 @@
  * does a NEW probe, whose estimate becomes P in every frame, and whose m is at most w: its history counts for
  * no more than the samples that it has just read. In both states alpha holds the confidence, negated.
  *
- * Of a probe as a whole, with the largest change C of its texels in this frame:
+ * All texels of a probe share d, and the history of a probe is reset when its light is sure to change by
+ * half. The probe is NEW again then. Both follow from C, the largest c of its texels in a frame:
  *
- *     deviation        d = max(sqrt(M^2 - L^2), DEVIATION_KEPT * previous d) for the largest C of a cycle, M,
- *                          and the last one, L, which is a change that stays
- *     history reset    if C > RESET_CHANGE * (part of the cycle so far) + RESET_DEVIATIONS * d + RESET_MARGIN
- */
+ *     deviation        d = max(sqrt(M^2 - L^2), DEVIATION_KEPT * previous d)
+ *                      M is the largest C of a cycle, and L its last C: a change that stays is no deviation
+ *     history reset    if C > RESET_CHANGE * g + RESET_DEVIATIONS * d + RESET_MARGIN
+ *                      g is the fraction of the cycle that has been sampled so far */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
@@ -114,7 +115,7 @@ float texel_change(vec3 estimate, vec3 previous)
 /* m, for the weights w and p. */
 float missing_weight(float sum_weight, float previous_weight, bool is_new)
 {
-    /* A probe that became new in the middle of a cycle has missed its beginning, hence the maximum. */
+    /* W. The maximum is for a probe that became new in the middle of the cycle before: p is too small. */
     const float cycle = max(previous_weight, probe_cycle_weight());
     const bool complete = cycle_ends() && sum_weight > COMPLETE_FRACTION * cycle;
     float missing =
@@ -155,9 +156,9 @@ void measure_probe(texel t)
 
 bool needs_reset(float change, float deviation)
 {
-    const float part =
+    const float sampled =
         float(sdfgi_frame.first_sample + sdfgi_frame.rays_per_frame) / float(sdfgi_frame.cycle_samples);
-    return change > RESET_CHANGE * part + RESET_DEVIATIONS * deviation + RESET_MARGIN;
+    return change > RESET_CHANGE * sampled + RESET_DEVIATIONS * deviation + RESET_MARGIN;
 }
 
 /* E over D, as luminances. */
@@ -206,7 +207,8 @@ probe_history next_history(probe_history h, float change, bool resets)
     return h;
 }
 
-/* Tells the host how far light has converged. Without a complete cycle before, nobody knows: 1. */
+/* Tells the host how far light is from converged. The change counts as 1 if the cycle before was not
+ * complete, because it is not known. */
 void count_change(probe_history history)
 {
     const bool known = history.cycles >= PROBE_COMPLETE_CYCLES;
