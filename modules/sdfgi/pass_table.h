@@ -53,7 +53,7 @@
       0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT))                                  \
     X(CELL_MASK, COMPUTE, cell_mask, "light cells", MASKS, CREATED, LIGHT_CELLS, cascade, SDFGI_GROUP_LINEAR / 8, NONE, \
       R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH) | R(INDIRECT), R(MASKS))                                 \
-    X(RAY_FORGET, COMPUTE, ray_forget, "rays", SEED, CREATED, ALL_PROBES, none, 1, NONE,                      \
+    X(RAY_INVALIDATE, COMPUTE, ray_invalidate, "rays", SEED, CREATED, ALL_PROBES, none, 1, NONE,                      \
       R(PROBES) | R(BOUNDS), R(RAYS))                                                                         \
     X(LIGHT_DIRECT, COMPUTE, light_direct, "light cells", DIRECT, CREATED, LIGHT_CELLS, light_direct,         \
       SDFGI_CELLS_OF_SURFACES, NONE,                                                                          \

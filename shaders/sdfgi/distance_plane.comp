@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * Distances within a layer of sub-voxels along y: for each cell's x and z the nearest sub-voxel set in that
- * layer. Along x by scanning the bits, which lie side by side there, then along z (lines.glsl). Squares of
- * odd numbers are stored as (d^2 - 1) / 8, their sums as (d^2 + e^2 - 2) / 8. Cells of columns that hold
- * stale blocks, from args.first_x to before args.end_x along x. One workgroup per layer and run of eight
- * cells along x: eight lines along z. */
+ * Distances within each layer of sub-voxels: for each x and z of cells the nearest sub-voxel of the layer.
+ * Along x each row is scanned, because its bits lie side by side. The distances in the rows are the base
+ * costs of the search along z (lines.glsl): candidates are the rows within reach that hold bits. Squares of
+ * odd numbers are stored as (d^2 - 1) / 8, so their sums are (d^2 + e^2 - 2) / 8.
+ *
+ * Written for cells in columns that hold dirty blocks, from args.first_x to before args.end_x. One workgroup
+ * per layer and run: eight lines along z, one for each cell of the run. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
-const uint BATCH =
-    324u; /* 12.3 KiB of shared memory, of the 16 that every device has: a layer of a village in one go */
+/* 12.3 KiB of shared memory, of the 16 that every device has. A layer of a village takes one batch. */
+const uint BATCH = 324u;
 
 #include "lines.glsl"
 
@@ -18,8 +20,8 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_distance_search_args args;
 };
 
-/* Sums are below 2 / 8 (8 N)^2: 20 bits where N is 256. */
-const uint NUMBER_BITS = 9u;
+/* For the ranks of a batch. Costs are below 2 / 8 (8 N)^2, so 20 bits where N is 256. */
+const uint RANK_BITS = 9u;
 
 uint layer()
 {
@@ -31,87 +33,96 @@ uint first_x()
     return (args.first_x & ~7u) + LINES * gl_WorkGroupID.x;
 }
 
+/* ---- Candidates */
+
 /* The runs within reach in which a row holds bits. */
-uint runs_of(uint place)
+uint runs_in_reach(uint position)
 {
     const int run = int(first_x() >> 3u), runs = SDFGI_DISTANCE_REACH / 8;
     const int low = max(run - runs, 0), high = min(run + runs, 31);
-    return runs_of_row(layer(), place) & 0xffffffffu << low & 0xffffffffu >> (31 - high);
+    return runs_of_row(layer(), position) & 0xffffffffu << low & 0xffffffffu >> (31 - high);
 }
 
-bool layer_holds_any()
+bool layer_is_empty()
 {
-    return (four_layers(layer() >> 2u) >> (layer() & 3u) & 1u) != 0u;
+    return (layers_at(layer() >> 2u) >> (layer() & 3u) & 1u) == 0u;
 }
 
-/* Slots with cells of stale blocks to which this layer may matter. A run has two columns of blocks. */
-void mark_wanted()
+/* Marks the segments with cells of dirty blocks that this layer may be near to. A run crosses two columns. */
+void mark_needed()
 {
     for (uint i = gl_LocalInvocationIndex; i < sdfgi_frame.resolution >> 1u; i += SDFGI_GROUP_LINES) {
-        const uint x = first_x() + 4u * (i & 1u), z = 2u * (i & ~1u), first = z / line_cells_per_slot();
-        const uint slots = (2u << (z + 3u) / line_cells_per_slot()) - (1u << first);
+        const uint x = first_x() + 4u * (i & 1u), z = 2u * (i & ~1u), first = z / line_segment_cells();
+        const uint segments = (2u << (z + 3u) / line_segment_cells()) - (1u << first);
         if (x >= args.first_x && x < args.end_x &&
-            layer_in_reach(stale_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
-            atomicOr(line_wanted, slots);
+            dirty_within_reach(dirty_blocks(x >> 2u, z >> 2u), int(layer() >> 4u)))
+            atomicOr(line_needed, segments);
     }
     barrier();
 }
 
-/* Slots within reach of those. */
-uint slots_in_reach()
+/* The needed segments, and those within reach of one. */
+uint segments_in_reach()
 {
-    const uint reach = (SDFGI_DISTANCE_REACH - 1u) / line_cells_per_slot() + 1u;
-    uint slots = line_wanted;
+    const uint reach = (SDFGI_DISTANCE_REACH - 1u) / line_segment_cells() + 1u;
+    uint segments = line_needed;
     for (uint i = 0u; i < reach; i++)
-        slots |= slots << 1u | slots >> 1u;
-    return slots;
+        segments |= segments << 1u | segments >> 1u;
+    return segments;
 }
 
 void mark_rows()
 {
-    const uint slots = slots_in_reach();
+    const uint segments = segments_in_reach();
     for (uint z = gl_LocalInvocationIndex; z < sdfgi_frame.resolution; z += SDFGI_GROUP_LINES) {
-        if ((slots >> z / line_cells_per_slot() & 1u) == 0u)
+        if ((segments >> z / line_segment_cells() & 1u) == 0u)
             continue;
         uint rows = 0u;
-        [[unroll]] for (uint i = 0u; i < 4u; i++) rows |= uint(runs_of(4u * z + i) != 0u) << i;
+        [[unroll]] for (uint i = 0u; i < 4u; i++)
+        {
+            rows |= uint(runs_in_reach(4u * z + i) != 0u) << i;
+        }
         line_mark(z, rows);
     }
 }
 
-/* ---- Along x: rows are named by their place along z */
+/* ---- Along x: a row is named by its position along z */
 
-/* The sub-voxels of a row in a run: cells that lie side by side, as cascades move by whole runs. */
-uint row_of_run(uint place, uint run)
+/* The 32 sub-voxels of a row in a run. Its cells are stored side by side, because cascades scroll by whole
+ * runs. */
+uint row_bits(uint position, uint run)
 {
-    const uint first = sdfgi_cell_index(args.cascade, ivec3(8u * run, layer() >> 2u, place >> 2u));
-    const uint word = place >> 1u & 1u, shift = 4u * (layer() & 3u) | 16u * (place & 1u);
+    const uint first = sdfgi_cell_index(args.cascade, ivec3(8u * run, layer() >> 2u, position >> 2u));
+    const uint word = position >> 1u & 1u, shift = 4u * (layer() & 3u) | 16u * (position & 1u);
     uint row = 0u;
-    [[unroll]] for (uint i = 0u; i < 8u; i++) row |= (sdfgi_bits[first + i][word] >> shift & 15u) << 4u * i;
+    [[unroll]] for (uint i = 0u; i < 8u; i++)
+    {
+        row |= (sdfgi_bits[first + i][word] >> shift & 15u) << 4u * i;
+    }
     return row;
 }
 
-const int NOTHING = 1 << 16; /* sub-voxels: further than any */
+const int NO_BIT = 1 << 16; /* sub-voxels: further than any distance */
 
-/* Way in sub-voxels from the low end of a run down to the nearest set one below it. */
-int way_below(uint place, uint runs, uint run)
+/* Unset sub-voxels between the low end of a run and the nearest set one below it. */
+int gap_below(uint position, uint runs, uint run)
 {
     const int below = findMSB(runs & ((1u << run) - 1u));
-    const int last = findMSB(row_of_run(place, uint(max(below, 0))));
-    return below < 0 ? NOTHING : 32 * (int(run) - below) - 1 - last;
+    const int last = findMSB(row_bits(position, uint(max(below, 0))));
+    return below < 0 ? NO_BIT : 32 * (int(run) - below) - 1 - last;
 }
 
-/* From the high end of a run up to the nearest set one above it. */
-int way_above(uint place, uint runs, uint run)
+/* Unset sub-voxels between the high end of a run and the nearest set one above it. */
+int gap_above(uint position, uint runs, uint run)
 {
     const int above = findLSB(runs & ~1u << run);
-    const int first = findLSB(row_of_run(place, uint(max(above, 0))));
-    return above < 0 ? NOTHING : 32 * (above - int(run) - 1) + first;
+    const int first = findLSB(row_bits(position, uint(max(above, 0))));
+    return above < 0 ? NO_BIT : 32 * (above - int(run) - 1) + first;
 }
 
-/* Steps of a sub-voxel from the one next to a cell's centre to the nearest set one of a row, on either side.
- */
-int steps_along_row(uint bits, uint cell, int below, int above)
+/* Sub-voxels between the centre of a cell of the run and the nearest set sub-voxel of the row, on either side
+ * of the centre. `bits` are those of the run. */
+int gap_in_row(uint bits, uint cell, int below, int above)
 {
     const uint centre = 4u * cell + 2u;
     const uint low = bits & ((1u << centre) - 1u), high = bits >> centre;
@@ -119,56 +130,59 @@ int steps_along_row(uint bits, uint cell, int below, int above)
     return min(down, high != 0u ? findLSB(high) : 32 - int(centre) + above);
 }
 
-/* What the rows of a batch amount to. */
-void put_rows(uint count)
+/* Costs of a batch. With a gap of g sub-voxels the offset along x is 2 g + 1 halves, and (offset^2 - 1) / 8
+ * is g (g + 1) / 2. */
+void find_costs(uint count)
 {
     const uint run = first_x() >> 3u;
-    for (uint at = gl_LocalInvocationIndex; at < count; at += SDFGI_GROUP_LINES) {
-        /* Nothing here asks before it reads: all three runs are waited for once. */
-        const uint place = line_batch[at], runs = runs_of(place), bits = row_of_run(place, run);
-        const int below = way_below(place, runs, run), above = way_above(place, runs, run);
-        for (uint own = 0u; own < LINES; own++) {
-            const int steps = steps_along_row(bits, own, below, above);
-            line_sums[own * BATCH + at] = line_sum(place, steps * (steps + 1) / 2);
+    for (uint i = gl_LocalInvocationIndex; i < count; i += SDFGI_GROUP_LINES) {
+        /* No read depends on a test, so that the reads of all three runs overlap. */
+        const uint position = line_batch[i], runs = runs_in_reach(position), bits = row_bits(position, run);
+        const int below = gap_below(position, runs, run), above = gap_above(position, runs, run);
+        for (uint line = 0u; line < LINES; line++) {
+            const int gap = gap_in_row(bits, line, below, above);
+            line_costs[line * BATCH + i] = line_cost(position, gap * (gap + 1) / 2);
         }
     }
     barrier();
 }
 
-/* What no row is in reach of is as far as anything can be, or 16 bits hold. */
-uint encoded(uint z, uint own)
+/* ---- Results */
+
+/* At most what is out of any reach, or what 16 bits hold. Without candidates it is that. */
+uint encoded(uint z, uint line)
 {
     const uint most = min(16u * sdfgi_frame.resolution * sdfgi_frame.resolution - 1u, 0xffffu);
-    return line_candidates() == 0u ? most : min(uint(line_result(z, own)), most);
+    return line_candidates() == 0u ? most : min(uint(line_result(z, line)), most);
 }
 
-/* In the order in which the words lie: four cells along x, two along z, then along x again. */
+/* In the order of the words of a plane: four cells along x, two along z, then along x again. */
 void store_lines()
 {
     for (uint i = gl_LocalInvocationIndex; i < LINES / 2u * sdfgi_frame.resolution; i += SDFGI_GROUP_LINES) {
-        const uint own = i << 1u & 2u | i & 4u, z = i >> 1u & 1u | i >> 3u << 1u, x = first_x() + own;
-        if (line_slot_wanted(z / line_cells_per_slot()) && x >= args.first_x && x < args.end_x)
-            sdfgi_scratch[plane_slot(layer(), x, z)] = encoded(z, own) | encoded(z, own + 1u) << 16u;
+        const uint line = i << 1u & 2u | i & 4u, z = i >> 1u & 1u | i >> 3u << 1u, x = first_x() + line;
+        if (line_segment_needed(z / line_segment_cells()) && x >= args.first_x && x < args.end_x)
+            sdfgi_scratch[plane_slot(layer(), x, z)] = encoded(z, line) | encoded(z, line + 1u) << 16u;
     }
 }
 
 void main()
 {
-    if (!layer_holds_any())
+    if (layer_is_empty())
         return;
-    line_begin(1, NUMBER_BITS);
-    mark_wanted();
-    if (line_wanted == 0u)
+    line_begin(1, RANK_BITS);
+    mark_needed();
+    if (line_needed == 0u)
         return;
     mark_rows();
     line_count();
     const uint count = line_candidates();
-    for (uint first = 0u; first < count; first += line_room()) {
-        line_put_batch(first);
-        put_rows(min(line_room(), count - first));
-        line_search(min(line_room(), count - first));
+    for (uint first = 0u; first < count; first += line_batch_room()) {
+        line_begin_batch(first);
+        find_costs(min(line_batch_room(), count - first));
+        line_search(min(line_batch_room(), count - first));
         barrier();
     }
-    line_publish();
+    line_share_results();
     store_lines();
 }

@@ -15,7 +15,7 @@ uint encode_distance(ivec3 cell)
 
 void main()
 {
-    /* Volumes wrap at multiples of 8 cells, so that pairs of cells are pairs of texels. */
+    /* Cascades scroll by multiples of 8 cells, so that the texels of a pair of cells share a word. */
     const ivec3 cell = ivec3(gl_GlobalInvocationID) * ivec3(2, 1, 1);
     if (!sdfgi_cell_inside(cell))
         return;

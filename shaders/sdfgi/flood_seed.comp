@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Points every occupied cell at its own nearest sub-voxel. One thread per cell. */
+ * Points every occupied cell at its own sub-voxel nearest to its centre. One thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "flood.glsl"

@@ -1,17 +1,53 @@
 /* SPDX-License-Identifier: MIT
- * For every cell along a line the least of a sum over candidate sub-voxels of the line: what a candidate
- * brings along plus the square of the way to it. The best candidate never moves back as the cell moves on, so
- * few cells look at all candidates and the others only at those between their neighbours' best (Aggarwal et
- * al. 1987, "Geometric applications of a matrix-searching algorithm"). A workgroup works on LINES lines.
- * SLOTS threads share one; each answers for as many cells in a row. First they share out the candidates, each
- * trying its own on the last cell of every slot; then each looks for its cells between the best of its last
- * and of the one before its first: at 10 to 12 candidates in the mean where a village scrolls, at 23 to 30 in
- * the slowest of 32 threads. With t = (way^2 - 1) / 8, ways being odd numbers of half a sub-voxel, the sum is
- * line_weight t + what is brought along. A way is a candidate's step less eight times the cell, so one
- * product per candidate and a constant per cell tell all sums. Candidates come in batches. Before it includes
- * this, a pass defines BATCH, at least 256 and 4 more than a multiple of 32: threads that share a line, and
- * those of lines beside it, then find candidates side by side in banks of their own. Shared memory: 36 bytes
- * per candidate of a batch, and 800 besides. */
+ * The distance search along lines of cells. For each cell it finds the least cost over the candidates of the
+ * cell's line. The cost is what a candidate costs by itself plus the square of its distance along the line.
+ *
+ *     line        the N cells along one axis; a workgroup searches LINES lines side by side
+ *     position    a sub-voxel along a line, 0 to 4 N - 1: four for each cell
+ *     candidate   a position that may be the nearest one; all lines of a workgroup have the same candidates,
+ *                 but each line has a base cost of its own for each of them
+ *     batch       as many candidates as shared memory has room for, in the order of their positions
+ *     segment     the cells of a line that one thread answers for, N / SEGMENTS in a row
+ *
+ * The offset from the centre of cell i to position p is 2 p - 3 - 8 i halves of a sub-voxel, an odd number.
+ * For each line the search finds the same as this loop:
+ *
+ *     for each cell i
+ *         least[i] = infinity
+ *         for each candidate p
+ *             offset = 2 p - 3 - 8 i
+ *             least[i] = min(least[i], base[p] + line_weight * (offset^2 - 1) / 8)
+ *
+ * It looks at fewer candidates, because the best candidate never moves back as i grows: from one cell to the
+ * next, the cost of a candidate grows by more than that of any later candidate (Aggarwal et al. 1987,
+ * "Geometric applications of a matrix-searching algorithm"). For each batch:
+ *
+ *     1. The last cell of every segment looks at all candidates. The threads of the line share them.
+ *     2. Each cell of a segment looks at the candidates from the best one of the segment before to the best
+ *        one of its own segment, as step 1 found them.
+ *
+ * Example: 4 cells in two segments, line_weight 1, candidates at p = 1, 6 and 13 with base costs 3, 0 and 1.
+ *
+ *                 p = 1           p = 6           p = 13          least
+ *     cell 0      3 +  0 =  3     0 + 10 = 10     1 + 66 = 67      3, of p = 1
+ *     cell 1      3 + 10 = 13     0 +  0 =  0     1 + 28 = 29      0, of p = 6
+ *     cell 2      3 + 36 = 39     0 +  6 =  6     1 +  6 =  7      6, of p = 6
+ *     cell 3      3 + 78 = 81     0 + 28 = 28     1 +  0 =  1      1, of p = 13
+ *
+ * Step 1 looks at all candidates for cells 1 and 3, and finds p = 6 and p = 13. In step 2 cells 0 and 1 look
+ * at p = 1 and p = 6 alone, and cells 2 and 3 at p = 6 and p = 13 alone. Where a village scrolls, a cell
+ * looks at 10 to 12 candidates in step 2 in the mean, and at 23 to 30 in the slowest of 32 threads.
+ *
+ * With o = 2 p - 3 the square becomes a sum whose terms are cheap to compute:
+ *
+ *     (offset^2 - 1) / 8 = (o^2 - 1) / 8 - 2 o i + 8 i^2
+ *
+ * The first term is part of line_costs, with the base cost. The second falls by the same amount from cell to
+ * cell. The third is the same for all candidates, so line_result adds it at the end.
+ *
+ * A pass defines BATCH before it includes this file. BATCH is at least 256, because results are put where the
+ * costs were, and 4 more than a multiple of 32, so that 32 threads (four segments of eight lines) read 32
+ * different banks of shared memory. Shared memory: 36 bytes per candidate of a batch, and 800 besides. */
 #ifndef SDFGI_LINES_GLSL
 #define SDFGI_LINES_GLSL
 
@@ -20,71 +56,75 @@
 layout(local_size_x = SDFGI_GROUP_LINES) in;
 
 const uint LINES = SDFGI_LINES;
-const uint SLOTS = SDFGI_GROUP_LINES / LINES;
-const uint MOST_CELLS = 256u / SLOTS; /* of a slot */
-const int WORST = 0x7fffffff;
-const uint NOT_YET = 0xffffffffu;
+const uint SEGMENTS = SDFGI_GROUP_LINES / LINES;
+const uint MOST_CELLS = 256u / SEGMENTS; /* of a segment */
+const int MAX_COST = 0x7fffffff;
+const uint NO_COST = 0xffffffffu;
 
-shared uint line_places[32];              /* a bit per place along the line that has candidates */
-shared uint line_ranks[33];               /* candidates before each 32 places, and all */
-shared uint line_wanted;                  /* a bit per slot that has to answer */
-shared uint line_batch[BATCH];            /* places of a batch of candidates */
-shared int line_sums[LINES * BATCH];      /* of each line: what its candidates amount to for cell 0 */
-shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each slot: its sum, and below it the
-                                             candidate's number */
+shared uint line_positions[32];           /* a bit for each position that is a candidate */
+shared uint line_ranks[33];               /* candidates before every 32nd position; last, all of them */
+shared uint line_needed;                  /* a bit for each segment whose results are needed */
+shared uint line_batch[BATCH];            /* positions of the candidates of a batch */
+shared int line_costs[LINES * BATCH];     /* their costs for cell 0, of each line */
+shared uint line_ends[SDFGI_GROUP_LINES]; /* for the last cell of each segment its least cost and, in the low
+                                             bits, the rank of its best candidate in the batch */
 
-int line_least[MOST_CELLS]; /* for the cells of this thread */
-int line_weight;            /* how much squares along this line count */
-uint line_number_bits;      /* that sums leave of 32 for the number of a candidate in its batch */
+int line_least[MOST_CELLS]; /* of the cells of this thread, without the term 8 i^2 */
+int line_weight;            /* factor of squares along this line */
+uint line_rank_bits;        /* low bits of line_ends: costs leave so many of 32 */
 
-uint line_own()
+/* Which of the workgroup's lines this thread works on. */
+uint line_index()
 {
     return gl_LocalInvocationIndex & (LINES - 1u);
 }
 
-uint line_slot()
+uint line_segment()
 {
     return gl_LocalInvocationIndex / LINES;
 }
 
-uint line_cells_per_slot()
+uint line_segment_cells()
 {
-    return sdfgi_frame.resolution / SLOTS;
+    return sdfgi_frame.resolution / SEGMENTS;
 }
 
-/* The way from the centre of cell 0, in halves of a sub-voxel. */
-int line_step(uint place)
+/* o: offset from the centre of cell 0. */
+int line_offset(uint position)
 {
-    return 2 * int(place) - 3;
+    return 2 * int(position) - 3;
 }
 
-/* A candidate for cell 0. */
-int line_sum(uint place, int brought)
+/* Cost of a candidate for cell 0. */
+int line_cost(uint position, int base)
 {
-    const int way = line_step(place);
-    return line_weight * (way * way >> 3) + brought;
+    const int offset = line_offset(position);
+    return line_weight * (offset * offset >> 3) + base;
 }
 
-/* ---- Places: before candidates are put into batches */
+/* ---- Candidates: found before the first batch */
 
-/* Weight and bits are worked out once: within loops they took longer than all else. */
-void line_begin(int weight, uint number_bits)
+/* Weight and rank bits are computed once, because computing them within loops took longer than all else. */
+void line_begin(int weight, uint rank_bits)
 {
     line_weight = weight;
-    line_number_bits = number_bits;
+    line_rank_bits = rank_bits;
     if (gl_LocalInvocationIndex < 32u)
-        line_places[gl_LocalInvocationIndex] = 0u;
+        line_positions[gl_LocalInvocationIndex] = 0u;
     if (gl_LocalInvocationIndex == 0u)
-        line_wanted = 0u;
-    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) line_least[k] = WORST;
+        line_needed = 0u;
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
+    {
+        line_least[k] = MAX_COST;
+    }
     barrier();
 }
 
-/* `four` has a bit per sub-voxel along this cell of the line. */
+/* Makes candidates of those positions of a cell whose bit is set in `four`. */
 void line_mark(uint cell, uint four)
 {
     if (four != 0u)
-        atomicOr(line_places[cell >> 3u], four << 4u * (cell & 7u));
+        atomicOr(line_positions[cell >> 3u], four << 4u * (cell & 7u));
 }
 
 uint line_words()
@@ -92,105 +132,117 @@ uint line_words()
     return sdfgi_frame.resolution >> 3u;
 }
 
-/* Once all are marked. */
+/* Counts the candidates, once all are marked. */
 void line_count()
 {
     barrier();
     if (gl_LocalInvocationIndex <= line_words()) {
         uint rank = 0u;
         for (uint i = 0u; i < gl_LocalInvocationIndex; i++)
-            rank += uint(bitCount(line_places[i]));
+            rank += uint(bitCount(line_positions[i]));
         line_ranks[gl_LocalInvocationIndex] = rank;
     }
     barrier();
 }
 
-/* Candidates before that of a place. */
-uint line_rank(uint place)
+/* Number of candidates before a position. */
+uint line_rank(uint position)
 {
-    return line_ranks[place >> 5u] + uint(bitCount(line_places[place >> 5u] & ((1u << (place & 31u)) - 1u)));
+    const uint below = (1u << (position & 31u)) - 1u;
+    return line_ranks[position >> 5u] + uint(bitCount(line_positions[position >> 5u] & below));
 }
 
+/* Number of all candidates. */
 uint line_candidates()
 {
     return line_ranks[line_words()];
 }
 
-/* Candidates in a batch at most. */
-uint line_room()
+/* ---- Batches */
+
+/* Most candidates of a batch. */
+uint line_batch_room()
 {
-    return min(BATCH, 1u << line_number_bits);
+    return min(BATCH, 1u << line_rank_bits);
 }
 
-/* Fills line_batch with the places of the candidates numbered from `first`. */
-void line_put_batch(uint first)
+/* Fills line_batch with the candidates from the rank `first` on. */
+void line_begin_batch(uint first)
 {
     for (uint cell = gl_LocalInvocationIndex; cell < sdfgi_frame.resolution; cell += SDFGI_GROUP_LINES) {
-        const uint four = line_places[cell >> 3u] >> 4u * (cell & 7u) & 15u;
-        uint at = line_rank(4u * cell) - first;
+        const uint four = line_positions[cell >> 3u] >> 4u * (cell & 7u) & 15u;
+        uint rank = line_rank(4u * cell) - first;
         for (uint i = 0u; i < 4u; i++)
             if ((four >> i & 1u) != 0u) {
-                if (at < line_room())
-                    line_batch[at] = 4u * cell + i;
-                at++;
+                if (rank < line_batch_room())
+                    line_batch[rank] = 4u * cell + i;
+                rank++;
             }
     }
-    line_ends[gl_LocalInvocationIndex] = NOT_YET;
+    line_ends[gl_LocalInvocationIndex] = NO_COST;
     barrier();
 }
 
 /* ---- Search */
 
-bool line_slot_wanted(uint slot)
+bool line_segment_needed(uint segment)
 {
-    return (line_wanted >> slot & 1u) != 0u;
+    return (line_needed >> segment & 1u) != 0u;
 }
 
-/* What the sum at the last cell of a slot is more than at that of the slot before, a candidate's way aside.
- */
-uint line_growth(uint slot)
+/* Difference of 8 line_weight i^2 between the last cell of a segment and that of the segment before. */
+uint line_end_growth(uint segment)
 {
-    const int cells = int(line_cells_per_slot());
-    return uint(8 * line_weight * cells * (2 * (int(slot) * cells - 1) + cells));
+    const int cells = int(line_segment_cells());
+    return uint(8 * line_weight * cells * (2 * (int(segment) * cells - 1) + cells));
 }
 
-/* The last cell of every slot looks at all candidates; the threads of its line take turns. The number of a
- * candidate lies below its sum, so that of several best the first is found. */
+/* Step 1. Costs go from the last cell of a segment to that of the next by additions, and begin with cell -1.
+ * They hold the term 8 i^2, because a packed cost must not be negative. The rank in the low bits makes the
+ * first of several best candidates the least. */
 void line_search_ends(uint count)
 {
-    uint least[SLOTS];
-    [[unroll]] for (uint s = 0u; s < SLOTS; s++) least[s] = NOT_YET;
-    const uint shift = line_number_bits;
-    const int stride = 2 * line_weight * int(line_cells_per_slot());
-    for (uint i = line_slot(); i < count; i += SLOTS) {
-        const int way = line_step(line_batch[i]);
-        uint sum = uint(line_sums[line_own() * BATCH + i] + line_weight * (2 * way + 8)) << shift | i;
-        [[unroll]] for (uint s = 0u; s < SLOTS; s++)
+    uint least[SEGMENTS];
+    [[unroll]] for (uint s = 0u; s < SEGMENTS; s++)
+    {
+        least[s] = NO_COST;
+    }
+    const uint shift = line_rank_bits;
+    const int stride = 2 * line_weight * int(line_segment_cells());
+    for (uint i = line_segment(); i < count; i += SEGMENTS) {
+        const int offset = line_offset(line_batch[i]);
+        uint cost = uint(line_costs[line_index() * BATCH + i] + line_weight * (2 * offset + 8)) << shift | i;
+        [[unroll]] for (uint s = 0u; s < SEGMENTS; s++)
         {
-            sum += (line_growth(s) - uint(stride * way)) << shift;
-            least[s] = min(least[s], sum);
+            cost += (line_end_growth(s) - uint(stride * offset)) << shift;
+            least[s] = min(least[s], cost);
         }
     }
-    [[unroll]] for (uint s = 0u; s < SLOTS; s++) atomicMin(line_ends[s * LINES + line_own()], least[s]);
+    [[unroll]] for (uint s = 0u; s < SEGMENTS; s++)
+    {
+        atomicMin(line_ends[s * LINES + line_index()], least[s]);
+    }
     barrier();
 }
 
-/* Which candidate is best for the last cell of a slot. */
-uint line_best(uint slot)
+/* Rank of the best candidate for the last cell of a segment. */
+uint line_best(uint segment)
 {
-    return line_ends[slot * LINES + line_own()] & (1u << line_number_bits) - 1u;
+    return line_ends[segment * LINES + line_index()] & (1u << line_rank_bits) - 1u;
 }
 
-/* Eight cells from the slot's cell `first` on look between the best of the slot's ends. */
+/* Step 2, for eight cells of this thread's segment from its cell `first` on. */
 void line_search_eight(uint first)
 {
-    const uint own = line_own(), slot = line_slot(), end = line_best(slot);
-    const int cell = int(slot * line_cells_per_slot() + first);
-    for (uint i = slot > 0u ? line_best(slot - 1u) : 0u; i <= end; i++) {
-        const int way = 2 * line_weight * line_step(line_batch[i]);
-        int sum = line_sums[own * BATCH + i] - cell * way;
-        [[unroll]] for (uint k = 0u; k < 8u; k++, sum -= way) line_least[first + k] =
-            min(line_least[first + k], sum);
+    const uint line = line_index(), segment = line_segment(), last = line_best(segment);
+    const int cell = int(segment * line_segment_cells() + first);
+    for (uint i = segment > 0u ? line_best(segment - 1u) : 0u; i <= last; i++) {
+        const int step = 2 * line_weight * line_offset(line_batch[i]);
+        int cost = line_costs[line * BATCH + i] - cell * step;
+        [[unroll]] for (uint k = 0u; k < 8u; k++, cost -= step)
+        {
+            line_least[first + k] = min(line_least[first + k], cost);
+        }
     }
 }
 
@@ -198,27 +250,33 @@ void line_search_eight(uint first)
 void line_search(uint count)
 {
     line_search_ends(count);
-    if (!line_slot_wanted(line_slot()))
+    if (!line_segment_needed(line_segment()))
         return;
     line_search_eight(0u);
-    if (line_cells_per_slot() > 8u)
+    if (line_segment_cells() > 8u)
         line_search_eight(8u);
 }
 
-/* Once all batches are searched: results of all threads go where the sums were, to be stored in the order in
- * which they lie. */
-void line_publish()
+/* ---- Results */
+
+/* Puts the results of all threads where the costs were, once all batches are searched: threads then store
+ * them in the order in which they lie in memory. */
+void line_share_results()
 {
-    const uint first = line_slot() * line_cells_per_slot();
+    const uint first = line_segment() * line_segment_cells();
     barrier();
-    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++) if (k < line_cells_per_slot())
-        line_sums[(first + k) * LINES + line_own()] = line_least[k];
+    [[unroll]] for (uint k = 0u; k < MOST_CELLS; k++)
+    {
+        if (k < line_segment_cells())
+            line_costs[(first + k) * LINES + line_index()] = line_least[k];
+    }
     barrier();
 }
 
-int line_result(uint cell, uint own)
+/* Least cost of a cell of a line. */
+int line_result(uint cell, uint line)
 {
-    return line_sums[cell * LINES + own] + 8 * line_weight * int(cell * cell);
+    return line_costs[cell * LINES + line] + 8 * line_weight * int(cell * cell);
 }
 
 #endif

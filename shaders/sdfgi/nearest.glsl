@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The sub-voxel of a cell nearest to another cell's centre: boxes first, bits only where a box may win.
- * Sub-voxels are packed 10 bits per axis. */
+ * Finds the sub-voxel of a cell that is nearest to another cell's centre. A pointer to a sub-voxel is its
+ * coordinate, 10 bits per axis. */
 #ifndef SDFGI_NEAREST_GLSL
 #define SDFGI_NEAREST_GLSL
 
@@ -12,7 +12,7 @@ layout(push_constant) uniform sdfgi_push
 };
 
 const uint NEAREST_NONE = 0xffffffffu;
-const uint NEAREST_CELL_MASK = 0x3fcff3fcu; /* drops the two low bits of each coordinate */
+const uint NEAREST_CELL_MASK = 0x3fcff3fcu; /* clears the two low bits of each coordinate */
 
 uint nearest_pack(ivec3 sub)
 {
@@ -27,8 +27,8 @@ ivec3 nearest_unpack(uint pointer)
 /* Squared distance in cell widths from the centre of `cell` to a sub-voxel's centre. */
 float nearest_distance2(ivec3 cell, ivec3 sub)
 {
-    const vec3 way = sdfgi_metric_from_cells((vec3(sub - cell * SDFGI_SUBVOXELS) - 1.5) * 0.25);
-    return dot(way, way);
+    const vec3 offset = sdfgi_metric_from_cells((vec3(sub - cell * SDFGI_SUBVOXELS) - 1.5) * 0.25);
+    return dot(offset, offset);
 }
 
 /* Lower bound of nearest_distance2 over the sub-voxels of another cell that lie in [low, high]. */
@@ -39,8 +39,8 @@ float nearest_bound2(ivec3 cell, ivec3 other, vec3 low, vec3 high)
     return dot(gap, gap);
 }
 
-/* Bit per slab that holds a set bit: x, y and z. */
-uvec3 nearest_slabs(uvec2 bits)
+/* Per axis a bit for each of the cell's four slices that holds a set bit. */
+uvec3 nearest_slices(uvec2 bits)
 {
     const uint all_z = bits.x | bits.y;
     const uint layer = (all_z | all_z >> 16u) & 0xffffu;
@@ -52,15 +52,16 @@ uvec3 nearest_slabs(uvec2 bits)
     return uvec3((column | column >> 4u) & 15u, y, z);
 }
 
-/* Offers the sub-voxels of `other` to `cell`: the box around the cell first, then around its bits, then the
- * bits. Most candidates fall to a box, which is what makes measuring to 64 sub-voxels affordable. */
+/* Replaces the nearest sub-voxel to `cell` if one in the cell `other` is nearer. Tests a box around `other`
+ * first, then a box around its set bits, and last the bits. A box rules out most cells, so it is cheap to
+ * measure to each of 64 sub-voxels. */
 void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
 {
     if (nearest_bound2(cell, other, vec3(0.0), vec3(3.0)) >= best2)
         return;
     const uvec2 bits = sdfgi_cell_bits(args.cascade, other);
-    const uvec3 slabs = nearest_slabs(bits);
-    if (nearest_bound2(cell, other, vec3(findLSB(slabs)), vec3(findMSB(slabs))) >= best2)
+    const uvec3 slices = nearest_slices(bits);
+    if (nearest_bound2(cell, other, vec3(findLSB(slices)), vec3(findMSB(slices))) >= best2)
         return;
     const ivec3 low = other * SDFGI_SUBVOXELS;
     for (int word = 0; word < 2; word++) {
@@ -78,7 +79,8 @@ void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
     }
 }
 
-/* Stored form of a squared distance: rounded down, by a hair more than floats may have rounded up. */
+/* Stored form of a squared distance, rounded down. The factor is a little more than floats may have rounded
+ * up. */
 uint encode_nearest(float d2)
 {
     return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * sdfgi_distance_steps()), sdfgi_distance_reach())

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Depth to the nearest set sub-voxel in 16x16 directions around each probe, then mean and mean of squares
- * over each texel and its neighbours, as unorm16 of the range (half floats lose the variance, HARD_CASES row
- * 43). One workgroup per probe; of those that were there before, only texels that look into what is new are
- * made again. Shared memory: 256 depths. */
+ * Depths around each probe: the distance to the first set sub-voxel in 16x16 directions. Stores their mean
+ * and the mean of their squares, filtered over a texel and its neighbours, as unorm16 of the range. Half
+ * floats would lose the variance (HARD_CASES row 43). Of probes that are not new, only texels whose rays come
+ * near a dirty box are made again. One workgroup per probe. Shared memory: 256 depths. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_OCCLUSION
@@ -18,15 +18,17 @@ layout(push_constant) uniform sdfgi_push
 
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
-/* Cells beside a ray in which nothing may have changed if its steps are to be the same: the longest of them,
- * its margin, and from a ray to the centre of its cell, twice. */
-const float BESIDE = SDFGI_TRACE_KEPT_STEP + SDFGI_TRACE_MARGIN + 1.74;
-const float MOVED = 4.0; /* cells: how far a probe stands from its corner at most */
+/* A ray takes the same steps as before if no dirty box is within this distance of it, in cells: the longest
+ * step and its margin, because distances reach so far, and twice the distance from a ray to the centre of its
+ * cell. */
+const float RAY_MARGIN = SDFGI_TRACE_KEPT_STEP + SDFGI_TRACE_MARGIN + 1.74;
+/* Cells: farthest that a probe stands from its corner. */
+const float MOST_MOVED = 4.0;
 
 shared float depth[TEXELS];
-/* Sets of texels, a bit each: those that look into what is new, those that these are a part of, and those
- * that are a part of these in turn. */
-const uint LOOKING = 0u, STORED = 1u, TRACED = 2u, WORDS = TEXELS / 32u;
+/* Sets of texels, a bit each. DIRTY: their own rays come near a dirty box. STORED: their filter reads a DIRTY
+ * texel. TRACED: the filter of a STORED texel reads them. */
+const uint DIRTY = 0u, STORED = 1u, TRACED = 2u, WORDS = TEXELS / 32u;
 shared uint sets[3u][WORDS];
 
 vec3 texel_direction(uint texel)
@@ -34,10 +36,10 @@ vec3 texel_direction(uint texel)
     return sdfgi_octahedral_decode((vec2(texel % uint(N), texel / uint(N)) + 0.5) * (2.0 / float(N)) - 1.0);
 }
 
-bool looks_into_news(vec3 pos, uint texel)
+bool ray_is_dirty(vec3 pos, uint texel)
 {
     return dirty_crosses(args.cascade, pos, sdfgi_cells_from_metric(texel_direction(texel)),
-                         SDFGI_OCCLUSION_RANGE, BESIDE / sdfgi_space_y_scale());
+                         SDFGI_OCCLUSION_RANGE, RAY_MARGIN / sdfgi_space_y_scale());
 }
 
 bool set_holds(uint set, ivec2 coord)
@@ -52,7 +54,8 @@ void set_add(uint set, uint texel)
     atomicOr(sets[set][texel >> 5u], 1u << (texel & 31u));
 }
 
-/* The next set gets all texels of this one and their neighbours. Called by the whole workgroup. */
+/* Fills the next set with the texels of this one and their neighbours, because the filter reads 3x3 texels.
+ * Called by the whole workgroup. */
 void widen(uint set)
 {
     for (uint texel = gl_LocalInvocationIndex; texel < TEXELS; texel += uint(SDFGI_GROUP_OCCLUSION)) {
@@ -66,6 +69,7 @@ void widen(uint set)
     barrier();
 }
 
+/* Fills all three sets. Called by the whole workgroup. */
 void find_texels(vec3 pos, bool all)
 {
     if (gl_LocalInvocationIndex < WORDS)
@@ -75,14 +79,14 @@ void find_texels(vec3 pos, bool all)
     if (all)
         return;
     for (uint texel = gl_LocalInvocationIndex; texel < TEXELS; texel += uint(SDFGI_GROUP_OCCLUSION))
-        if (looks_into_news(pos, texel))
-            set_add(LOOKING, texel);
+        if (ray_is_dirty(pos, texel))
+            set_add(DIRTY, texel);
     barrier();
-    widen(LOOKING);
+    widen(DIRTY);
     widen(STORED);
 }
 
-/* As far from the probe's corner: the same wherever the cascade stands. */
+/* `pos` counts from the probe's corner, so that it is rounded alike wherever the cascade stands. */
 float trace_depth(ivec3 corner, vec3 pos, uint texel)
 {
     sdfgi_trace_way unused;
@@ -98,8 +102,8 @@ float depth_at(ivec2 coord)
     return depth[source.x + N * source.y] / SDFGI_OCCLUSION_RANGE;
 }
 
-/* A 3x3 tent: wide enough to smooth steps between texels, narrow enough to keep the far side of a thin wall
- * apart. */
+/* Mean and mean of squares, by a 3x3 tent. The tent is wide enough to smooth the edges between texels, and
+ * narrow enough to keep the far side of a thin wall apart. */
 vec2 filtered_moments(ivec2 coord)
 {
     vec2 moments = vec2(0.0);
@@ -116,7 +120,7 @@ void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
     const uint slot = sdfgi_probe_index(args.cascade, probe), state = sdfgi_probes[slot];
-    const int near = int(ceil((SDFGI_OCCLUSION_RANGE + BESIDE) / sdfgi_space_y_scale() + MOVED));
+    const int near = int(ceil((SDFGI_OCCLUSION_RANGE + RAY_MARGIN) / sdfgi_space_y_scale() + MOST_MOVED));
     if (sdfgi_probe_is_dead(state) || !dirty_near(args.cascade, corner, corner, near))
         return;
     const vec3 pos = sdfgi_probe_position(probe, state);

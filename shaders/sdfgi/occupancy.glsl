@@ -1,11 +1,23 @@
 /* SPDX-License-Identifier: MIT
- * What the exact distance search keeps in the scratch buffer, N cells a side, in words:
- *   planes    2 N^3   distance within a layer of sub-voxels, 16 bits each: more than distances reach is as
- * good as any runs      N^3/16  per row of sub-voxels along x a bit per eight cells in which it holds any
- *   layers    N^2/32  per layer of cells along y and 32 columns a bit per layer of sub-voxels that holds any
- *   stale     N^2/8   a bit per block of 4^3 cells to search, along y: two words each
- * Coordinates are local, and lengths odd numbers of half a sub-voxel, so that all arithmetic is in integers
- * and no order of work changes a result. */
+ * What the passes of the exact distance search share: their part of the scratch buffer, and squared lengths.
+ * N is the number of cells along a side of a cascade. Coordinates count from the cascade's low corner.
+ *
+ *     layer      the sub-voxels of one height y: 4 N layers, four for each y of cells
+ *     row        the sub-voxels of a layer at one position along z: they lie along x
+ *     run        eight cells that follow one another along x: 32 sub-voxels of a row
+ *     column     the light blocks (4^3 cells) above one another, at one x and z
+ *
+ * The scratch buffer holds, in words (shared/scratch.h):
+ *
+ *     planes         2 N^3   per layer and cell in x and z the distance within the layer, 16 bits each;
+ *                            any distance out of reach stands for all of them
+ *     runs           N^3/16  per row a bit for each run in which it holds a bit
+ *     layers         N^2/32  per y of cells, a word for every 32 cells along z; its low four bits tell which
+ *                            of the four layers hold bits there
+ *     dirty blocks   N^2/8   per column two words with a bit for each light block to search
+ *
+ * Lengths are counted in halves of a sub-voxel. From the centre of a cell to that of a sub-voxel they are odd
+ * numbers along each axis. All arithmetic is in integers, so that no order of work changes a result. */
 #ifndef SDFGI_OCCUPANCY_GLSL
 #define SDFGI_OCCUPANCY_GLSL
 
@@ -16,8 +28,10 @@ uint occupancy_side_bits()
     return sdfgi_frame.resolution_log2;
 }
 
-/* Two cells along x share a word. Four cells along x times two along z lie side by side: what one workgroup
- * of distance_exact reads of a layer. */
+/* ---- Planes */
+
+/* Two cells along x share a word. Words of four cells along x and two along z lie side by side, because one
+ * workgroup of distance_exact reads these of a layer. */
 uint plane_slot(uint layer, uint x, uint z)
 {
     const uint bits = occupancy_side_bits();
@@ -25,13 +39,15 @@ uint plane_slot(uint layer, uint x, uint z)
     return tile << 2u | (z & 1u) << 1u | (x >> 1u & 1u);
 }
 
-const uint RUN_BITS = 3u; /* a run is eight cells */
+/* ---- Runs */
 
-/* The bit where the runs of a row begin; rows lie side by side along z. */
-uint runs_bit(uint layer, uint place)
+const uint RUN_BITS = 3u; /* logarithm of the cells of a run */
+
+/* Number of the first bit of a row among the bits of all runs. Rows of a layer follow one another. */
+uint runs_bit(uint layer, uint position_z)
 {
     const uint bits = occupancy_side_bits();
-    return (layer << (bits + 2u) | place) << (bits - RUN_BITS);
+    return (layer << (bits + 2u) | position_z) << (bits - RUN_BITS);
 }
 
 uint runs_slot(uint bit)
@@ -39,59 +55,67 @@ uint runs_slot(uint bit)
     return sdfgi_scratch_runs(occupancy_side_bits()) + (bit >> 5u);
 }
 
-/* The runs in which a row holds bits. */
-uint runs_of_row(uint layer, uint place)
+/* A bit for each run in which a row holds a bit. */
+uint runs_of_row(uint layer, uint position_z)
 {
-    const uint bit = runs_bit(layer, place);
+    const uint bit = runs_bit(layer, position_z);
     return bitfieldExtract(sdfgi_scratch[runs_slot(bit)], int(bit & 31u),
                            int(sdfgi_frame.resolution >> RUN_BITS));
 }
 
-uint layer_parts()
+/* ---- Layers */
+
+/* Words per y of cells. */
+uint layers_words()
 {
     return sdfgi_frame.resolution / SDFGI_GROUP_COLUMNS;
 }
 
-uint layers_slot(uint y, uint part)
+uint layers_slot(uint y, uint word)
 {
-    return sdfgi_scratch_layers(occupancy_side_bits()) + y * layer_parts() + part;
+    return sdfgi_scratch_layers(occupancy_side_bits()) + y * layers_words() + word;
 }
 
-/* A bit per layer of sub-voxels of a layer of cells. All parts are read at once. */
-uint four_layers(uint y)
+/* A bit for each of the four layers at a y of cells that holds a bit. Reads a constant number of words, some
+ * of them twice, so that the reads overlap. */
+uint layers_at(uint y)
 {
     uint four = 0u;
-    [[unroll]] for (uint part = 0u; part < 256u / SDFGI_GROUP_COLUMNS; part++) four |=
-        sdfgi_scratch[layers_slot(y, min(part, layer_parts() - 1u))];
+    [[unroll]] for (uint word = 0u; word < 256u / SDFGI_GROUP_COLUMNS; word++)
+    {
+        four |= sdfgi_scratch[layers_slot(y, min(word, layers_words() - 1u))];
+    }
     return four;
 }
 
-uint stale_slot(uint block_x, uint block_z)
+/* ---- Dirty blocks */
+
+uint dirty_blocks_slot(uint block_x, uint block_z)
 {
     return sdfgi_scratch_dirty_blocks(occupancy_side_bits()) +
            2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
 }
 
-/* A bit per block of a column. */
-uvec2 stale_blocks(uint block_x, uint block_z)
+/* A bit for each dirty block of a column. */
+uvec2 dirty_blocks(uint block_x, uint block_z)
 {
-    const uint slot = stale_slot(block_x, block_z);
+    const uint slot = dirty_blocks_slot(block_x, block_z);
     return uvec2(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u]);
 }
 
-/* Bits from one on. */
+/* The bits of all blocks of a column from `first` on. */
 uvec2 blocks_from(int first)
 {
     const uint low = 0xffffffffu << clamp(first, 0, 31), high = 0xffffffffu << clamp(first - 32, 0, 31);
     return uvec2(first < 32 ? low : 0u, first < 64 ? high : 0u);
 }
 
-/* Whether a layer of blocks lies within reach of a stale block of a column. Cells' centres are half a cell
- * away from the end of their block, sub-voxels' an eighth. */
-bool layer_in_reach(uvec2 stale, int layer)
+/* True if the sub-voxels of the block at height `block_y` may be within reach of a cell of a dirty block.
+ * From the end of its block, the centre of a cell is half a cell away, and that of a sub-voxel an eighth. */
+bool dirty_within_reach(uvec2 dirty, int block_y)
 {
     const int reach = int((float(SDFGI_DISTANCE_REACH) / sdfgi_space_y_scale() + 3.375) * 0.25);
-    return (stale & blocks_from(layer - reach) & ~blocks_from(layer + reach + 1)) != uvec2(0u);
+    return (dirty & blocks_from(block_y - reach) & ~blocks_from(block_y + reach + 1)) != uvec2(0u);
 }
 
 /* ---- Squared lengths: 16 per square of half a sub-voxel, so that heights scaled by 1/2 or 3/4 stay whole
@@ -103,7 +127,7 @@ uint distance_y_weight()
     return quarters * quarters;
 }
 
-/* In squares of the stored step, N / 32768 cells; a cell is 8 half sub-voxels. At most 3 * 2^30. */
+/* In squares of the stored unit, N / 32768 cells. A cell is eight halves of a sub-voxel. At most 3 * 2^30. */
 uint distance_square(uint length2)
 {
     return length2 << (20u - 2u * occupancy_side_bits());

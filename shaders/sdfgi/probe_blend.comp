@@ -1,11 +1,38 @@
 /* SPDX-License-Identifier: MIT
- * Publishes irradiance: the sums of this ring so far, and for the rest of the ring the value of the one
- * before. At the end of a ring (args.cycle_ends = 1) only the new sums count, the change against the ring
- * before is measured, and the sums start again: a static scene repeats a fixed ring and so converges exactly.
- * A part of a ring strays from its mean, in an unchanged scene by the same amounts in every ring. Surfaces
- * are therefore shown, eased in, only what strays further than the ring before did; light cells read all of
- * it, so that light settles as fast as it can. A probe whose light has surely changed by half is young again.
- * One workgroup per probe and cascade. */
+ * Publishes the irradiance of probes: a temporal filter over sample cycles. One workgroup per probe and
+ * cascade, one thread per texel of the probe.
+ *
+ * A sample cycle takes several frames. Until it is complete, the mean of the cycle before stands for the
+ * samples that are missing. Per texel there are the sum S and the weight w of this cycle so far, the mean P
+ * and the weight p of the cycle before, and the weight W of a complete cycle:
+ *
+ *     missing weight   m = min(p, max(W - w, 0)), and 0 once the cycle is complete
+ *     estimate         E = (S + m P) / (w + m)
+ *     change           c = |E - P| / (max(E, P) + a little)
+ *
+ * At the end of a cycle E becomes P, w + m becomes p, and S becomes 0. Every cycle repeats the directions of
+ * the one before, so the estimates of a static scene converge exactly.
+ *
+ * The estimate of a partial cycle deviates from P even while the light stays the same, because the samples
+ * so far have another mean than the complete cycle. It does so by the same amounts in every cycle. A texel
+ * therefore displays only as much of a change as exceeds the deviation d of the cycle before:
+ *
+ *     displayed        D = mix(previous D, mix(P, E, k), DISPLAY_BLEND)
+ *     with             k = max(1 - d / c, 0), or 1 at the end of a cycle
+ *
+ * Lookups read D. Light cells read E, because light then converges sooner: alpha holds E over D.
+ *
+ * That is the filter of a STEADY probe. A probe that is WARMING_UP displays E, because its d is unknown. So
+ * does a NEW probe, whose estimate becomes P in every frame, and whose m is at most w: its history counts for
+ * no more than the samples that it has just read. In both states alpha holds the confidence, negated.
+ *
+ * All texels of a probe share d, and the history of a probe is reset when its light is sure to change by
+ * half. The probe is NEW again then. Both follow from C, the largest c of its texels in a frame:
+ *
+ *     deviation        d = max(sqrt(M^2 - L^2), DEVIATION_KEPT * previous d)
+ *                      M is the largest C of a cycle, and L its last C: a change that stays is no deviation
+ *     history reset    if C > RESET_CHANGE * g + RESET_DEVIATIONS * d + RESET_MARGIN
+ *                      g is the fraction of the cycle that has been sampled so far */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
@@ -19,107 +46,174 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_probe_blend_args args;
 };
 
-/* Share of a ring's weight, stored as a half float, from which on nothing is missing. */
-const float COMPLETE = 0.99;
+/* A cycle is complete from this fraction of W on: weights are stored as half floats, which are rounded. */
+const float COMPLETE_FRACTION = 0.99;
 const float HALF_MAX = 65504.0;
-/* Change is measured against a texel's own brightness plus this share of the brightest, below which nobody
- * sees it. */
-const float DARK_SHARE = 1.0 / 512.0;
+/* A change is relative to a texel's own brightness plus this fraction of the brightest texel of all probes,
+ * because nobody sees a change below that. */
+const float DARK_FRACTION = 1.0 / 512.0;
 
-/* A probe is young again if its light is sure to change by this share over a ring: what it has gathered since
- * the ring began has strayed by as much of that as it can tell, besides what rings stray by anyway. With a
- * quarter, light under a lamp that moves at 3 m/s had half as much noise again and was further behind. */
-const float YOUNG_CHANGE = 0.5;
-const float DOUBT = 1.5;
-const float LEAST_DOUBT = 0.02;
-/* What the past of a young probe counts for at most, over what it has gathered in a frame. */
-const float YOUNG_MEMORY = 1.0;
-/* Share of a ring that its past counts for when a probe becomes young again. */
-const float REBORN_SHARE = 0.125;
+/* The history of a NEW probe counts for this much of what the probe has just read, at most. */
+const float NEW_HISTORY_WEIGHT = 1.0;
+/* After a history reset, the light so far counts for this fraction of a cycle at most. */
+const float RESET_HISTORY_FRACTION = 0.125;
+
+/* A history is reset if the light is sure to change by this much within a cycle. With a quarter instead,
+ * light under a lamp that moves at 3 m/s had half as much noise again, and it was further behind the lamp. */
+const float RESET_CHANGE = 0.5;
+/* A change is sure if it exceeds the deviation by half of it, and by a margin for rounding. */
+const float RESET_DEVIATIONS = 1.5;
+const float RESET_MARGIN = 0.02;
+
+/* Weight of the target in what a texel displays: new light fades in over several frames. */
+const float DISPLAY_BLEND = 0.25;
+/* A texel that changes by less than this over a cycle displays its estimate exactly, so that light converges.
+ * Nobody sees a step of this size. */
+const float INVISIBLE_CHANGE = 1.0 / 256.0;
+/* A deviation falls by no more than a quarter in a cycle, because after a cycle in which light changed, it
+ * cannot be told from the change and comes out too small. */
+const float DEVIATION_KEPT = 0.75;
+/* Light cells read at most this many times what is displayed, and at least its inverse. */
 const float MAX_GAIN = 8.0;
-/* Share of what is new that a frame shows, and the change over a ring below which all of it is. Light settles
- * below that. */
-const float EASE = 0.25;
-const float UNSEEN_CHANGE = 1.0 / 256.0;
-/* Straying is hard to tell from change: in a ring it falls by no more than this. */
-const float STRAYING_KEPT = 0.75;
 
-shared uint group_change;
-shared uint group_brightest;
+shared uint group_change;    /* float bits: largest change of the probe's texels */
+shared uint group_brightest; /* float bits: their largest component */
 
 struct texel {
-    vec4 sum, before; /* of this ring, mean and weight of the one before */
-    vec4 mixed;       /* what both together say, and their weight */
-    float change;     /* from `before` to that */
+    vec4 sum;      /* S and w */
+    vec4 previous; /* P and p */
+    vec4 estimate; /* E and w + m */
+    float change;  /* c */
 };
 
-/* Relative, of one texel. */
-float texel_change(vec3 value, vec3 before)
+bool has_texel()
+{
+    return gl_LocalInvocationIndex < uint(SDFGI_IRRADIANCE_COUNT);
+}
+
+bool cycle_ends()
+{
+    return args.cycle_ends != 0u;
+}
+
+/* Without a complete cycle no probe is steady. */
+uint filter_state(probe_history history)
+{
+    const uint state = probe_history_state(history);
+    return args.without_history != 0u ? min(state, PROBE_WARMING_UP) : state;
+}
+
+/* Relative difference of two colours, at most 1. */
+float texel_change(vec3 estimate, vec3 previous)
 {
     const float brightest = sdfgi_frame.brightest_texel;
-    const vec3 change = abs(value - before) / (max(value, before) + brightest * DARK_SHARE + 1e-12);
+    const vec3 change =
+        abs(estimate - previous) / (max(estimate, previous) + brightest * DARK_FRACTION + 1e-12);
     return min(max(change.r, max(change.g, change.b)), 1.0);
 }
 
-texel load_texel(uint slot, bool young, bool fresh)
+/* m, for the weights w and p. */
+float missing_weight(float sum_weight, float previous_weight, bool is_new)
+{
+    /* W. The maximum is for a probe that became new in the middle of the cycle before: p is too small. */
+    const float cycle = max(previous_weight, probe_cycle_weight());
+    const bool complete = cycle_ends() && sum_weight > COMPLETE_FRACTION * cycle;
+    float missing =
+        complete || args.without_history != 0u ? 0.0 : min(previous_weight, max(cycle - sum_weight, 0.0));
+    if (is_new && sum_weight > 0.0)
+        missing = min(previous_weight, NEW_HISTORY_WEIGHT * sum_weight);
+    return missing;
+}
+
+texel texel_load(uint slot, bool is_new)
 {
     texel t;
     t.sum = sdfgi_sums[probe_sums(slot) + gl_LocalInvocationIndex];
-    const uvec2 packed = sdfgi_previous[slot * uint(SDFGI_IRRADIANCE_COUNT) + gl_LocalInvocationIndex];
-    t.before = vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
-    /* What a whole ring weighs; a probe that was new in the middle of one has missed its beginning. */
-    const float ring = max(t.before.w, probe_ring_weight());
-    const bool whole = args.cycle_ends != 0u && t.sum.w > COMPLETE * ring;
-    float rest = whole || fresh ? 0.0 : min(t.before.w, max(ring - t.sum.w, 0.0));
-    if (young && t.sum.w > 0.0)
-        rest = min(t.before.w, YOUNG_MEMORY * t.sum.w);
-    const float weight = t.sum.w + rest;
-    t.mixed = vec4(min((t.sum.rgb + rest * t.before.rgb) / max(weight, 1e-12), vec3(HALF_MAX)), weight);
-    t.change = texel_change(t.mixed.rgb, t.before.rgb);
+    t.previous = probe_load_previous(slot, gl_LocalInvocationIndex);
+    const float missing = missing_weight(t.sum.w, t.previous.w, is_new);
+    const float weight = t.sum.w + missing;
+    t.estimate =
+        vec4(min((t.sum.rgb + missing * t.previous.rgb) / max(weight, 1e-12), vec3(HALF_MAX)), weight);
+    t.change = texel_change(t.estimate.rgb, t.previous.rgb);
     return t;
 }
 
-/* What light cells read, over what is shown. */
-float texel_gain(vec3 shown, vec3 mixed)
+/* Fills the shared maxima. Called by the whole workgroup. */
+void measure_probe(texel t)
 {
-    const float a = sdfgi_light_luminance(shown), b = sdfgi_light_luminance(mixed);
+    if (gl_LocalInvocationIndex == 0u) {
+        group_change = 0u;
+        group_brightest = 0u;
+    }
+    barrier();
+    if (has_texel()) {
+        const vec3 light = t.estimate.rgb;
+        atomicMax(group_change, floatBitsToUint(t.change));
+        atomicMax(group_brightest, floatBitsToUint(max(light.r, max(light.g, light.b))));
+    }
+    barrier();
+}
+
+bool needs_reset(float change, float deviation)
+{
+    const float sampled =
+        float(sdfgi_frame.first_sample + sdfgi_frame.rays_per_frame) / float(sdfgi_frame.cycle_samples);
+    return change > RESET_CHANGE * sampled + RESET_DEVIATIONS * deviation + RESET_MARGIN;
+}
+
+/* E over D, as luminances. */
+float texel_gain(vec3 displayed, vec3 estimate)
+{
+    const float a = sdfgi_light_luminance(displayed), b = sdfgi_light_luminance(estimate);
     return a > 0.0 ? clamp(b / a, 1.0 / MAX_GAIN, MAX_GAIN) : 1.0;
 }
 
-/* Of a grown probe: within a ring, what strays further than parts of the ring before did; at its end all of
- * it. Either way eased in, but for what nobody sees: settled light is shown exactly. */
-vec4 show_news(texel t, vec3 shown_before, float doubt, bool ring_ends)
+/* D and the gain, of a steady probe. */
+vec4 texel_display(texel t, vec3 displayed_before, float deviation)
 {
-    const float news = ring_ends ? 1.0 : max(1.0 - doubt / max(t.change, 1e-12), 0.0);
-    const vec3 target = mix(t.before.rgb, t.mixed.rgb, news);
-    const bool exact = ring_ends && t.change < UNSEEN_CHANGE;
-    const vec3 shown = mix(shown_before, target, exact ? 1.0 : EASE);
-    return vec4(shown, texel_gain(shown, t.mixed.rgb));
+    const float k = cycle_ends() ? 1.0 : max(1.0 - deviation / max(t.change, 1e-12), 0.0);
+    const vec3 target = mix(t.previous.rgb, t.estimate.rgb, k);
+    const bool exact = cycle_ends() && t.change < INVISIBLE_CHANGE;
+    const vec3 displayed = mix(displayed_before, target, exact ? 1.0 : DISPLAY_BLEND);
+    return vec4(displayed, texel_gain(displayed, t.estimate.rgb));
 }
 
-void start_ring(uint slot, texel t, bool born)
+void texel_publish(uint slot, texel t, uint state, float deviation)
 {
     const uint i = gl_LocalInvocationIndex;
-    const float most = born ? REBORN_SHARE * probe_ring_weight() : HALF_MAX;
-    probe_store_previous(slot * uint(SDFGI_IRRADIANCE_COUNT) + i, t.mixed.rgb, min(t.mixed.w, most));
-    sdfgi_sums[probe_sums(slot) + i] = vec4(0.0);
+    const vec4 value = state == PROBE_STEADY ? texel_display(t, probe_load_irradiance(slot, i).rgb, deviation)
+                                             : vec4(t.estimate.rgb, -probe_confidence(t.estimate.w));
+    probe_store_irradiance(slot, i, value);
 }
 
-vec4 next_memory(vec4 memory, float change, bool born, bool ring_ends)
+/* The estimate becomes the mean of the cycle before, and the sums start again. */
+void texel_start_cycle(uint slot, texel t, bool resets)
 {
-    const float strayed = max(memory.x, change), age = born ? PROBE_BORN : memory.z;
-    if (!ring_ends)
-        return vec4(strayed, memory.y, age, 0.0);
-    /* What has changed for good is no straying. */
-    const float doubt = max(sqrt(max(strayed * strayed - change * change, 0.0)), STRAYING_KEPT * memory.y);
-    return vec4(0.0, doubt, min(age + 1.0, PROBE_GROWN), 0.0);
+    const float most = resets ? RESET_HISTORY_FRACTION * probe_cycle_weight() : HALF_MAX;
+    probe_store_previous(slot, gl_LocalInvocationIndex, t.estimate.rgb, min(t.estimate.w, most));
+    sdfgi_sums[probe_sums(slot) + gl_LocalInvocationIndex] = vec4(0.0);
 }
 
-bool is_sure(float change, float doubt)
+probe_history next_history(probe_history h, float change, bool resets)
 {
-    const float gathered =
-        float(sdfgi_frame.first_sample + sdfgi_frame.rays_per_frame) / float(sdfgi_frame.cycle_samples);
-    return change > YOUNG_CHANGE * gathered + DOUBT * doubt + LEAST_DOUBT;
+    h.deviation = max(h.deviation, change);
+    h.cycles = resets ? 0.0 : h.cycles;
+    if (!cycle_ends())
+        return h;
+    const float deviation = sqrt(max(h.deviation * h.deviation - change * change, 0.0));
+    h.previous_deviation = max(deviation, DEVIATION_KEPT * h.previous_deviation);
+    h.deviation = 0.0;
+    h.cycles = min(h.cycles + 1.0, PROBE_STEADY_CYCLES);
+    return h;
+}
+
+/* Tells the host how far light is from converged. The change counts as 1 if the cycle before was not
+ * complete, because it is not known. */
+void count_change(probe_history history)
+{
+    const bool known = history.cycles >= PROBE_COMPLETE_CYCLES;
+    atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE], known ? group_change : floatBitsToUint(1.0));
+    atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_IRRADIANCE], group_brightest);
 }
 
 void main()
@@ -129,40 +223,26 @@ void main()
     const uint slot = sdfgi_probe_index(cascade, probe);
     if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
         return;
-    const uint i = gl_LocalInvocationIndex;
-    const bool ring_ends = args.cycle_ends != 0u, fresh = args.without_history != 0u;
-    const bool has_texel = i < uint(SDFGI_IRRADIANCE_COUNT);
-    const vec4 memory = sdfgi_sums[probe_memory(slot)];
-    if (i == 0u) {
-        group_change = 0u;
-        group_brightest = 0u;
-    }
-    barrier();
+
+    const probe_history history = probe_history_load(slot);
+    const uint state = filter_state(history);
     texel t;
-    if (has_texel) {
-        t = load_texel(slot, probe_is_young(memory), fresh);
-        atomicMax(group_change, floatBitsToUint(t.change));
-        atomicMax(group_brightest, floatBitsToUint(max(t.mixed.r, max(t.mixed.g, t.mixed.b))));
+    if (has_texel())
+        t = texel_load(slot, state == PROBE_NEW);
+
+    measure_probe(t);
+    const float change = uintBitsToFloat(group_change), deviation = history.previous_deviation;
+    const bool resets = state == PROBE_STEADY && needs_reset(change, deviation);
+    const uint new_state = resets ? PROBE_NEW : state;
+
+    if (has_texel()) {
+        texel_publish(slot, t, new_state, deviation);
+        if (cycle_ends() || new_state == PROBE_NEW)
+            texel_start_cycle(slot, t, resets);
     }
-    barrier();
-    const float change = uintBitsToFloat(group_change);
-    const bool grown = memory.z >= PROBE_GROWN && !fresh;
-    const bool born = grown && is_sure(change, memory.y);
-    const bool starts = ring_ends || born || probe_is_young(memory);
-    if (has_texel) {
-        const vec4 shown = grown && !born
-                               ? show_news(t, probe_load_irradiance(slot, i).rgb, memory.y, ring_ends)
-                               : vec4(t.mixed.rgb, -probe_trust(t.mixed.w));
-        probe_store_irradiance(slot, i, shown);
-        if (starts)
-            start_ring(slot, t, born);
-    }
-    if (i > 0u)
-        return;
-    sdfgi_sums[probe_memory(slot)] = next_memory(memory, change, born, ring_ends);
-    if (ring_ends) {
-        atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE],
-                  memory.z < PROBE_WHOLE ? floatBitsToUint(1.0) : group_change);
-        atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_IRRADIANCE], group_brightest);
+    if (gl_LocalInvocationIndex == 0u) {
+        probe_history_store(slot, next_history(history, change, resets));
+        if (cycle_ends())
+            count_change(history);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Samples of a probe's ring: ring.z directions, spread evenly over its octahedron. Every probe shifts them by
- * an amount of its own, fixed by its place in the world. */
+ * Probes as all passes see them: the directions of their sample cycle, the running sums of their texels, and
+ * their history. */
 #ifndef SDFGI_PROBE_COMMON_GLSL
 #define SDFGI_PROBE_COMMON_GLSL
 
@@ -8,37 +8,16 @@
 #include "../lib/octahedral.glsl"
 #include "../lib/random.glsl"
 
-/* Per probe the running sums of this ring, radiance times weight in rgb, weight in a; and one more, its
- * memory: x how far sums have strayed from the mean in this ring, y in the ring before, z its age in rings.
- */
+/* Per probe SDFGI_SUMS_STRIDE vec4. First one per texel, the running sum of this sample cycle: radiance times
+ * weight in rgb, weight in a. Then the packed probe_history. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SUMS) buffer sdfgi_sums_buffer
 {
     vec4 sdfgi_sums[];
 };
 
-/* A probe that is new, or whose light has changed much, is young until the ring after this one has ended: in
- * each frame it reads the rays of so many, and what it has gathered counts for little. They trace no more
- * rays than others: tracing five frames' rays at once took 1.8 ms instead of 0.9 in a walk's worst frame on
- * an H200. */
-const uint PROBE_YOUNG_FRAMES = 5u;
-/* Ages. */
-const float PROBE_BORN = -2.0; /* young while below 0 */
-const float PROBE_WHOLE = 1.0; /* the ring before was a whole one */
-const float PROBE_GROWN = 2.0; /* and how far its sums strayed is known */
-
-bool probe_is_young(vec4 memory)
-{
-    return memory.z < 0.0;
-}
-
 uint probe_sums(uint slot)
 {
     return slot * uint(SDFGI_SUMS_STRIDE);
-}
-
-uint probe_memory(uint slot)
-{
-    return probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT);
 }
 
 ivec3 probe_from_linear(uint i)
@@ -47,7 +26,7 @@ ivec3 probe_from_linear(uint i)
     return ivec3(i % side, i / side % side, i / (side * side));
 }
 
-/* The probe that a sdfgi_probe_index stands for. */
+/* Inverse of sdfgi_probe_index. */
 ivec3 probe_from_index(uint index, out uint cascade)
 {
     const uint side = sdfgi_frame.probes_per_side;
@@ -57,9 +36,67 @@ ivec3 probe_from_index(uint index, out uint cascade)
     return probe + int(side) * ivec3(lessThan(probe, ivec3(0)));
 }
 
-/* Direction of a sample (unit) and its solid angle up to a constant factor. One sequence over the whole map:
- * with one of 20 points in each of the 25 texels, edges of walls cost three times the error
- * (docs/decisions.md). */
+/* ---- History */
+
+/* A deviation says how far the light of a partial cycle differs from the mean of the cycle before. It is
+ * relative, and the largest of all texels. */
+struct probe_history {
+    float deviation;          /* of this cycle so far */
+    float previous_deviation; /* of the cycle before */
+    float cycles;             /* history length: ends of cycles since the history reset, 4 at most */
+};
+
+/* States of a history. NEW: the probe is new or its light has changed by half, so its history counts for
+ * little. STEADY: the deviation of a complete cycle is known. WARMING_UP: neither. */
+const uint PROBE_NEW = 0u;
+const uint PROBE_WARMING_UP = 1u;
+const uint PROBE_STEADY = 2u;
+
+/* Lengths of a history. A probe is NEW for the rest of the cycle of the history reset and for the next one.
+ * The cycle after that is the first one that the probe sums up as a whole. The cycle after the first complete
+ * cycle is the first one that has a mean to deviate from. */
+const float PROBE_NEW_CYCLES = 2.0;
+const float PROBE_COMPLETE_CYCLES = 3.0; /* the cycle before was a complete one */
+const float PROBE_STEADY_CYCLES = 4.0;
+
+/* A NEW probe reads the rays of this many frames in each frame. It traces no more rays than other probes:
+ * tracing five frames' rays at once took 1.8 ms instead of 0.9 in a walk's worst frame on an H200. */
+const uint PROBE_NEW_FRAMES = 5u;
+
+/* The length is stored less PROBE_NEW_CYCLES, so that NEW probes are those below 0. */
+vec4 probe_history_pack(probe_history h)
+{
+    return vec4(h.deviation, h.previous_deviation, h.cycles - PROBE_NEW_CYCLES, 0.0);
+}
+
+probe_history probe_history_unpack(vec4 packed)
+{
+    return probe_history(packed.x, packed.y, packed.z + PROBE_NEW_CYCLES);
+}
+
+probe_history probe_history_load(uint slot)
+{
+    return probe_history_unpack(sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)]);
+}
+
+void probe_history_store(uint slot, probe_history h)
+{
+    sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)] = probe_history_pack(h);
+}
+
+uint probe_history_state(probe_history h)
+{
+    if (h.cycles < PROBE_NEW_CYCLES)
+        return PROBE_NEW;
+    return h.cycles < PROBE_STEADY_CYCLES ? PROBE_WARMING_UP : PROBE_STEADY;
+}
+
+/* ---- Directions */
+
+/* Direction of a sample (unit), and its solid angle up to a constant factor. One sequence spreads the samples
+ * of a cycle over the whole octahedron. Each probe shifts it by an amount that depends on the probe's place
+ * in the world alone. With one of 20 points in each of the 25 texels instead, edges of walls cost three times
+ * the error (docs/decisions.md). */
 vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_angle)
 {
     const ivec3 world = (probe + sdfgi_frame.cascades[cascade].probe_base) & (SDFGI_HASH_PERIOD - 1);
@@ -69,15 +106,15 @@ vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_a
     return normalize(point);
 }
 
-/* Weight that a texel sums up over a ring, less a tenth, so that a whole ring always reaches it: the mean of
- * a direction's solid angle times its cosine is pi / 4. */
-float probe_ring_weight()
+/* Weight that a texel sums up over a cycle, less a tenth, so that a complete cycle always reaches it. The
+ * mean of a direction's solid angle times its cosine is pi / 4. */
+float probe_cycle_weight()
 {
     return 0.9 * 0.25 * 3.14159265 * float(sdfgi_frame.cycle_samples);
 }
 
-/* Directions of the stored texels: they span the map from edge to edge, so that all six axes are among them
- * and walls, floors and ceilings are read without interpolation. */
+/* Directions of the stored texels. They span the octahedral map from edge to edge, so that all six axes are
+ * among them and walls, floors and ceilings are read without interpolation. */
 vec3 probe_texel_direction(uint texel)
 {
     const uint n = uint(SDFGI_IRRADIANCE_TEXELS);

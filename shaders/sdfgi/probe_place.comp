@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Decides where each probe stands: on its lattice corner if the eight cells around are empty, else in the
- * centre of the nearest roomy empty cell, else nowhere (Hu et al. 2021, SDFDDGI, section 3.4: probes leave
- * geometry along the distance field); and which of the next probes along the axes it sees: lookups
- * extrapolate along such links. Only near something new. One workgroup per probe, one thread per cell that it
- * may move to. A workgroup finds out where the next probes stand, too, rather than wait for theirs. */
+ * Decides where each probe near a dirty box stands. If the eight cells around its corner are empty, it stands
+ * on the corner. Otherwise it moves to the centre of the empty cell with the most room nearby, and where
+ * there is none the probe is dead (Hu et al. 2021, SDFDDGI, section 3.4: probes leave geometry along the
+ * distance field). Also decides which of the next probes along the three axes it sees, because lookups
+ * extrapolate along such links. One workgroup per probe, one thread per cell that the probe may move to. A
+ * workgroup places the next probes as well, because it cannot wait for their workgroups. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -18,27 +19,32 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_cascade_args args;
 };
 
-/* Farthest move, in cells: less than half the probe spacing, so that a probe stays the nearest of its lattice
- * point. */
+/* Farthest move, in cells: less than half the probe spacing, so that a probe stays the one nearest to its
+ * corner. */
 const int REACH = 3;
-/* Room beyond this buys nothing; each cell moved costs this much of it. */
+/* Room is a cell's stored distance, in cells. More room than this is no better, and each cell that a probe
+ * moves costs this much room. */
 const float ENOUGH_ROOM = 2.0;
 const float MOVE_COST = 0.25;
-/* Of two sides alike the upper one: below a floor there is a slab or the ground, and probes there help
- * nobody. Covers what a surface inside its cell makes of the room on either side. */
+/* Of two sides with the same room the upper one is better, because no lookup needs a probe in the ground or
+ * in the slab below a floor. The cost exceeds the difference in room that comes from where a surface lies
+ * within its cell. */
 const float DOWN_COST = 0.5;
-/* Cells that matter to a place: those it may move to, and those whose distance tells how roomy they are. */
+/* Cells around a corner on which the place depends: those that the probe may move to, and as far as their
+ * distances count. */
 const int NEAR_PLACE = REACH + int(ENOUGH_ROOM) + 1;
-/* Cells around the way to the next probe that matter: how far probes move, and a ray's longest step. */
+/* Cells around the segment between two corners on which a link depends: as far as probes move, and as far as
+ * the longest step of a ray looks. */
 const int NEAR_LINK = 8;
 const uint CANDIDATES = uint(8 * REACH * REACH * REACH);
 const uint PER_THREAD = (CANDIDATES - 1u) / uint(SDFGI_GROUP_LINEAR) + 1u;
-const int NOWHERE = -0x7fffffff;
+const int NO_ROOM = -0x7fffffff; /* score of a cell that no probe can move to */
+/* Bits of a probe's state that say where it stands. */
 const uint PLACE_BITS = SDFGI_PROBE_DEAD | SDFGI_PROBE_MOVED | 0x7fffu;
 
 shared uint blocked; /* a bit per probe: this one, and the next along each axis */
-shared uint links;
-shared int best_score; /* ordered as the floats are */
+shared uint links;   /* bits of a probe's state */
+shared int best_score;
 shared uint best_candidate;
 
 bool cell_empty(ivec3 cell)
@@ -52,11 +58,12 @@ ivec3 candidate_offset(uint i)
     return ivec3(i % side, i / side % side, i / (side * side)) - REACH;
 }
 
+/* Bits of the score, changed so that integers have the order of the floats. */
 int candidate_score(ivec3 corner, uint i)
 {
     const ivec3 offset = candidate_offset(i), cell = corner + offset;
     if (i >= CANDIDATES || !sdfgi_cell_inside(cell) || sdfgi_cell_bits(args.cascade, cell) != uvec2(0u))
-        return NOWHERE;
+        return NO_ROOM;
     const float moved = length(sdfgi_metric_from_cells(vec3(offset) + 0.5));
     const float score = min(sdfgi_cell_distance(args.cascade, cell), ENOUGH_ROOM) - MOVE_COST * moved -
                         (offset.y < 0 ? DOWN_COST : 0.0);
@@ -64,39 +71,49 @@ int candidate_score(ivec3 corner, uint i)
     return bits < 0 ? bits ^ 0x7fffffff : bits;
 }
 
-/* Called by the whole workgroup. */
-uint roomiest_place(ivec3 corner)
+/* The candidate with the best score, and of several the first, as PLACE_BITS. Called by the whole
+ * workgroup. */
+uint place_with_most_room(ivec3 corner)
 {
     const uint lane = gl_LocalInvocationIndex;
     int scores[PER_THREAD];
     barrier();
     if (lane == 0u) {
-        best_score = NOWHERE;
+        best_score = NO_ROOM;
         best_candidate = CANDIDATES;
     }
     barrier();
-    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) scores[k] =
-        candidate_score(corner, lane + k * uint(SDFGI_GROUP_LINEAR));
-    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) atomicMax(best_score, scores[k]);
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
+    {
+        scores[k] = candidate_score(corner, lane + k * uint(SDFGI_GROUP_LINEAR));
+    }
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
+    {
+        atomicMax(best_score, scores[k]);
+    }
     barrier();
-    if (best_score == NOWHERE)
+    if (best_score == NO_ROOM)
         return SDFGI_PROBE_DEAD;
-    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++) if (scores[k] == best_score)
-        atomicMin(best_candidate, lane + k * uint(SDFGI_GROUP_LINEAR));
+    [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
+    {
+        if (scores[k] == best_score)
+            atomicMin(best_candidate, lane + k * uint(SDFGI_GROUP_LINEAR));
+    }
     barrier();
     return sdfgi_probe_pack_moved(candidate_offset(best_candidate));
 }
 
-bool entered(ivec3 corner)
+/* True for a corner that was outside the valid region before this frame. */
+bool has_entered(ivec3 corner)
 {
     const ivec3 low = sdfgi_frame.cascades[args.cascade].kept_low;
     const ivec3 high = sdfgi_frame.cascades[args.cascade].kept_high;
     return any(greaterThanEqual(low, high)) || any(lessThan(corner, low)) || any(greaterThan(corner, high));
 }
 
-bool is_placed(ivec3 corner)
+bool needs_placing(ivec3 corner)
 {
-    return entered(corner) || dirty_near(args.cascade, corner, corner, NEAR_PLACE);
+    return has_entered(corner) || dirty_near(args.cascade, corner, corner, NEAR_PLACE);
 }
 
 /* This probe, or the next one along an axis. */
@@ -110,7 +127,8 @@ bool exists(ivec3 probe)
     return all(lessThan(probe, ivec3(sdfgi_frame.probes_per_side)));
 }
 
-/* Which of the four have anything in the eight cells around their corners. */
+/* Fills `blocked`: a bit per probe that has an occupied cell among the eight around its corner. Called by the
+ * whole workgroup. */
 void find_blocked(ivec3 probe)
 {
     const uint lane = gl_LocalInvocationIndex, i = lane >> 3u;
@@ -123,18 +141,19 @@ void find_blocked(ivec3 probe)
     barrier();
 }
 
-/* Where a probe stands, as PLACE_BITS. Called by the whole workgroup. */
+/* Where this probe (i = 0) or one of the next stands, as PLACE_BITS. Called by the whole workgroup. */
 uint place(ivec3 probe, uint i)
 {
     const ivec3 other = next_probe(probe, i), corner = other * SDFGI_PROBE_SPACING;
     if (!exists(other))
         return SDFGI_PROBE_DEAD;
-    if (!is_placed(corner))
+    if (!needs_placing(corner))
         return sdfgi_probes[sdfgi_probe_index(args.cascade, other)] & PLACE_BITS;
-    return (blocked >> i & 1u) != 0u ? roomiest_place(corner) : 0u;
+    return (blocked >> i & 1u) != 0u ? place_with_most_room(corner) : 0u;
 }
 
-/* Which of the next probes a probe that stands at `state` sees. Called by the whole workgroup. */
+/* Which of the next probes a probe that stands at `state` sees, as bits of its state. The first three threads
+ * trace a ray each. Called by the whole workgroup. */
 uint find_links(ivec3 probe, uint state)
 {
     uint next = SDFGI_PROBE_DEAD;
@@ -143,10 +162,10 @@ uint find_links(ivec3 probe, uint state)
         const uint other = place(probe, i);
         next = gl_LocalInvocationIndex + 1u == i ? other : next;
     }
-    const ivec3 step = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u);
+    const ivec3 to_next = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u);
     if (!sdfgi_probe_is_dead(state) && !sdfgi_probe_is_dead(next) &&
         sdfgi_trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING,
-                                 sdfgi_probe_position(ivec3(0), state), sdfgi_probe_position(step, next)))
+                                 sdfgi_probe_position(ivec3(0), state), sdfgi_probe_position(to_next, next)))
         atomicOr(links, 1u << SDFGI_PROBE_LINK_SHIFT + gl_LocalInvocationIndex);
     barrier();
     return links;
@@ -161,9 +180,9 @@ void main()
     if (dirty_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
         find_blocked(probe);
         state = place(probe, 0u);
-        const uint seen = find_links(probe, state);
-        const bool is_new = entered(corner) || ((state ^ before) & PLACE_BITS) != 0u;
-        state |= seen | (is_new ? SDFGI_PROBE_NEW : 0u);
+        const uint seen_next = find_links(probe, state);
+        const bool is_new = has_entered(corner) || ((state ^ before) & PLACE_BITS) != 0u;
+        state |= seen_next | (is_new ? SDFGI_PROBE_NEW : 0u);
     }
     if (lane > 0u)
         return;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Gives probes that are new, or stand elsewhere than before, a start: the light of those probes of the next
- * coarser cascade that see their place. It counts for little, and for nothing where none does: light from
- * behind a wall would stay in a room for rings. Empties their sums. One workgroup per probe. */
+ * Gives probes that are new, or that have moved, a start: the light of those probes of the next coarser
+ * cascade that see their place. Where none sees it a probe starts from nothing, because light from behind a
+ * wall would stay in a room for several sample cycles. The light of coarser probes counts for little, so that
+ * the probe's own rays soon replace it. Resets the sums and the history of these probes. One workgroup per
+ * probe. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
@@ -16,9 +18,9 @@ layout(push_constant) uniform sdfgi_push
 };
 
 shared sdfgi_lookup_visibility visible;
-shared uint seen_by;
+shared uint seen_by; /* a bit per probe of the coarser cage */
 
-/* Which of the eight probes around `pos` see it. */
+/* Which of the eight probes around `pos` see it. Called by the whole workgroup. */
 void find_visible(uint cascade, ivec3 cage, vec3 pos)
 {
     const uint k = gl_LocalInvocationIndex;
@@ -35,25 +37,32 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
     barrier();
 }
 
-/* Trilinear share of the probes that see a place. */
-float visible_share(ivec3 cage, vec3 pos)
+/* Sum of the trilinear weights of those probes that see a place. */
+float visible_weight(ivec3 cage, vec3 pos)
 {
     const vec3 f = sdfgi_lookup_place(cage, pos);
-    float share = 0.0;
+    float weight = 0.0;
     for (int k = 0; k < 8; k++) {
         const vec3 t = mix(1.0 - f, f, vec3(sdfgi_lookup_corner(k)));
-        share += t.x * t.y * t.z * visible.of_probe[k];
+        weight += t.x * t.y * t.z * visible.of_probe[k];
     }
-    return share;
+    return weight;
 }
 
-/* Light in rgb, how much of a ring it counts for in a. */
+/* Light in rgb, its weight among the samples of a cycle in a. */
 vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
 {
     const vec4 sum = sdfgi_lookup_sum(coarser, cage, pos, normal, visible);
     if (sum.a <= 1e-6)
         return vec4(0.0);
-    return vec4(sum.rgb / sum.a, visible_share(cage, pos) * PROBE_SEED_SHARE * probe_ring_weight());
+    return vec4(sum.rgb / sum.a, visible_weight(cage, pos) * PROBE_SEED_FRACTION * probe_cycle_weight());
+}
+
+void store_seed(uint slot, uint texel, vec4 seed)
+{
+    sdfgi_sums[probe_sums(slot) + texel] = vec4(0.0);
+    probe_store_previous(slot, texel, seed.rgb, seed.a);
+    probe_store_irradiance(slot, texel, vec4(seed.rgb, -probe_confidence(seed.a)));
 }
 
 void main()
@@ -76,14 +85,9 @@ void main()
         cage = sdfgi_lookup_cage(coarser, pos);
         find_visible(coarser, cage, pos);
     }
-    if (i < uint(SDFGI_IRRADIANCE_COUNT)) {
-        const uint at = slot * uint(SDFGI_IRRADIANCE_COUNT) + i;
-        const vec4 seed =
-            exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0);
-        sdfgi_sums[probe_sums(slot) + i] = vec4(0.0);
-        probe_store_previous(at, seed.rgb, seed.a);
-        probe_store_irradiance(slot, i, vec4(seed.rgb, -probe_trust(seed.a)));
-    }
+    if (i < uint(SDFGI_IRRADIANCE_COUNT))
+        store_seed(slot, i,
+                   exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0));
     if (i == 0u)
-        sdfgi_sums[probe_memory(slot)] = vec4(0.0, 0.0, PROBE_BORN, 0.0);
+        probe_history_store(slot, probe_history(0.0, 0.0, 0.0));
 }

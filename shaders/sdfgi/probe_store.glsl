@@ -1,41 +1,53 @@
 /* SPDX-License-Identifier: MIT
- * What a probe keeps: its last ring, and the irradiance that lookups read. */
+ * What a probe keeps per texel: the mean of the last sample cycle, and the irradiance that lookups read. */
 #ifndef SDFGI_PROBE_STORE_GLSL
 #define SDFGI_PROBE_STORE_GLSL
 
 #include "probe_common.glsl"
 
-/* Mean radiance and weight of the last ring, four half floats. */
+/* Mean radiance and weight of the last cycle, four half floats. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_PREVIOUS) buffer sdfgi_previous_buffer
 {
     uvec2 sdfgi_previous[];
 };
 
-/* Share of a ring that other probes' light counts for at most in a new one: half as much as the five frames
- * of rays that it goes on to read. */
-const float PROBE_SEED_SHARE = 0.125;
+/* The light of coarser probes counts in a new probe for this fraction of a cycle at most. That is half as
+ * much as the five frames of rays that the new probe reads next, because a cycle has 20 frames by default. */
+const float PROBE_SEED_FRACTION = 0.125;
 
-void probe_store_previous(uint at, vec3 value, float weight)
+uint probe_texel(uint slot, uint texel)
 {
-    sdfgi_previous[at] = uvec2(packHalf2x16(value.rg), packHalf2x16(vec2(value.b, weight)));
+    return slot * uint(SDFGI_IRRADIANCE_COUNT) + texel;
 }
 
-/* How far a probe counts beside others that have gathered more. */
-float probe_trust(float weight)
+void probe_store_previous(uint slot, uint texel, vec3 mean, float weight)
 {
-    return min(weight / (PROBE_SEED_SHARE * probe_ring_weight()), 1.0);
+    sdfgi_previous[probe_texel(slot, texel)] =
+        uvec2(packHalf2x16(mean.rg), packHalf2x16(vec2(mean.b, weight)));
+}
+
+/* Mean in rgb, weight in a. */
+vec4 probe_load_previous(uint slot, uint texel)
+{
+    const uvec2 packed = sdfgi_previous[probe_texel(slot, texel)];
+    return vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
+}
+
+/* How far a texel of this weight counts beside those of probes with a longer history. */
+float probe_confidence(float weight)
+{
+    return min(weight / (PROBE_SEED_FRACTION * probe_cycle_weight()), 1.0);
 }
 
 /* Irradiance of a texel, as sdfgi_lookup_stored reads it. */
 void probe_store_irradiance(uint slot, uint texel, vec4 value)
 {
-    sdfgi_irradiance_texels[slot * uint(SDFGI_IRRADIANCE_COUNT) + texel] =
-        uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
+    sdfgi_irradiance_texels[probe_texel(slot, texel)] = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
 }
 
 vec4 probe_load_irradiance(uint slot, uint texel)
 {
-    const uvec2 halves = sdfgi_irradiance_texels[slot * uint(SDFGI_IRRADIANCE_COUNT) + texel];
+    const uvec2 halves = sdfgi_irradiance_texels[probe_texel(slot, texel)];
     return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
 }
 

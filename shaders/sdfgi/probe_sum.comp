@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Reads the light where this frame's rays of each probe end and adds it to the running sums of the 25 texels:
- * L max(0, n.w) weight, and the weights apart (each ray weighted by the solid angle its jitter stands for),
- * so that a constant field is exact. Young probes read the rays of the frames before again. One workgroup per
- * probe and cascade. Shared memory: 128 rays of 32 bytes. */
+ * Reads the light where this frame's rays of each probe end, and adds it to the running sums of the probe's
+ * 25 texels. A ray of direction w adds L max(0, n.w) a to a texel of direction n, and max(0, n.w) a to its
+ * weight, where a is the solid angle that the ray stands for. Sums and weights stay apart and are divided
+ * once, so that a constant field is exact. NEW probes read the rays of earlier frames again. One workgroup
+ * per probe and cascade. Shared memory: 128 rays of 32 bytes. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
@@ -15,12 +16,12 @@
 layout(local_size_x = SDFGI_GROUP_PROBE) in;
 
 const uint MAX_RAYS = 128u;
-shared vec4 ray_dir[MAX_RAYS]; /* w: solid angle, 0: light not known */
+shared vec4 ray_dir[MAX_RAYS]; /* w: solid angle, 0 if the light is not known */
 shared vec3 ray_light[MAX_RAYS];
 
-/* Light at the end of a ray; false where it is not known, since the list of light cells was too short for the
- * cell and has not grown yet: the ring before then speaks for the ray, instead of black. */
-bool cache_light(uint code, vec3 dir, out vec3 light)
+/* Light at the end of a ray. False where it is not known, because the light list was too short for the cell
+ * and has not grown yet: the ray then has no weight, so the history stands for it instead of black. */
+bool hit_light(uint code, vec3 dir, out vec3 light)
 {
     light = vec3(0.0);
     if (code == SDFGI_RAY_SKY)
@@ -34,9 +35,47 @@ bool cache_light(uint code, vec3 dir, out vec3 light)
     return (cell.y & SDFGI_LIGHT_VALID) != 0u;
 }
 
+/* Rays that a probe sends in a frame. */
+uint rays_of_frame()
+{
+    return min(sdfgi_frame.rays_per_frame, MAX_RAYS);
+}
+
+/* Sample of a probe's ray i: first those of this frame, then those of the frames before, backwards. */
+uint ray_sample(uint i)
+{
+    const uint sent = rays_of_frame(), samples = sdfgi_frame.cycle_samples;
+    return i < sent ? sdfgi_frame.first_sample + i
+                    : (sdfgi_frame.first_sample + samples + sent - 1u - i) % samples;
+}
+
+void load_ray(uint cascade, ivec3 probe, uint slot, uint i)
+{
+    const bool of_frame = i < rays_of_frame();
+    const uint s = ray_sample(i), code = sdfgi_rays[slot * sdfgi_frame.cycle_samples + s];
+    float solid_angle;
+    const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
+    if (code == SDFGI_RAY_UNLIT && of_frame)
+        counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
+    vec3 light = vec3(0.0);
+    const bool known = (of_frame || ray_is_cached(code)) && hit_light(code, dir, light);
+    ray_light[i] = light;
+    ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
+}
+
+vec4 sum_rays(uint rays, vec3 normal)
+{
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < rays; i++) {
+        const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
+        sum += vec4(ray_light[i], 1.0) * weight;
+    }
+    return sum;
+}
+
 void main()
 {
-    const uint cascade = gl_WorkGroupID.y;
+    const uint cascade = gl_WorkGroupID.y, lane = gl_LocalInvocationIndex;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(cascade, probe);
     if (gl_GlobalInvocationID == uvec3(0u)) {
@@ -45,32 +84,14 @@ void main()
     }
     if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
         return;
-    const bool young = probe_is_young(sdfgi_sums[probe_memory(slot)]);
-    const uint sent = min(sdfgi_frame.rays_per_frame, MAX_RAYS), samples = sdfgi_frame.cycle_samples;
-    const uint rays = young ? min(PROBE_YOUNG_FRAMES * sent, min(MAX_RAYS, samples)) : sent;
-    for (uint i = gl_LocalInvocationIndex; i < rays; i += uint(SDFGI_GROUP_PROBE)) {
-        /* This frame's, then those of the frames before, backwards. */
-        const uint s = i < sent ? sdfgi_frame.first_sample + i
-                                : (sdfgi_frame.first_sample + samples + sent - 1u - i) % samples;
-        const uint code = sdfgi_rays[slot * samples + s];
-        float solid_angle;
-        const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
-        if (code == SDFGI_RAY_UNLIT && i < sent)
-            counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
-        vec3 light = vec3(0.0);
-        const bool known = (i < sent || ray_holds(code)) && cache_light(code, dir, light);
-        ray_light[i] = light;
-        ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
-    }
+
+    const bool is_new = probe_history_state(probe_history_load(slot)) == PROBE_NEW;
+    const uint most = min(MAX_RAYS, sdfgi_frame.cycle_samples);
+    const uint rays = is_new ? min(PROBE_NEW_FRAMES * rays_of_frame(), most) : rays_of_frame();
+    for (uint i = lane; i < rays; i += uint(SDFGI_GROUP_PROBE))
+        load_ray(cascade, probe, slot, i);
     barrier();
 
-    if (gl_LocalInvocationIndex >= uint(SDFGI_IRRADIANCE_COUNT))
-        return;
-    const vec3 normal = probe_texel_direction(gl_LocalInvocationIndex);
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < rays; i++) {
-        const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
-        sum += vec4(ray_light[i], 1.0) * weight;
-    }
-    sdfgi_sums[probe_sums(slot) + gl_LocalInvocationIndex] += sum;
+    if (lane < uint(SDFGI_IRRADIANCE_COUNT))
+        sdfgi_sums[probe_sums(slot) + lane] += sum_rays(rays, probe_texel_direction(lane));
 }

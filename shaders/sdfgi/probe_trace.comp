@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Traces the rays that ray_list has listed, and remembers where they end. One thread per ray. */
+ * Traces the rays that ray_list has listed, and caches where they end. One thread per ray. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "probe_common.glsl"
@@ -9,7 +9,7 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
-uint cache_pack(sdfgi_trace_hit hit)
+uint hit_pack(sdfgi_trace_hit hit)
 {
     if (!hit.hit)
         return SDFGI_RAY_SKY;
@@ -29,7 +29,7 @@ void trace(uint ray)
     const sdfgi_trace_hit hit = sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
     if (hit.capped)
         ray_queue_add_capped();
-    sdfgi_rays[ray] = cache_pack(hit);
+    sdfgi_rays[ray] = hit_pack(hit);
 }
 
 void main()

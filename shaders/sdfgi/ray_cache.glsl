@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * The ray cache: per probe and sample of its ring where that ray ends. Cell texel, cascade and axis of the
- * light it reads, plus 1; or a code. */
+ * The ray cache: where each ray of a probe's sample cycle ends. A word holds the texel of the light cell that
+ * the ray reads, its cascade and the axis to read, plus 1; or one of the codes SDFGI_RAY_*. */
 #ifndef SDFGI_RAY_CACHE_GLSL
 #define SDFGI_RAY_CACHE_GLSL
 
 #include "pass.glsl"
 
+/* SDFGI_RAY_UNKNOWN is a hit that is not cached. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_RAYS) buffer sdfgi_rays_buffer
 {
     uint sdfgi_rays[];
@@ -16,7 +17,7 @@ uint ray_pack(uint cascade, ivec3 cell, uint axis)
     return (sdfgi_cell_index(cascade, cell) | axis << (3u * sdfgi_frame.resolution_log2 + 3u)) + 1u;
 }
 
-/* Where the light of a hit is stored, and the axis it is read along. */
+/* Index of the light cell that a hit reads, and the axis to read. */
 uint ray_light_index(uint code, out uint axis)
 {
     const uint bits = 3u * sdfgi_frame.resolution_log2 + 3u;
@@ -32,8 +33,9 @@ ivec3 ray_cell(uint code, out uint cascade)
     return sdfgi_cell_from_texel(cascade, sdfgi_texel_from_index(index));
 }
 
-/* A hit whose cell has left the cascade is as good as unknown. */
-bool ray_holds(uint code)
+/* False too for a hit whose light cell has left the valid region of its cascade: another cell may be stored
+ * in its place. */
+bool ray_is_cached(uint code)
 {
     if (code == SDFGI_RAY_UNKNOWN)
         return false;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * The rays that a frame traces: their places in the ray cache, in the scratch buffer; how many they are, the
- * workgroups that trace them, and how many needed too many steps, in the last two records of indirect
- * arguments. */
+ * The queue of rays that a frame traces. The scratch buffer holds their indices in the ray cache. The last
+ * two records of indirect arguments hold the number of rays, the number of workgroups that trace them, and
+ * the number of rays that ran out of steps. */
 #ifndef SDFGI_RAY_QUEUE_GLSL
 #define SDFGI_RAY_QUEUE_GLSL
 
@@ -24,13 +24,14 @@ uint ray_queue_capped()
     return sdfgi_indirect[RAY_QUEUE + 4u];
 }
 
-/* Not among the counters: other passes that run beside add to those. */
+/* Counts a ray that ran out of steps. The count is no counter of its own, because passes that add to the
+ * counters run beside this one. */
 void ray_queue_add_capped()
 {
     atomicAdd(sdfgi_indirect[RAY_QUEUE + 4u], 1u);
 }
 
-/* Makes room for `count` more; returns the first one's place. */
+/* Makes room for `count` more rays. Returns the index of the first of them in the queue. */
 uint ray_queue_extend(uint count)
 {
     const uint first = atomicAdd(sdfgi_indirect[RAY_QUEUE + 3u], count);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: solid bits, light, masks and the accumulators of its blocks;
- * notes where there were bits. One thread per four cells along y; eight side by side have cells that are
- * stored side by side. Boxes begin and end at multiples of 8 cells. */
+ * Empties a box of cells before it is voxelised: occupancy bits, light, visibility bits and the accumulators
+ * of its albedo blocks. Adds the cells that held bits to the dirty bounds. One thread per four cells along y.
+ * Threads follow one another along x, because cells are stored side by side along x. The box begins and ends
+ * at multiples of 8 cells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
@@ -22,14 +23,14 @@ void clear_accumulators(ivec3 cell)
         sdfgi_scratch[plane * sdfgi_block_count() + block] = 0u;
 }
 
-/* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. `held` has a bit
- * per cell. */
-void note_bits(ivec3 first, int held)
+/* Adds those of four cells that hold bits to the dirty bounds; `held` has a bit per cell. Volumes are
+ * toroidal, so before a scroll the bits belonged to other cells: those whose storage the box takes over. */
+void add_removed(ivec3 first, int held)
 {
-    const ivec3 low = args.before, was = low + (first - low & sdfgi_space_resolution() - 1);
+    const ivec3 low = args.before, removed = low + (first - low & sdfgi_space_resolution() - 1);
     if (held != 0)
-        bounds_add(args.cascade, BOUNDS_REMOVED, args.bounds_axis, was + ivec3(0, findLSB(held), 0),
-                   was + ivec3(1, findMSB(held) + 1, 1));
+        bounds_add(args.cascade, BOUNDS_REMOVED, args.bounds_axis, removed + ivec3(0, findLSB(held), 0),
+                   removed + ivec3(1, findMSB(held) + 1, 1));
 }
 
 void main()
@@ -44,7 +45,7 @@ void main()
     for (int k = 0; k < 4; k++)
         held |= int(sdfgi_cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
     if (args.bounds_axis >= 0)
-        note_bits(first, held);
+        add_removed(first, held);
     for (int k = 0; k < 4; k++) {
         const uint index = sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0));
         sdfgi_bits[index] = sdfgi_light[index] = uvec2(0u);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Means of albedo, emission and normals from the accumulators. The light volume, which held emissive bits
- * until then, becomes light's again. One thread per block of 2x2x2 cells of the box. */
+ * Resolves the accumulators of each albedo block (2x2x2 cells) to mean albedo, emission and normals. Until
+ * then the light volume holds the emissive bits: which sub-voxels emit. This pass clears them. One thread per
+ * albedo block of the box. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -25,6 +26,7 @@ vec3 accumulated3(uint plane, uint block)
     return vec3(accumulated(plane, block), accumulated(plane + 1u, block), accumulated(plane + 2u, block));
 }
 
+/* One normal for each dominant axis: two slopes of 5 bits, means over the samples. */
 uint resolve_normals(uint block)
 {
     uint packed = 0u;
@@ -43,65 +45,79 @@ uint resolve_normals(uint block)
     return packed;
 }
 
+/* ---- Slices. An albedo block is a cube of 8x8x8 sub-voxels. Along an axis it has eight slices of 8x8
+ * sub-voxels, one for each depth, and a slice fits the 64 bits of a uvec2. The slices of an axis are equal
+ * arrangements of bits, so that bitwise operations compare sub-voxels that lie behind one another. */
+
+/* Per cell (bit 0 of the index: x, bit 1: y, bit 2: z) its occupancy bits, and its emissive bits. */
 uvec2 block_bits[8];
 uvec2 block_emissive[8];
 
-/* The 16 sub-voxels of a cell at a depth along an axis, in any order that is the same for all depths. */
-uvec2 slice_of(uvec2 bits, int major, int depth)
+/* The 16 sub-voxels of a cell at a depth along an axis. Where they lie in the two words depends on the axis:
+ * every fourth bit along x, every fourth group of four bits along y, and the low half of one word along z. */
+uvec2 slice_of_cell(uvec2 bits, int axis, int depth)
 {
-    if (major == 0)
+    if (axis == 0)
         return bits >> uint(depth) & 0x11111111u;
-    if (major == 1)
+    if (axis == 1)
         return bits >> uint(4 * depth) & 0x000f000fu;
     return uvec2((depth < 2 ? bits.x : bits.y) >> uint(16 * (depth & 1)) & 0xffffu, 0u);
 }
 
-/* The same of the four cells side by side: where one leaves room the next one goes. */
-uvec2 slice_of_block(uvec2 cells[8], int major, int depth)
+/* The 64 sub-voxels of a block at a depth along an axis. Four cells lie side by side there, and each is
+ * shifted to bits that the slices of the others leave free. */
+uvec2 slice_of_block(uvec2 cells[8], int axis, int depth)
 {
-    const int deep = depth >> 2, near = depth & 3, along = 1 << major;
-    const int beside = major == 0 ? 2 : 1, above = major == 2 ? 2 : 4;
-    const int first = deep * along;
-    const uvec2 a = slice_of(cells[first], major, near), b = slice_of(cells[first + beside], major, near);
-    const uvec2 c = slice_of(cells[first + above], major, near),
-                d = slice_of(cells[first + beside + above], major, near);
-    if (major == 0)
+    const int depth_of_cell = depth >> 2, depth_in_cell = depth & 3;
+    const int first = depth_of_cell << axis; /* then the next cells along the other two axes */
+    const int u = axis == 0 ? 2 : 1, v = axis == 2 ? 2 : 4;
+    const uvec2 a = slice_of_cell(cells[first], axis, depth_in_cell);
+    const uvec2 b = slice_of_cell(cells[first + u], axis, depth_in_cell);
+    const uvec2 c = slice_of_cell(cells[first + v], axis, depth_in_cell);
+    const uvec2 d = slice_of_cell(cells[first + u + v], axis, depth_in_cell);
+    if (axis == 0)
         return a | b << 1u | c << 2u | d << 3u;
-    if (major == 1)
+    if (axis == 1)
         return a | b << 4u | c << 8u | d << 12u;
     return uvec2(a.x | b.x << 16u, c.x | d.x << 16u);
 }
 
-/* Of the sub-voxels seen first by someone who looks along -axis, the share that emits. Emitters a sub-voxel
- * before a wall, or on one side of it, keep their power whatever lies behind them. Meant for a constant axis.
- */
-float resolve_seen_share(uint axis)
+/* Fraction of the sub-voxels visible from one side of the block that emit. Of 64 lines of sight along the
+ * axis each sees the first set sub-voxel that it meets. An emitter a sub-voxel before a wall, or on one side
+ * of it, therefore keeps its power whatever lies behind it. `side` is +x -x +y -y +z -z, and a constant where
+ * loops are unrolled. */
+float visible_emissive(uint side)
 {
-    const int major = int(axis >> 1u);
+    const int axis = int(side >> 1u);
     uvec2 hidden = uvec2(0u), emissive = uvec2(0u);
     [[unroll]] for (int i = 0; i < 8; i++)
     {
-        const int depth = (axis & 1u) == 0u ? 7 - i : i;
-        const uvec2 solid = slice_of_block(block_bits, major, depth);
-        emissive |= solid & slice_of_block(block_emissive, major, depth) & ~hidden;
+        const int depth = (side & 1u) == 0u ? 7 - i : i;
+        const uvec2 solid = slice_of_block(block_bits, axis, depth);
+        emissive |= solid & slice_of_block(block_emissive, axis, depth) & ~hidden;
         hidden |= solid;
     }
     const ivec2 seen = bitCount(hidden), emits = bitCount(emissive);
     return seen.x + seen.y > 0 ? float(emits.x + emits.y) / float(seen.x + seen.y) : 0.0;
 }
 
-/* Share of its sub-voxels that a lamp fills: those of a small one, and the rim of a larger, it fills in part.
- * Where surfaces that face different ways meet, what one leaves of a sub-voxel is the other's. */
-float resolve_filled(float covered, int bits, uint facing)
+/* ---- Emission */
+
+/* Fraction of its emissive sub-voxels that an emitter covers: a small lamp, or the rim of a larger one,
+ * covers them in part. Where surfaces of different orientation meet, each covers part of the same sub-voxel,
+ * so the sub-voxel counts as full. A lamp smaller than a sub-voxel has such corners too, but it covers only a
+ * part of the sub-voxels that it sets, up to eight of them. */
+float covered_fraction(float covered, int bits, uint facing)
 {
     const bool corner = bitCount((facing | facing >> 1u) & 0x15u) > 1;
-    const int most_of_speck = 8;
-    return corner && bits > most_of_speck ? 1.0
-                                          : min(covered / (float(max(bits, 1)) * SDFGI_EMISSION_STEPS), 1.0);
+    const int most_of_small_lamp = 8;
+    return corner && bits > most_of_small_lamp
+               ? 1.0
+               : min(covered / (float(max(bits, 1)) * SDFGI_EMISSION_STEPS), 1.0);
 }
 
-/* Takes a block's bits, and clears those that emit; returns how many did. */
-int take_bits(uvec3 block_texel)
+/* Loads a block's bits, and clears its emissive bits in the light volume. Returns their number. */
+int load_block(uvec3 block_texel)
 {
     int count = 0;
     [[unroll]] for (uint i = 0u; i < 8u; i++)
@@ -116,30 +132,34 @@ int take_bits(uvec3 block_texel)
     return count;
 }
 
+/* Emission of the brightest side as RGB9E5, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, uvec3 block_texel)
 {
     const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
     const uint facing = accumulated(SDFGI_ACCUM_EMISSION_FACING, block);
     if (covered == 0.0 && facing == 0u)
         return uvec2(0u);
-    const int bits = take_bits(block_texel);
+    const int bits = load_block(block_texel);
     if (covered == 0.0)
         return uvec2(0u);
-    float shares[6], largest = 0.0;
-    [[unroll]] for (uint axis = 0u; axis < 6u; axis++)
+    float fractions[6], largest = 0.0;
+    [[unroll]] for (uint side = 0u; side < 6u; side++)
     {
-        shares[axis] = (facing >> axis & 1u) != 0u ? resolve_seen_share(axis) : 0.0;
-        largest = max(largest, shares[axis]);
+        fractions[side] = (facing >> side & 1u) != 0u ? visible_emissive(side) : 0.0;
+        largest = max(largest, fractions[side]);
     }
-    /* Relative to the largest: a lamp that fills a thousandth of its block would round to none. */
+    /* Relative to the largest, because that of a lamp in a thousandth of its block would round to 0. */
     uint packed = 0u;
-    for (uint axis = 0u; axis < 6u && largest > 0.0; axis++)
-        packed |= uint(round(31.0 * shares[axis] / largest)) << (5u * axis);
+    for (uint side = 0u; side < 6u && largest > 0.0; side++)
+        packed |= uint(round(31.0 * fractions[side] / largest)) << (5u * side);
     const vec3 mean = accumulated3(SDFGI_ACCUM_EMISSION, block) / covered;
-    return uvec2(sdfgi_rgbe_encode(mean * resolve_filled(covered, bits, facing) * largest), packed);
+    return uvec2(sdfgi_rgbe_encode(mean * covered_fraction(covered, bits, facing) * largest), packed);
 }
 
-shared uint voxels; /* samples in the blocks of the workgroup: one atomic for all */
+/* ---- Blocks */
+
+/* Samples in the blocks of the workgroup, so that one atomic adds them to the counter. */
+shared uint voxels;
 
 void resolve(ivec3 cell)
 {

@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: MIT
- * Voxelises a mesh instance into one cascade. Each thread of a workgroup culls one triangle against the box;
- * then the columns of those that are left are shared out evenly, whichever triangle they belong to. The
- * triangles of a workgroup lie far apart in the mesh: neighbours, which lie in the box together, go to
- * different ones. */
+ * Voxelises a mesh instance into one cascade. Each thread of a workgroup culls one triangle against the box.
+ * Then the threads share the columns of the remaining triangles evenly, whichever triangle they belong to.
+ * The triangles of a workgroup lie far apart in the mesh, because neighbours lie in the box together and
+ * would give one workgroup most of the work. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize_common.glsl"
 
 layout(local_size_x = SDFGI_GROUP_TRIANGLE) in;
 
-shared ivec4 places[SDFGI_GROUP_TRIANGLE]; /* of each thread's triangle: first column, columns in a row,
-                                              dominant axis */
-shared uint ends[SDFGI_GROUP_TRIANGLE];    /* how many columns it and those before it have */
+/* Per thread, of its triangle. Columns of a workgroup are numbered, triangle after triangle. */
+shared ivec4 ranges[SDFGI_GROUP_TRIANGLE]; /* low corner of its columns, their width, dominant axis */
+shared uint ends[SDFGI_GROUP_TRIANGLE];    /* number of its last column, plus 1 */
 
-/* From one thread to the next, groups are shifted against each other by about the golden section of their
- * number: no rows of a grid of triangles line up with it. */
+/* The triangle of a thread. Thread i of all groups reads the i-th part of the mesh. From part to part the
+ * order of the groups is shifted by about the golden ratio of their number, so that the rows of a grid of
+ * triangles do not meet in one group. */
 uint triangle_of(uint group, uint thread)
 {
     const uint shift = args.groups * 5u / 8u | 1u;
     return thread * args.groups + (group + thread * shift) % args.groups;
 }
 
-/* How many columns of a thread's triangle are to be tested; where they are goes to its place. */
+/* Number of columns of a thread's triangle that are to be tested; fills its range. */
 uint triangle_cull(uint t_index, uint thread)
 {
     vec3 v[3];
@@ -36,11 +37,11 @@ uint triangle_cull(uint t_index, uint thread)
     if (!triangle_place(t, v))
         return 0u;
     const ivec2 size = t.columns.zw - t.columns.xy + 1;
-    places[thread] = ivec4(t.columns.xy, size.x, t.axis);
+    ranges[thread] = ivec4(t.columns.xy, size.x, t.axis);
     return uint(size.x * size.y);
 }
 
-/* Sums of all threads up to each. */
+/* Fills `ends`: sums of the counts of all threads up to each. Called by the whole workgroup. */
 void sum_columns(uint thread, uint count)
 {
     ends[thread] = count;
@@ -53,8 +54,8 @@ void sum_columns(uint thread, uint count)
     }
 }
 
-/* The thread whose triangle has the column: the first that ends beyond it. */
-uint holder_of(uint column)
+/* The thread whose triangle has a column: the first whose columns end beyond it. */
+uint owner_of(uint column)
 {
     uint low = 0u;
     for (uint reach = uint(SDFGI_GROUP_TRIANGLE) / 2u; reach > 0u; reach /= 2u)
@@ -62,18 +63,18 @@ uint holder_of(uint column)
     return low;
 }
 
-/* Columns [first, last) of one triangle, counted as all are. */
-void store_columns(uint group, uint holder, uint first, uint last)
+/* Stores the columns [first, last), which are all of one triangle. */
+void store_columns(uint group, uint owner, uint first, uint last)
 {
-    const ivec4 place = places[holder];
-    const uint begin = holder > 0u ? ends[holder - 1u] : 0u;
+    const ivec4 range = ranges[owner];
+    const uint begin = owner > 0u ? ends[owner - 1u] : 0u;
     vec3 v[3];
     triangle t;
-    triangle_fetch(triangle_of(group, holder), v, t.index);
-    t.axis = place.w;
+    triangle_fetch(triangle_of(group, owner), v, t.index);
+    t.axis = range.w;
     triangle_setup(t, v);
     for (uint i = first - begin; i < last - begin; i++)
-        triangle_store_column(t, place.xy + ivec2(i % uint(place.z), i / uint(place.z)));
+        triangle_store_column(t, range.xy + ivec2(i % uint(range.z), i / uint(range.z)));
 }
 
 void main()
@@ -85,12 +86,12 @@ void main()
     sum_columns(thread, triangle_cull(triangle_of(group, thread), thread));
 
     const uint total = ends[SDFGI_GROUP_TRIANGLE - 1], threads = args.slices * uint(SDFGI_GROUP_TRIANGLE);
-    const uint share = (total + threads - 1u) / threads;
-    const uint first = (gl_WorkGroupID.y * uint(SDFGI_GROUP_TRIANGLE) + thread) * share,
-               last = min(first + share, total);
+    const uint per_thread = (total + threads - 1u) / threads;
+    const uint first = (gl_WorkGroupID.y * uint(SDFGI_GROUP_TRIANGLE) + thread) * per_thread,
+               last = min(first + per_thread, total);
     for (uint i = first; i < last;) {
-        const uint holder = holder_of(i), next = min(ends[holder], last);
-        store_columns(group, holder, i, next);
+        const uint owner = owner_of(i), next = min(ends[owner], last);
+        store_columns(group, owner, i, next);
         i = next;
     }
 }

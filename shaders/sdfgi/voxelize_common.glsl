@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * Voxelisation of one triangle, shared by the compute and the raster voxeliser, which differ only in who
- * visits the columns: both set the same bits.
+ * Voxelisation of one triangle. The compute and the raster voxeliser share it. They set the same bits, and
+ * differ only in which thread visits which column.
  *
- * A sub-voxel is set if the triangle crosses one of the three axis-parallel unit segments through its centre:
- * the 6-separating set (Schwarz and Seidel 2010, "Fast parallel surface and solid voxelization"; Huang et al.
- * 1998). A step between the centres of two 6-neighbours that crosses a closed mesh crosses it on one of those
- * segments, hence no 6-connected walk gets through. Along the triangle's dominant axis there is one candidate
- * per column. */
+ * A sub-voxel is set if the triangle crosses one of three segments through its centre. The segments are one
+ * sub-voxel long and parallel to the axes. This is the 6-separating set (Schwarz and Seidel 2010, "Fast
+ * parallel surface and solid voxelization"; Huang et al. 1998). A path between the centres of two face
+ * neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path leads
+ * through the mesh. A column is a line of sub-voxels along the triangle's dominant axis, and has one
+ * candidate. */
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
 #include "pass.glsl"
@@ -39,28 +40,29 @@ layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) reado
 
 #ifdef SDFGI_VOXELIZE_TEXTURED
 layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
-layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
+layout(set = SDFGI_SET_MATERIAL,
+       binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
 #endif
 
-/* Inclusive edges: sub-voxels within this distance (sub-voxels) outside an edge are set too, so that rounding
- * cannot open a seam between triangles that share it. */
+/* In sub-voxels. Points this far outside an edge count as inside, so that rounding cannot open a seam between
+ * triangles that share the edge. */
 const float EDGE_MARGIN = 1.0 / 256.0;
-/* Surfaces exactly between two sub-voxels go to the upper one, however the transform rounds. */
+/* In sub-voxels. A surface exactly between two of them sets the upper one, however the transform rounds. */
 const float TIE_BIAS = 1.0 / 2048.0;
-/* Beyond this (sub-voxels) floats cannot place an edge to within a sub-voxel. */
+/* In sub-voxels. Beyond this floats cannot place an edge to within a sub-voxel. */
 const float MAX_COORDINATE = 1e9;
 
 struct triangle {
-    vec3 v[3];                   /* sub-voxels from the anchor, axes permuted: z is the dominant axis */
+    vec3 v[3];                   /* sub-voxels from the anchor; axes permuted so that z is the dominant one */
     vec2 slope;                  /* dz/dx, dz/dy */
     vec3 edges[3];               /* inside where dot(edge, (x, y, 1)) >= 0, in sub-voxels */
     vec3 bary_x, bary_y, bary_0; /* barycentric coordinates = bary_0 + x bary_x + y bary_y */
     vec3 normal;                 /* metric, unit, front side */
-    int axis;                    /* dominant one */
+    int axis;                    /* dominant axis */
     uint index[3];
-    ivec4 columns;  /* low xy, high zw, inclusive */
-    bool tiny;      /* smaller than a sub-voxel: sets the one its centre lies in, whatever it crosses */
-    float lod_area; /* sub-voxels^2 in the dominant plane */
+    ivec4 columns; /* to test: low corner in xy, high corner in zw, both included */
+    bool tiny;     /* smaller than a sub-voxel: always sets the one that its centre lies in */
+    float area2;   /* twice its area in the plane of the columns, in sub-voxels^2 */
 };
 
 vec3 permute(vec3 p, int axis)
@@ -78,7 +80,7 @@ ivec3 unpermute(ivec3 p, int axis)
     return axis == 0 ? p.zxy : (axis == 1 ? p.yzx : p.xyz);
 }
 
-/* The box to fill, in sub-voxels from the anchor. */
+/* Corner of the box to fill, in sub-voxels from the anchor. */
 ivec3 box_corner(uint packed)
 {
     return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor;
@@ -101,8 +103,8 @@ vec3 mesh_position(uint vertex)
     return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
 }
 
-/* False if a vertex is out of range or not finite. Nothing is asked before all is read: two waits, not six.
- */
+/* False if a vertex is out of range or not finite. All vertices are read before any is tested, so that the
+ * reads overlap. */
 bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
 {
     bool valid = true;
@@ -116,9 +118,9 @@ bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
     return valid;
 }
 
-/* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box.
- * Nothing but the range of columns depends on the box or on where the cascade is: a sub-voxel comes out the
- * same whenever it is made. */
+/* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box. Only
+ * the range of columns depends on the box and on the place of the cascade. A sub-voxel is therefore the same
+ * whether a scroll or a rebuild sets it. */
 bool triangle_place(inout triangle t, vec3 v[3])
 {
     const ivec3 box_low = box_corner(args.box_low), box_high = box_corner(args.box_high);
@@ -131,14 +133,15 @@ bool triangle_place(inout triangle t, vec3 v[3])
     if (!(largest > 1e-12))
         return false;
     t.axis = height.x >= largest ? 0 : (height.y >= largest ? 1 : 2);
-    /* A column's centre, or a point half a sub-voxel beside it along x or y, must be inside. */
+    /* The triangle crosses one of the three segments only if a column's centre is inside it, or a point up to
+     * half a sub-voxel beside the centre along x or y. */
     const vec2 first = max(permute(low, t.axis).xy - 1.0 - EDGE_MARGIN, vec2(permute(box_low, t.axis).xy));
     const vec2 last = min(permute(high, t.axis).xy + EDGE_MARGIN, vec2(permute(box_high, t.axis).xy - 1));
     t.columns = ivec4(ivec2(ceil(first)), ivec2(floor(last)));
     return t.columns.x <= t.columns.z && t.columns.y <= t.columns.w;
 }
 
-/* Sets up what all columns need of a triangle whose dominant axis is known. */
+/* Fills the rest of a triangle whose dominant axis is known. */
 void triangle_setup(inout triangle t, vec3 v[3])
 {
     const vec3 normal = cross(v[1] - v[0], v[2] - v[0]);
@@ -147,8 +150,7 @@ void triangle_setup(inout triangle t, vec3 v[3])
     for (int i = 0; i < 3; i++)
         t.v[i] = permute(v[i], t.axis);
     for (int i = 0; i < 3; i++) {
-        /* From the same end for both triangles that share the edge: what is rounded, is rounded alike, and
-         * leaves no seam. */
+        /* Both triangles that share the edge compute it from the same end, so that they round it alike. */
         const vec2 a = t.v[i].xy, b = t.v[(i + 1) % 3].xy;
         const bool turned = b.x < a.x || (b.x == a.x && b.y < a.y);
         const vec2 from = turned ? b : a, along = turned ? a - b : b - a;
@@ -161,16 +163,15 @@ void triangle_setup(inout triangle t, vec3 v[3])
     t.bary_x = vec3(-to_b.x - to_c.x, to_b.x, to_c.x);
     t.bary_y = vec3(-to_b.y - to_c.y, to_b.y, to_c.y);
     t.bary_0 = vec3(1.0, 0.0, 0.0) - a.x * t.bary_x - a.y * t.bary_y;
-    t.lod_area = abs(det);
+    t.area2 = abs(det);
 
-    /* Cells are y_scale as high as wide: back to metric lengths, and to the side that the mesh calls front.
-     */
+    /* Back to metric lengths, because cells may be flat, and to the mesh's front side. */
     const vec3 metric = normal / vec3(1.0, sdfgi_space_y_scale(), 1.0);
     t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_MIRRORED) != 0u ? -1.0 : 1.0);
     t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));
 }
 
-bool triangle_inside(triangle t, vec2 p)
+bool triangle_contains(triangle t, vec2 p)
 {
     for (int i = 0; i < 3; i++)
         if (!(dot(t.edges[i], vec3(p, 1.0)) >= -EDGE_MARGIN))
@@ -178,18 +179,19 @@ bool triangle_inside(triangle t, vec2 p)
     return true;
 }
 
+/* Height of the triangle's plane along the dominant axis. */
 float triangle_height(triangle t, vec2 p)
 {
     return t.v[0].z + dot(t.slope, p - t.v[0].xy);
 }
 
-/* The column that a triangle smaller than a sub-voxel sets, whatever it crosses. */
+/* The column that holds the centre of a tiny triangle. */
 ivec2 tiny_column(triangle t)
 {
     return ivec2(floor((t.v[0].xy + t.v[1].xy + t.v[2].xy) / 3.0));
 }
 
-/* The sub-voxel (permuted axes) in which the triangle meets a column; true if it sets it. */
+/* The sub-voxel (permuted axes) in which a column meets the triangle's plane. True if it is to be set. */
 bool triangle_column(triangle t, ivec2 column, out ivec3 sub)
 {
     const vec2 centre = vec2(column) + 0.5;
@@ -197,12 +199,12 @@ bool triangle_column(triangle t, ivec2 column, out ivec3 sub)
     sub = ivec3(column, int(floor(z + TIE_BIAS)));
     if (t.tiny && all(equal(column, tiny_column(t))))
         return true;
-    if (triangle_inside(t, centre))
+    if (triangle_contains(t, centre))
         return true;
-    /* The segments along the two minor axes meet the plane where its height is the sub-voxel's centre. */
+    /* On the segments along the other two axes, the plane is as high as the sub-voxel's centre. */
     const vec2 offset = (float(sub.z) + 0.5 - z) / t.slope;
-    return (abs(offset.x) <= 0.5 + EDGE_MARGIN && triangle_inside(t, centre + vec2(offset.x, 0.0))) ||
-           (abs(offset.y) <= 0.5 + EDGE_MARGIN && triangle_inside(t, centre + vec2(0.0, offset.y)));
+    return (abs(offset.x) <= 0.5 + EDGE_MARGIN && triangle_contains(t, centre + vec2(offset.x, 0.0))) ||
+           (abs(offset.y) <= 0.5 + EDGE_MARGIN && triangle_contains(t, centre + vec2(0.0, offset.y)));
 }
 
 struct surface_sample {
@@ -239,7 +241,7 @@ float texture_level(triangle t, vec4 rows[2], vec2 size)
     const vec2 b = mesh_uv(t, vec3(0.0, 1.0, 0.0)) - a, c = mesh_uv(t, vec3(0.0, 0.0, 1.0)) - a;
     const float scale = abs(rows[0].x * rows[1].y - rows[0].y * rows[1].x);
     const float texels = abs(b.x * c.y - b.y * c.x) * scale * size.x * size.y;
-    return 0.5 * log2(max(texels / max(t.lod_area, 1e-6), 1.0));
+    return 0.5 * log2(max(texels / max(t.area2, 1e-6), 1.0));
 }
 
 vec2 texture_uv(vec4 rows[2], vec2 uv)
@@ -248,6 +250,7 @@ vec2 texture_uv(vec4 rows[2], vec2 uv)
 }
 #endif
 
+/* The surface at the centre of a column. */
 surface_sample triangle_sample(triangle t, ivec2 column)
 {
     const sdfgi_material_params m = sdfgi_materials[args.material];
@@ -280,7 +283,7 @@ void accumulate(uint plane, uint block, uint value)
         atomicAdd(sdfgi_scratch[plane * sdfgi_block_count() + block], value);
 }
 
-/* Means are taken from integer sums, which do not depend on the order of additions. */
+/* Sums are integers, so that they do not depend on the order of additions. */
 void accumulate_surface(triangle t, uint block, surface_sample s)
 {
     const uvec3 albedo = uvec3(clamp(s.albedo.rgb, 0.0, 1.0) * 255.0 + 0.5);
@@ -314,12 +317,12 @@ void polygon_clip(inout vec2 corners[7], inout int count, vec3 side)
     count = kept_count;
 }
 
-/* Share of a column's cross-section that the triangle covers: lamps smaller than a sub-voxel, and the rims of
- * larger ones, keep their power. */
+/* Fraction of a column's cross-section that the triangle covers. With it lamps smaller than a sub-voxel, and
+ * the rims of larger ones, keep their power. */
 float triangle_coverage(triangle t, ivec2 column)
 {
     if (t.tiny)
-        return all(equal(column, tiny_column(t))) ? 0.5 * t.lod_area : 0.0;
+        return all(equal(column, tiny_column(t))) ? 0.5 * t.area2 : 0.0;
     vec2 corners[7];
     int count = 3;
     for (int i = 0; i < 3; i++)
@@ -336,7 +339,7 @@ float triangle_coverage(triangle t, ivec2 column)
     return 0.5 * abs(area);
 }
 
-/* Adds what an emitter covers of a column, whether it sets a sub-voxel there or not. */
+/* Adds the emission of the part of a column that an emitter covers, even if it sets no sub-voxel there. */
 void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
 {
     const float covered = min(triangle_coverage(t, column), 1.0) * SDFGI_EMISSION_STEPS;
@@ -348,7 +351,8 @@ void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
     accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered + 0.5));
 }
 
-/* Until the light cells are listed, the light volume holds which sub-voxels emit. */
+/* Sets an emissive bit, and notes which sides the emission is seen from. The light volume holds the emissive
+ * bits until voxel_resolve has read them. */
 void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s)
 {
     uint facing = 0u;
@@ -364,7 +368,8 @@ void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s
         atomicOr(sdfgi_light[cell].y, 1u << (bit - 32u));
 }
 
-/* Testing first spares contended atomics where many triangles share a sub-voxel (HARD_CASES row 17). */
+/* The test spares an atomic, because many triangles may share a sub-voxel and their atomics would wait for
+ * one another (HARD_CASES row 17). */
 void store_bit(uint cell, uint bit)
 {
     const uint word_bit = 1u << (bit & 31u);
@@ -376,7 +381,7 @@ void store_bit(uint cell, uint bit)
     }
 }
 
-/* Tests one column and stores what it finds. */
+/* Tests one column, and stores the sample that the triangle has there. */
 void triangle_store_column(triangle t, ivec2 column)
 {
     const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);

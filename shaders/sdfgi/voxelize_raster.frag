@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * One fragment per column of a triangle's dominant plane: the same test and the same stores as voxelize.comp.
- */
+ * One fragment per column of a triangle. It makes the same test and the same stores as voxelize.comp. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize_common.glsl"

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * Projects a triangle along its dominant axis onto a viewport of one pixel per column, widened so that every
- * column that may hold a sub-voxel gets a fragment. The fragment shader decides. */
+ * Projects a triangle along its dominant axis onto a viewport of one pixel per column. The triangle is
+ * widened, so that each column in which it may set a sub-voxel gets a fragment. There the test is made. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize_common.glsl"
 
 layout(location = 0) flat out uint out_triangle;
 
-/* Half a pixel beside a column's centre along x or y, and the edge margin. */
+/* In pixels: a triangle may set sub-voxels half a pixel beside it. Also twice the edge margin. */
 const float WIDEN = 0.5 + 2.0 / 256.0;
-/* Corners of needles would have to move further than rasterisers are exact: those draw their box instead. */
+/* In pixels. A corner of a needle would have to move further than this, where rasterisers are not exact. A
+ * needle draws the box around its columns instead. */
 const float FARTHEST_MOVE = 4.0;
 
 /* Moves corner i so that both edges that meet there shift outwards by WIDEN in the L1 sense. */

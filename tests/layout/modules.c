@@ -21,7 +21,7 @@
 #include "probe_seed.comp.h"
 #include "probe_sum.comp.h"
 #include "probe_trace.comp.h"
-#include "ray_forget.comp.h"
+#include "ray_invalidate.comp.h"
 #include "ray_list.comp.h"
 #include "region_clear.comp.h"
 #include "voxel_resolve.comp.h"
@@ -54,7 +54,7 @@ struct module modules[] = {
     MODULE(PROBE_SEED, probe_seed_comp),
     MODULE(PROBE_SUM, probe_sum_comp),
     MODULE(PROBE_TRACE, probe_trace_comp),
-    MODULE(RAY_FORGET, ray_forget_comp),
+    MODULE(RAY_INVALIDATE, ray_invalidate_comp),
     MODULE(RAY_LIST, ray_list_comp),
     MODULE(REGION_CLEAR, region_clear_comp),
     MODULE(VOXEL_RESOLVE, voxel_resolve_comp),

@@ -8,7 +8,7 @@
 
 static const uint64_t listing = P(LIGHT_MARK) | P(LIGHT_LIST),
                       generation = P(REGION_CLEAR) | P(VOXEL_RESOLVE) | P(PROBE_PLACE) | listing,
-                      seeding = P(PROBE_SEED) | P(RAY_FORGET),
+                      seeding = P(PROBE_SEED) | P(RAY_INVALIDATE),
                       exact = P(DISTANCE_PREPARE) | P(DISTANCE_PLANE) | P(DISTANCE_EXACT),
                       flood = P(FLOOD_SEED) | P(FLOOD_STEP) | P(FLOOD_DISTANCE),
                       light = P(LIGHT_BOUNCE) | P(PROBE_SUM),

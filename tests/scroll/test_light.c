@@ -134,7 +134,7 @@ static void hard_23_flying_leaves_nothing_black(void **state)
 
 /* ---- New probes */
 
-/* Those whose memory says that they were born in this frame (probe_common.glsl). */
+/* Those whose history was reset in this frame: its length, 0, is stored less 2 (probe_common.glsl). */
 struct newborn {
     uint32_t count, seeded;
     float low, high; /* brightest texel of those that have a seed */

@@ -100,7 +100,7 @@ static void add_bounce(const struct plan_stage *stage, uint32_t c)
 
 /* Rays of a cascade go on into coarser ones, never into finer: those of the finest cascades, up to the coarsest that
  * completes, may be invalid. Once per frame, with the finest cascade that completes. */
-static void add_ray_forget(const struct plan_stage *stage, uint32_t c)
+static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
 {
     const struct cascades *cascades = &stage->frame->next.cascades;
     uint32_t finest = SDFGI_MAX_CASCADES, count = 0;
@@ -111,7 +111,7 @@ static void add_ray_forget(const struct plan_stage *stage, uint32_t c)
         }
     if (c != finest || stage->frame->situation.from_nothing || stage->frame->situation.list_grew)
         return;
-    struct work *work = stage_add(stage, PASS_RAY_FORGET, 0);
+    struct work *work = stage_add(stage, PASS_RAY_INVALIDATE, 0);
     work->count = count;
     work->units = stage->input->extent.probes * stage->input->extent.cycle_samples * count;
 }
@@ -139,7 +139,7 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
         add_probes(stage, PASS_OCCLUSION_TRACE, c, SDFGI_OCCLUSION_TEXELS * SDFGI_OCCLUSION_TEXELS);
     if (all)
         add_probes(stage, PASS_PROBE_SEED, c, 1);
-    add_ray_forget(stage, c);
+    add_ray_invalidate(stage, c);
     stage_end_group(stage, second);
 
     add_bounce(stage, c);
