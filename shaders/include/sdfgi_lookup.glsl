@@ -23,17 +23,17 @@
 #define SDFGI_LOOKUP_LEAST_SHARE 0.03125
 
 /* Weight shares of the eight probes of a cage; probe k stands at offset (k & 1, k >> 1 & 1, k >> 2). */
-struct sdfgi_lookup_visibility {
+struct sdfgi_visibility {
     float of_probe[8];
 };
 
-ivec3 sdfgi_lookup_corner(int k)
+ivec3 sdfgi_cage_corner(int k)
 {
     return ivec3(k & 1, k >> 1 & 1, k >> 2);
 }
 
 /* The cage that holds a position, or the nearest one that is complete. */
-ivec3 sdfgi_lookup_cage(uint cascade, vec3 pos)
+ivec3 sdfgi_cage_of(uint cascade, vec3 pos)
 {
     const ivec3 low = sdfgi_frame.cascades[cascade].valid_low / SDFGI_PROBE_SPACING;
     const ivec3 high = sdfgi_frame.cascades[cascade].valid_high / SDFGI_PROBE_SPACING - 1;
@@ -89,13 +89,6 @@ vec4 sdfgi_lookup_shown(uint cascade, ivec3 probe, vec3 normal)
     return vec4(light.rgb, light.a > 0.0 ? 1.0 : -light.a);
 }
 
-/* The newest that is known, likewise. */
-vec4 sdfgi_lookup_newest(sdfgi_lookup_texels texels, vec4 between)
-{
-    const vec4 light = sdfgi_lookup_interpolate(texels, between);
-    return light.a > 0.0 ? vec4(light.rgb * light.a, 1.0) : vec4(light.rgb, -light.a);
-}
-
 /* A probe's weight at a position, its visibility apart: trilinear, less where it is behind the surface. Those
  * count little, but not nothing: they may be all there is. On a probe the direction is undefined and its
  * facing weight is that of a probe straight above. `way` is metric and leads to the probe. */
@@ -107,36 +100,9 @@ float sdfgi_lookup_weight(vec3 share, vec3 way, vec3 normal)
 }
 
 /* Place of a position in its cage, in [0, 1]^3. */
-vec3 sdfgi_lookup_place(ivec3 cage, vec3 pos)
+vec3 sdfgi_cage_coords(ivec3 cage, vec3 pos)
 {
     return clamp(pos / float(SDFGI_PROBE_SPACING) - vec3(cage), 0.0, 1.0);
-}
-
-/* Sum of probes times weights in rgb, sum of weights in a. A mean: no brighter than the brightest probe. All
- * is read before anything is asked of it: one wait, not sixteen. */
-vec4 sdfgi_lookup_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, sdfgi_lookup_visibility visibility)
-{
-    const vec3 f = sdfgi_lookup_place(cage, pos);
-    uint states[8];
-    sdfgi_lookup_texels texels[8];
-    const vec4 between = sdfgi_lookup_between(normal);
-    for (int k = 0; k < 8; k++) {
-        const uint index = sdfgi_probe_index(cascade, cage + sdfgi_lookup_corner(k));
-        states[k] = sdfgi_probes[index];
-        texels[k] = sdfgi_lookup_load(index, between);
-    }
-    vec4 sum = vec4(0.0);
-    for (int k = 0; k < 8; k++) {
-        if (visibility.of_probe[k] <= 0.0 || sdfgi_probe_is_dead(states[k]))
-            continue;
-        const ivec3 corner = sdfgi_lookup_corner(k);
-        const vec3 way = sdfgi_metric_from_cells(sdfgi_probe_position(cage + corner, states[k]) - pos);
-        const float weight =
-            sdfgi_lookup_weight(mix(1.0 - f, f, vec3(corner)), way, normal) * visibility.of_probe[k];
-        const vec4 light = sdfgi_lookup_newest(texels[k], between);
-        sum += vec4(light.rgb, 1.0) * (weight * light.a);
-    }
-    return sum;
 }
 
 /* The probes that a surface point sees, and how light changes along each axis. Places are metric, in cell
@@ -163,11 +129,11 @@ void sdfgi_lookup_add_pair(inout sdfgi_lookup_probes probes, int k, int axis, fl
 void sdfgi_lookup_add_beyond(inout sdfgi_lookup_probes probes, uint cascade, ivec3 cage, int k, int axis,
                              float weight, vec3 pos, vec3 normal)
 {
-    const ivec3 probe = cage + sdfgi_lookup_corner(k);
+    const ivec3 probe = cage + sdfgi_cage_corner(k);
     ivec3 beyond = probe;
     const bool forward = (k >> axis & 1) != 0;
     beyond[axis] += forward ? 1 : -1;
-    if (!sdfgi_probe_is_served(cascade, beyond))
+    if (!sdfgi_probe_is_valid(cascade, beyond))
         return;
     const uint other = sdfgi_probes[sdfgi_probe_index(cascade, beyond)];
     const uint lower = forward ? sdfgi_probes[sdfgi_probe_index(cascade, probe)] : other;
@@ -181,7 +147,7 @@ void sdfgi_lookup_add_beyond(inout sdfgi_lookup_probes probes, uint cascade, ive
 /* Across the surface pairs count only as far as both are in front of it, and nothing is extrapolated: what
  * hides a probe there stands in no light's way. `height` is that of the point above its surface. */
 void sdfgi_lookup_find_slopes(inout sdfgi_lookup_probes probes, uint cascade, ivec3 cage, vec3 pos,
-                              vec3 normal, float height, sdfgi_lookup_visibility visibility)
+                              vec3 normal, float height, sdfgi_visibility visibility)
 {
     const vec3 along = 1.0 - normal * normal;
     for (int k = 0; k < 8; k++) {
@@ -224,10 +190,10 @@ vec3 sdfgi_lookup_carry(sdfgi_lookup_probes probes)
 /* Irradiance in rgb, 1 in a, at a point that is `height` metric cell widths above its surface; all 0 if no
  * probe is visible. */
 vec4 sdfgi_lookup_sloped(uint cascade, ivec3 cage, vec3 pos, vec3 normal, float height,
-                         sdfgi_lookup_visibility visibility)
+                         sdfgi_visibility visibility)
 {
     const vec3 f =
-        clamp(sdfgi_lookup_place(cage, pos), SDFGI_LOOKUP_LEAST_SHARE, 1.0 - SDFGI_LOOKUP_LEAST_SHARE);
+        clamp(sdfgi_cage_coords(cage, pos), SDFGI_LOOKUP_LEAST_SHARE, 1.0 - SDFGI_LOOKUP_LEAST_SHARE);
     sdfgi_lookup_probes probes;
     probes.rise = mat3(0.0);
     probes.lever = vec3(0.0);
@@ -236,7 +202,7 @@ vec4 sdfgi_lookup_sloped(uint cascade, ivec3 cage, vec3 pos, vec3 normal, float 
         probes.weight[k] = 0.0;
         probes.way[k] = vec3(0.0);
         probes.light[k] = vec3(0.0);
-        const ivec3 corner = sdfgi_lookup_corner(k);
+        const ivec3 corner = sdfgi_cage_corner(k);
         const ivec3 probe = cage + corner;
         const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
         if (visibility.of_probe[k] <= 0.0 || sdfgi_probe_is_dead(state))
@@ -283,19 +249,19 @@ vec4 sdfgi_lookup_rays(uint cascade, vec3 pos, vec3 normal)
     return vec4(sum / float(RAYS), 1.0);
 }
 
-sdfgi_lookup_visibility sdfgi_lookup_from_mask(uint mask)
+sdfgi_visibility sdfgi_visibility_from_bits(uint mask)
 {
-    sdfgi_lookup_visibility v;
+    sdfgi_visibility v;
     for (int k = 0; k < 8; k++)
         v.of_probe[k] = float(mask >> k & 1u);
     return v;
 }
 
-sdfgi_lookup_visibility sdfgi_lookup_traced(uint cascade, ivec3 cage, vec3 pos)
+sdfgi_visibility sdfgi_lookup_traced(uint cascade, ivec3 cage, vec3 pos)
 {
-    sdfgi_lookup_visibility v;
+    sdfgi_visibility v;
     for (int k = 0; k < 8; k++) {
-        const ivec3 probe = cage + sdfgi_lookup_corner(k);
+        const ivec3 probe = cage + sdfgi_cage_corner(k);
         const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
         v.of_probe[k] = !sdfgi_probe_is_dead(state) &&
                                 sdfgi_trace_visible(cascade, pos, sdfgi_probe_position(probe, state))
@@ -335,9 +301,9 @@ bool sdfgi_lookup_anchor(uint cascade, vec3 pos, vec3 biased, vec3 normal, vec3 
 /* Trilinear share of each probe's visible bit over the light cells around a position that can be reached from
  * its anchor through empty cells. Cells of a neighbouring cage speak for the probes they share with this one.
  */
-sdfgi_lookup_visibility sdfgi_lookup_cell_masks(uint cascade, ivec3 cage, ivec3 anchor, vec3 biased)
+sdfgi_visibility sdfgi_lookup_cell_masks(uint cascade, ivec3 cage, ivec3 anchor, vec3 biased)
 {
-    sdfgi_lookup_visibility v;
+    sdfgi_visibility v;
     float total[8];
     for (int k = 0; k < 8; k++) {
         v.of_probe[k] = 0.0;
@@ -351,18 +317,18 @@ sdfgi_lookup_visibility sdfgi_lookup_cell_masks(uint cascade, ivec3 cage, ivec3 
                              sdfgi_trace_is_empty(cascade, anchor + ivec3(0, side.y, 0)),
                              sdfgi_trace_is_empty(cascade, anchor + ivec3(0, 0, side.z)));
     for (int i = 0; i < 8; i++) {
-        const ivec3 cell = base + sdfgi_lookup_corner(i);
+        const ivec3 cell = base + sdfgi_cage_corner(i);
         const bvec3 moved = notEqual(cell, anchor);
         const bool reachable =
             !any(moved) || (moved.x && open.x) || (moved.y && open.y) || (moved.z && open.z);
         if (!reachable || !sdfgi_trace_is_light_cell(cascade, cell))
             continue;
         const uint mask = sdfgi_cell_mask(cascade, cell);
-        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_lookup_corner(i)));
+        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_cage_corner(i)));
         const float weight = t.x * t.y * t.z;
         const ivec3 shift = cage - cell / SDFGI_PROBE_SPACING;
         for (int k = 0; k < 8; k++) {
-            const ivec3 corner = sdfgi_lookup_corner(k) + shift;
+            const ivec3 corner = sdfgi_cage_corner(k) + shift;
             if (any(lessThan(corner, ivec3(0))) || any(greaterThan(corner, ivec3(1))))
                 continue;
             total[k] += weight;
@@ -403,11 +369,11 @@ float sdfgi_lookup_chebyshev(uint probe, vec3 dir, float range)
     return p * p * p;
 }
 
-sdfgi_lookup_visibility sdfgi_lookup_probe_depth(uint cascade, ivec3 cage, vec3 pos)
+sdfgi_visibility sdfgi_lookup_probe_depth(uint cascade, ivec3 cage, vec3 pos)
 {
-    sdfgi_lookup_visibility v;
+    sdfgi_visibility v;
     for (int k = 0; k < 8; k++) {
-        const ivec3 probe = cage + sdfgi_lookup_corner(k);
+        const ivec3 probe = cage + sdfgi_cage_corner(k);
         const uint index = sdfgi_probe_index(cascade, probe);
         const vec3 way = sdfgi_metric_from_cells(pos - sdfgi_probe_position(probe, sdfgi_probes[index]));
         const float range = length(way);
@@ -423,7 +389,7 @@ sdfgi_lookup_visibility sdfgi_lookup_probe_depth(uint cascade, ivec3 cage, vec3 
 bool sdfgi_lookup_is_solid(uint cascade, vec3 pos)
 {
     const ivec3 cell = ivec3(floor(pos));
-    return sdfgi_cell_served(cascade, cell) &&
+    return sdfgi_cell_is_valid(cascade, cell) &&
            sdfgi_trace_bit(sdfgi_cell_bits(cascade, cell), sdfgi_trace_pack_sub(ivec3(floor(pos * 4.0)) & 3));
 }
 
@@ -448,13 +414,13 @@ vec4 sdfgi_lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
     const vec3 eye = to_eye / max(range, 1e-6);
     const vec3 biased = pos + sdfgi_cells_from_metric(normal + 0.5 * eye) * sdfgi_frame.normal_bias;
     const vec3 open = sdfgi_lookup_open(cascade, pos, normal, eye, range);
-    const ivec3 cage = sdfgi_lookup_cage(cascade, biased);
+    const ivec3 cage = sdfgi_cage_of(cascade, biased);
     const uint method = sdfgi_frame.visibility;
-    sdfgi_lookup_visibility v;
+    sdfgi_visibility v;
     ivec3 anchor;
     vec3 seen_from = open;
     if (method == SDFGI_SHADER_VISIBILITY_NONE)
-        v = sdfgi_lookup_from_mask(0xffu);
+        v = sdfgi_visibility_from_bits(0xffu);
     else if (method == SDFGI_SHADER_VISIBILITY_PROBE_DEPTH)
         v = sdfgi_lookup_probe_depth(cascade, cage, biased);
     else if (method == SDFGI_SHADER_VISIBILITY_CELL_MASK &&
@@ -466,30 +432,6 @@ vec4 sdfgi_lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
     const float height = dot(sdfgi_metric_from_cells(biased - pos), normal);
     const vec4 light = sdfgi_lookup_sloped(cascade, cage, biased, normal, height, v);
     return light.a > 0.0 ? light : sdfgi_lookup_rays(cascade, seen_from, normal);
-}
-
-/* Sum over the cage of a light cell's centre; `mask` is its own. Where it sees no probe, the light cell of a
- * coarser cascade at the same place may. Rays to other light cells are out of the question: those change in
- * the same pass. */
-vec4 sdfgi_lookup_light_cell(uint cascade, ivec3 cell, vec3 normal, uint mask)
-{
-    const vec3 first = sdfgi_first_from_cascade(cascade, vec3(cell) + 0.5);
-    const uint method = sdfgi_frame.visibility;
-    for (uint c = cascade; c < sdfgi_frame.cascade_count; c++) {
-        const vec3 pos = sdfgi_cascade_from_first(c, first);
-        const ivec3 at = ivec3(floor(pos));
-        if (c > cascade && !sdfgi_trace_is_light_cell(c, at))
-            continue;
-        const ivec3 cage = sdfgi_lookup_cage(c, pos);
-        const uint bits =
-            method == SDFGI_SHADER_VISIBILITY_NONE ? 0xffu : (c == cascade ? mask : sdfgi_cell_mask(c, at));
-        const vec4 sum = method == SDFGI_SHADER_VISIBILITY_PROBE_DEPTH
-                             ? sdfgi_lookup_sum(c, cage, pos, normal, sdfgi_lookup_probe_depth(c, cage, pos))
-                             : sdfgi_lookup_sum(c, cage, pos, normal, sdfgi_lookup_from_mask(bits));
-        if (sum.a > 1e-6)
-            return sum;
-    }
-    return vec4(0.0);
 }
 
 /* How much of a cascade's answer to use at a position: 1 inside, falling to 0 over one probe before its

@@ -27,13 +27,13 @@ vec3 sdfgi_cells_from_metric(vec3 v)
     return vec3(v.x, v.y / sdfgi_space_y_scale(), v.z);
 }
 
-bool sdfgi_cell_inside(ivec3 cell)
+bool sdfgi_cell_is_inside(ivec3 cell)
 {
     return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(sdfgi_space_resolution())));
 }
 
 /* True for cells that are complete: while a cascade scrolls, those of both its old and its new place. */
-bool sdfgi_cell_served(uint cascade, ivec3 cell)
+bool sdfgi_cell_is_valid(uint cascade, ivec3 cell)
 {
     return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
            all(lessThan(cell, sdfgi_frame.cascades[cascade].valid_high));
@@ -69,14 +69,14 @@ uvec3 sdfgi_texel_from_index(uint index)
 }
 
 /* Index of the albedo block (2x2x2 cells) that holds a cell, within its cascade. */
-uint sdfgi_block_index(uint cascade, ivec3 cell)
+uint sdfgi_albedo_block_index(uint cascade, ivec3 cell)
 {
     const uvec3 block = sdfgi_cell_texel(cascade, cell) >> 1u;
     const uint bits = sdfgi_frame.resolution_log2 - 1u;
     return block.x | block.y << bits | block.z << (2u * bits);
 }
 
-uint sdfgi_block_count()
+uint sdfgi_albedo_block_count()
 {
     return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));
 }
@@ -87,7 +87,7 @@ uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)
 }
 
 /* Steps per cell width of stored distances: the longest, N sqrt(3) cells, still fits 16 bits. */
-float sdfgi_distance_steps()
+float sdfgi_distance_units()
 {
     return float(32768u >> sdfgi_frame.resolution_log2);
 }
@@ -180,7 +180,7 @@ bool sdfgi_probe_is_dead(uint state)
 }
 
 /* True if the probe's cells are complete. */
-bool sdfgi_probe_is_served(uint cascade, ivec3 probe)
+bool sdfgi_probe_is_valid(uint cascade, ivec3 probe)
 {
     const ivec3 cell = probe * SDFGI_PROBE_SPACING;
     return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&

@@ -168,18 +168,18 @@ bool sdfgi_trace_through(uint index, ivec3 cell, float distance, vec3 origin, ve
 
 bool sdfgi_trace_is_light_cell(uint cascade, ivec3 cell)
 {
-    return sdfgi_cell_served(cascade, cell) &&
+    return sdfgi_cell_is_valid(cascade, cell) &&
            (sdfgi_light[sdfgi_cell_index(cascade, cell)].y & SDFGI_LIGHT_VALID) != 0u;
 }
 
 bool sdfgi_trace_is_empty(uint cascade, ivec3 cell)
 {
-    return sdfgi_cell_served(cascade, cell) && sdfgi_cell_bits(cascade, cell) == uvec2(0u);
+    return sdfgi_cell_is_valid(cascade, cell) && sdfgi_cell_bits(cascade, cell) == uvec2(0u);
 }
 
 /* How a ray went through the cascade in which it ended: where it began there, in cells from `base`, at
  * parameter 0, and the parameter at which it had begun, below 0 if in a finer cascade. */
-struct sdfgi_trace_way {
+struct sdfgi_trace_path {
     vec3 origin, inv_dir;
     ivec3 base;
     float first;
@@ -187,17 +187,17 @@ struct sdfgi_trace_way {
 
 /* From a cell to the one through which the ray came, and the parameter at which it did. False before the
  * ray's beginning. */
-bool sdfgi_trace_step_back(uint cascade, sdfgi_trace_way way, inout ivec3 cell, out float t)
+bool sdfgi_trace_step_back(uint cascade, sdfgi_trace_path way, inout ivec3 cell, out float t)
 {
     const int axis = sdfgi_trace_exit(way.origin, -way.inv_dir, vec3(cell), 1.0, t);
     t = -t;
     cell += sdfgi_trace_step(sdfgi_trace_forward(-way.inv_dir), axis);
-    return t >= way.first && sdfgi_cell_served(cascade, cell + way.base);
+    return t >= way.first && sdfgi_cell_is_valid(cascade, cell + way.base);
 }
 
 /* An empty cell beside an occupied one, on the side from which the ray came that entered it at `here`, with
  * nothing of what is in the cell between the two; along `face` if there. */
-bool sdfgi_trace_beside(uint cascade, sdfgi_trace_way way, ivec3 cell, vec3 here, int face, out ivec3 beside)
+bool sdfgi_trace_beside(uint cascade, sdfgi_trace_path way, ivec3 cell, vec3 here, int face, out ivec3 beside)
 {
     const ivec3 sub = clamp(ivec3(floor(here * 4.0)) - cell * SDFGI_SUBVOXELS, ivec3(0), ivec3(3));
     const uvec2 bits = sdfgi_cell_bits(cascade, cell + way.base);
@@ -219,7 +219,7 @@ bool sdfgi_trace_beside(uint cascade, sdfgi_trace_way way, ivec3 cell, vec3 here
 
 /* The light cell of a hit where a ray that began in a finer cascade came so close along a wall that all its
  * cells of this one are occupied: the first beside them. */
-bool sdfgi_trace_cell_along(uint cascade, sdfgi_trace_way way, int face, inout ivec3 cell)
+bool sdfgi_trace_cell_along(uint cascade, sdfgi_trace_path way, int face, inout ivec3 cell)
 {
     bool more = true;
     for (int i = 0; more && i < SDFGI_TRACE_STEP_CAP; i++) {
@@ -240,7 +240,7 @@ bool sdfgi_trace_cell_along(uint cascade, sdfgi_trace_way way, int face, inout i
 /* The light cell of a hit: from the cell that was hit back along the ray to the first empty one. That shares
  * a face with an occupied one, and is on the ray's side of however thin a wall. Steps of the distance field
  * may have passed over it. */
-bool sdfgi_trace_light_cell(uint cascade, sdfgi_trace_way way, int face, inout ivec3 cell)
+bool sdfgi_trace_light_cell(uint cascade, sdfgi_trace_path way, int face, inout ivec3 cell)
 {
     const ivec3 hit = cell;
     float t;
@@ -265,7 +265,7 @@ float sdfgi_trace_leave(sdfgi_trace_volume volume, vec3 origin, vec3 inv_dir)
  * can be made the same wherever a cascade stands; no step is longer than `longest` cells. The cell of the
  * result is the occupied one that was hit, counted from way.base. */
 sdfgi_trace_hit sdfgi_trace_from(uint cascade, uint last_cascade, ivec3 base, vec3 pos, vec3 dir, float range,
-                                 float longest, out sdfgi_trace_way way)
+                                 float longest, out sdfgi_trace_path way)
 {
     sdfgi_trace_hit result = sdfgi_trace_hit(false, false, false, cascade, ivec3(0), 0u, range);
     vec3 dir_cell = sdfgi_cells_from_metric(dir);
@@ -328,7 +328,7 @@ sdfgi_trace_hit sdfgi_trace_from(uint cascade, uint last_cascade, ivec3 base, ve
             result.cascade = cascade;
             result.axis = sdfgi_trace_face(axis, dir_cell);
             result.cell = cell;
-            way = sdfgi_trace_way(origin, inv_dir, base, -travelled / scale);
+            way = sdfgi_trace_path(origin, inv_dir, base, -travelled / scale);
             return result;
         }
         cell += sdfgi_trace_step(forward, axis);
@@ -343,14 +343,14 @@ sdfgi_trace_hit sdfgi_trace_from(uint cascade, uint last_cascade, ivec3 base, ve
 /* The same from `pos` in cell space of `cascade`: what is hit, and where. */
 sdfgi_trace_hit sdfgi_trace_solid(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
 {
-    sdfgi_trace_way unused;
+    sdfgi_trace_path unused;
     return sdfgi_trace_from(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, unused);
 }
 
 /* With the light cell of the hit. */
 sdfgi_trace_hit sdfgi_trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
 {
-    sdfgi_trace_way way;
+    sdfgi_trace_path way;
     sdfgi_trace_hit result = sdfgi_trace_from(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, way);
     if (result.hit && !result.capped) {
         result.has_cell = sdfgi_trace_light_cell(result.cascade, way, int(result.axis >> 1u), result.cell);
@@ -359,20 +359,26 @@ sdfgi_trace_hit sdfgi_trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 
     return result;
 }
 
-/* Longest step, in cells, of rays whose outcome is kept while a cascade scrolls: distances further off may
- * have changed where nothing near has, and with them the rounding of steps. */
-#define SDFGI_TRACE_KEPT_STEP 3.0
+/* Longest step, in cells, of rays whose results are kept while a cascade scrolls. Distances far from a ray
+ * may have changed where nothing near it has; longer steps would let them change the rounding of the result.
+ */
+#define SDFGI_TRACE_STABLE_STEP 3.0
+
+/* A ray through one cascade from `pos`, which counts from the cell `base`. The result depends only on cells
+ * near the ray, and is the same wherever the cascade stands. */
+sdfgi_trace_hit sdfgi_trace_stable(uint cascade, ivec3 base, vec3 pos, vec3 dir, float range)
+{
+    sdfgi_trace_path unused;
+    return sdfgi_trace_from(cascade, cascade, base, pos, dir, range, SDFGI_TRACE_STABLE_STEP, unused);
+}
 
 /* True if no set sub-voxel lies between two points, which count from the cell `base`: the same at the same
  * place, wherever the cascade stands. */
 bool sdfgi_trace_visible_from(uint cascade, ivec3 base, vec3 from, vec3 to)
 {
-    const vec3 way = sdfgi_metric_from_cells(to - from);
-    const float range = length(way);
-    sdfgi_trace_way unused;
-    return range < 1e-4 ||
-           !sdfgi_trace_from(cascade, cascade, base, from, way / range, range, SDFGI_TRACE_KEPT_STEP, unused)
-                .hit;
+    const vec3 offset = sdfgi_metric_from_cells(to - from);
+    const float range = length(offset);
+    return range < 1e-4 || !sdfgi_trace_stable(cascade, base, from, offset / range, range).hit;
 }
 
 /* True if no set sub-voxel lies between two points of a cascade's cell space. */

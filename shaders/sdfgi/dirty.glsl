@@ -21,7 +21,7 @@ bool dirty_near(uint cascade, ivec3 low, ivec3 high, int margin)
 }
 
 /* True for cells that are new or left. */
-bool dirty_holds(uint cascade, ivec3 cell)
+bool dirty_contains(uint cascade, ivec3 cell)
 {
     for (int i = 0; i < dirty_count(cascade); i++)
         if (all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].dirty[i].low)) &&

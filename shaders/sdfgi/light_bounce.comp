@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #include "light_blocks.glsl"
-#include "../include/sdfgi_lookup.glsl"
+#include "bounce.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -31,7 +31,7 @@ void main()
         return;
     const uint slot = light_cell_slot(cascade, entry);
     const ivec3 cell = light_cell_position(cascade, sdfgi_light_cells[slot]);
-    if (!sdfgi_cell_served(cascade, cell))
+    if (!sdfgi_cell_is_valid(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
@@ -45,7 +45,7 @@ void main()
         const uint block = surface_block(cascade, cell - surface_axis_step(a));
         axes[a] = sdfgi_light_unpack_axis(direct, a) + surface_emission(block, a);
         if (args.without_probes == 0u) {
-            const vec4 sum = sdfgi_lookup_light_cell(cascade, cell, surface_normal(block, a), mask);
+            const vec4 sum = bounce_light_cell(cascade, cell, surface_normal(block, a), mask);
             axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
         }
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))

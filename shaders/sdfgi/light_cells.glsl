@@ -51,7 +51,7 @@ void light_cell_store_direct(uint slot, uvec2 light)
 bool light_cell_faces(uint cascade, ivec3 cell, uint axis)
 {
     const ivec3 behind = cell - surface_axis_step(axis);
-    return sdfgi_cell_served(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
+    return sdfgi_cell_is_valid(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
 }
 
 /* Bit per axis along which a surface faces. */

@@ -166,7 +166,7 @@ void main()
                            light_group() * CELLS + own, entry);
     const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
     const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
-    lit = lit && sdfgi_cell_served(args.cascade, cell);
+    lit = lit && sdfgi_cell_is_valid(args.cascade, cell);
     if (axis == 0u) {
         cells[own] = cell;
         facing[own] = 0u;

@@ -20,7 +20,7 @@ const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
 /* Cells beside a ray in which nothing may have changed if its steps are to be the same: the longest of them,
  * its margin, and from a ray to the centre of its cell, twice. */
-const float BESIDE = SDFGI_TRACE_KEPT_STEP + SDFGI_TRACE_MARGIN + 1.74;
+const float BESIDE = SDFGI_TRACE_STABLE_STEP + SDFGI_TRACE_MARGIN + 1.74;
 const float MOVED = 4.0; /* cells: how far a probe stands from its corner at most */
 
 shared float depth[TEXELS];
@@ -85,11 +85,9 @@ void find_texels(vec3 pos, bool all)
 /* As far from the probe's corner: the same wherever the cascade stands. */
 float trace_depth(ivec3 corner, vec3 pos, uint texel)
 {
-    sdfgi_trace_way unused;
-    return min(sdfgi_trace_from(args.cascade, args.cascade, corner, pos, texel_direction(texel),
-                                SDFGI_OCCLUSION_RANGE, SDFGI_TRACE_KEPT_STEP, unused)
-                   .distance,
-               SDFGI_OCCLUSION_RANGE);
+    const sdfgi_trace_hit hit =
+        sdfgi_trace_stable(args.cascade, corner, pos, texel_direction(texel), SDFGI_OCCLUSION_RANGE);
+    return min(hit.distance, SDFGI_OCCLUSION_RANGE);
 }
 
 float depth_at(ivec2 coord)

@@ -127,7 +127,7 @@ void main()
     const uint cascade = gl_WorkGroupID.y;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(cascade, probe);
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return;
     const uint i = gl_LocalInvocationIndex;
     const bool ring_ends = args.cycle_ends != 0u, fresh = args.without_history != 0u;

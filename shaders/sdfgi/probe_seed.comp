@@ -7,7 +7,7 @@
 #define SDFGI_WRITES_IRRADIANCE
 #include "probe_common.glsl"
 #include "probe_store.glsl"
-#include "../include/sdfgi_lookup.glsl"
+#include "bounce.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform sdfgi_push
@@ -15,7 +15,7 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_cascade_args args;
 };
 
-shared sdfgi_lookup_visibility visible;
+shared sdfgi_visibility visible;
 shared uint seen_by;
 
 /* Which of the eight probes around `pos` see it. */
@@ -23,7 +23,7 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
 {
     const uint k = gl_LocalInvocationIndex;
     if (k < 8u) {
-        const ivec3 probe = cage + sdfgi_lookup_corner(int(k));
+        const ivec3 probe = cage + sdfgi_cage_corner(int(k));
         const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
         if (!sdfgi_probe_is_dead(state) &&
             sdfgi_trace_visible(cascade, pos, sdfgi_probe_position(probe, state)))
@@ -31,17 +31,17 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
     }
     barrier();
     if (k == 0u)
-        visible = sdfgi_lookup_from_mask(seen_by);
+        visible = sdfgi_visibility_from_bits(seen_by);
     barrier();
 }
 
 /* Trilinear share of the probes that see a place. */
 float visible_share(ivec3 cage, vec3 pos)
 {
-    const vec3 f = sdfgi_lookup_place(cage, pos);
+    const vec3 f = sdfgi_cage_coords(cage, pos);
     float share = 0.0;
     for (int k = 0; k < 8; k++) {
-        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_lookup_corner(k)));
+        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_cage_corner(k)));
         share += t.x * t.y * t.z * visible.of_probe[k];
     }
     return share;
@@ -50,7 +50,7 @@ float visible_share(ivec3 cage, vec3 pos)
 /* Light in rgb, how much of a ring it counts for in a. */
 vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
 {
-    const vec4 sum = sdfgi_lookup_sum(coarser, cage, pos, normal, visible);
+    const vec4 sum = bounce_sum(coarser, cage, pos, normal, visible);
     if (sum.a <= 1e-6)
         return vec4(0.0);
     return vec4(sum.rgb / sum.a, visible_share(cage, pos) * PROBE_SEED_SHARE * probe_ring_weight());
@@ -73,7 +73,7 @@ void main()
     if (exists) {
         pos = sdfgi_cascade_from_first(
             coarser, sdfgi_first_from_cascade(args.cascade, sdfgi_probe_position(probe, state)));
-        cage = sdfgi_lookup_cage(coarser, pos);
+        cage = sdfgi_cage_of(coarser, pos);
         find_visible(coarser, cage, pos);
     }
     if (i < uint(SDFGI_IRRADIANCE_COUNT)) {

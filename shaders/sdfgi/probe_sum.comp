@@ -43,7 +43,7 @@ void main()
         sdfgi_counters[SDFGI_COUNTER_RAYS_TRACED] = ray_queue_count();
         counter_add(SDFGI_COUNTER_TRACE_CAPS, ray_queue_capped());
     }
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return;
     const bool young = probe_is_young(sdfgi_sums[probe_memory(slot)]);
     const uint sent = min(sdfgi_frame.rays_per_frame, MAX_RAYS), samples = sdfgi_frame.cycle_samples;

@@ -41,7 +41,7 @@ bool ray_holds(uint code)
         return true;
     uint cascade;
     const ivec3 cell = ray_cell(code, cascade);
-    return sdfgi_cell_served(cascade, cell);
+    return sdfgi_cell_is_valid(cascade, cell);
 }
 
 #endif

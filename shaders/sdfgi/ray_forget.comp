@@ -136,7 +136,7 @@ void main()
         return;
     const vec3 pos = sdfgi_probe_position(probe, state), first = sdfgi_first_from_cascade(own_cascade(), pos);
     /* On the border of what was complete, rays began beyond it. */
-    const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || dirty_holds(own_cascade(), ivec3(floor(pos)));
+    const bool all_rays = (state & SDFGI_PROBE_NEW) != 0u || dirty_contains(own_cascade(), ivec3(floor(pos)));
     for (uint start = 0u; start < sdfgi_frame.cycle_samples; start += AT_ONCE * uint(SDFGI_GROUP_RAYS)) {
         uint codes[AT_ONCE], samples[AT_ONCE];
         bool forget[AT_ONCE];

@@ -17,9 +17,9 @@ layout(push_constant) uniform sdfgi_push
 
 void clear_accumulators(ivec3 cell)
 {
-    const uint block = sdfgi_block_index(args.cascade, cell);
+    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
     for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
-        sdfgi_scratch[plane * sdfgi_block_count() + block] = 0u;
+        sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] = 0u;
 }
 
 /* The cells that hold bits were elsewhere before the cascade moved: volumes are toroidal. `held` has a bit

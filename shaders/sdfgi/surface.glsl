@@ -14,7 +14,8 @@
 #endif
 
 /* unorm8 RGB. */
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
 {
     uint sdfgi_albedo[];
 };
@@ -22,14 +23,16 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCES
 /* x: RGB9E5 radiance, in units of the scene's brightest emission, that leaves the block on the side on which
  * it emits most, mean over all that is seen from there; y: per axis 5 bits, the share of that which leaves on
  * this side. */
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
 {
     uvec2 sdfgi_emission[];
 };
 
 /* Mean normals of the triangles whose dominant axis is x, y or z: ten bits each, two slopes of 5 bits in [-1,
  * 1]; a first slope of 31 says there are none. */
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
 {
     uint sdfgi_normals[];
 };
@@ -97,7 +100,7 @@ vec3 surface_emission(uint block, uint axis)
 /* Index of the block of a cell in these buffers. */
 uint surface_block(uint cascade, ivec3 cell)
 {
-    return sdfgi_block_index(cascade, cell) + cascade * sdfgi_block_count();
+    return sdfgi_albedo_block_index(cascade, cell) + cascade * sdfgi_albedo_block_count();
 }
 
 #endif

@@ -39,7 +39,8 @@ layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) reado
 
 #ifdef SDFGI_VOXELIZE_TEXTURED
 layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
-layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
+layout(set = SDFGI_SET_MATERIAL,
+       binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
 #endif
 
 /* Inclusive edges: sub-voxels within this distance (sub-voxels) outside an edge are set too, so that rounding
@@ -277,7 +278,7 @@ surface_sample triangle_sample(triangle t, ivec2 column)
 void accumulate(uint plane, uint block, uint value)
 {
     if (value != 0u)
-        atomicAdd(sdfgi_scratch[plane * sdfgi_block_count() + block], value);
+        atomicAdd(sdfgi_scratch[plane * sdfgi_albedo_block_count() + block], value);
 }
 
 /* Means are taken from integer sums, which do not depend on the order of additions. */
@@ -357,7 +358,7 @@ void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s
         if (height > 0.2 || (height < -0.2 && (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u))
             facing |= 1u << axis;
     }
-    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_block_count() + block], facing);
+    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_albedo_block_count() + block], facing);
     if (bit < 32u)
         atomicOr(sdfgi_light[cell].x, 1u << bit);
     else
@@ -391,7 +392,7 @@ void triangle_store_column(triangle t, ivec2 column)
     const surface_sample s = triangle_sample(t, column);
     if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
         return;
-    const uint block = sdfgi_block_index(args.cascade, cell);
+    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
     if (emits)
         accumulate_emission(t, column, block, s);
     if (!set)
