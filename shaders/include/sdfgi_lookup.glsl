@@ -390,7 +390,7 @@ bool sdfgi_lookup_is_solid(uint cascade, vec3 pos)
 {
     const ivec3 cell = ivec3(floor(pos));
     return sdfgi_cell_is_valid(cascade, cell) &&
-           sdfgi_trace_bit(sdfgi_cell_bits(cascade, cell), sdfgi_trace_pack_sub(ivec3(floor(pos * 4.0)) & 3));
+           sdfgi_trace_is_set(sdfgi_cell_bits(cascade, cell), sdfgi_trace_pack_subvoxel(ivec3(floor(pos * 4.0)) & 3));
 }
 
 /* A point in the open on the way to a viewer who is `range` cell widths away. */
