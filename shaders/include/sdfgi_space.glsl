@@ -112,7 +112,7 @@ float sdfgi_cell_distance(uint cascade, ivec3 cell)
     return sdfgi_stored_distance(sdfgi_cell_index(cascade, cell));
 }
 
-uint sdfgi_cell_mask(uint cascade, ivec3 cell)
+uint sdfgi_cell_visibility_bits(uint cascade, ivec3 cell)
 {
     const uint index = sdfgi_cell_index(cascade, cell);
     return sdfgi_masks[index >> 2u] >> (8u * (index & 3u)) & 0xffu;
@@ -195,6 +195,28 @@ vec3 sdfgi_probe_position(ivec3 probe, uint state)
     if ((state & SDFGI_PROBE_MOVED) == 0u)
         return corner;
     return corner + vec3(ivec3(uvec3(state, state >> 5u, state >> 10u) & 31u) - 16) + 0.5;
+}
+
+/* ---- Cages: a cage is named by its first probe. */
+
+/* Offset from the first probe of a cage to its k-th. */
+ivec3 sdfgi_cage_corner(int k)
+{
+    return ivec3(k & 1, k >> 1 & 1, k >> 2);
+}
+
+/* The cage that holds a position, or the nearest one in the valid region. */
+ivec3 sdfgi_cage_of(uint cascade, vec3 pos)
+{
+    const ivec3 low = sdfgi_frame.cascades[cascade].valid_low / SDFGI_PROBE_SPACING;
+    const ivec3 high = sdfgi_frame.cascades[cascade].valid_high / SDFGI_PROBE_SPACING - 1;
+    return clamp(ivec3(floor(pos / float(SDFGI_PROBE_SPACING))), low, max(low, high));
+}
+
+/* A position within its cage, in [0, 1]^3. */
+vec3 sdfgi_cage_coords(ivec3 cage, vec3 pos)
+{
+    return clamp(pos / float(SDFGI_PROBE_SPACING) - vec3(cage), 0.0, 1.0);
 }
 
 #endif

@@ -4,9 +4,11 @@
  * the cell: rounding down lost 0.9 % a bounce, and rounding to nearest stalls; on average over cells this
  * neither gains nor loses. Weights are relative to the brightest axis: were it alone, an axis that gets a
  * little brighter would lower the others by a step, and light in a furnace would swing for ever. So those
- * about as bright share their mean, and keep weights of exactly 1. Needs rgbe.glsl and random.glsl. */
+ * about as bright share their mean, and keep weights of exactly 1. */
 #ifndef SDFGI_LIGHT_PACK_GLSL
 #define SDFGI_LIGHT_PACK_GLSL
+
+#include "rgbe.glsl"
 
 float sdfgi_light_luminance(vec3 color)
 {

@@ -35,7 +35,7 @@ void main()
         return;
     const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
-    const uint mask = sdfgi_cell_mask(cascade, cell);
+    const uint mask = sdfgi_cell_visibility_bits(cascade, cell);
 
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++)
