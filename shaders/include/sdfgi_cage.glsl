@@ -108,8 +108,7 @@ void sdfgi_cage_find_gradient(inout sdfgi_cage_samples samples, uint cascade, iv
     }
 }
 
-/* The weighted mean of the probes, extrapolated along the gradient from their weighted centre to the point.
- */
+/* The weighted mean of the probes, extrapolated along the gradient from their centre to the point. */
 vec3 sdfgi_cage_extrapolate(sdfgi_cage_samples samples)
 {
     vec4 sum = vec4(0.0);

@@ -10,8 +10,7 @@
 #include "../lib/rgbe.glsl"
 #include "../lib/sky.glsl"
 
-/* Radiance at the end of a ray: that of the sky, or of the light cell in front of the surface that was hit.
- */
+/* Radiance at the end of a ray: that of the sky, or of the light cell in front of the surface. */
 vec3 sdfgi_lookup_ray_radiance(sdfgi_trace_hit hit, vec3 dir)
 {
     if (!hit.hit)

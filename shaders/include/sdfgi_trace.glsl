@@ -4,8 +4,7 @@
  * (Amanatides and Woo 1987). Distances are read at cell centres and never interpolated, so a ray cannot slip
  * through a wall, however thin.
  *
- * A ray's parameter t counts cell widths of the cascade that it crosses, from where it entered that cascade.
- */
+ * A ray's parameter t counts cell widths of the cascade that it crosses, from where it entered it. */
 #ifndef SDFGI_TRACE_GLSL
 #define SDFGI_TRACE_GLSL
 
@@ -25,8 +24,7 @@ struct sdfgi_trace_hit {
 /* A stored distance leads from a cell's centre to the centre of a sub-voxel, whose corner is up to sqrt(3) /
  * 8 closer. The flood may store 0.1 too much. */
 #define SDFGI_TRACE_MARGIN 0.32
-/* A cell whose stored distance is above this has no sub-voxel of its own: sqrt(3) 3 / 8, and the flood's 0.1.
- */
+/* A cell with a greater stored distance has no sub-voxel of its own: sqrt(3) 3 / 8, and the flood's 0.1. */
 #define SDFGI_TRACE_OCCUPIED_DISTANCE 0.75
 /* Walking through a cell is cheaper than a step of the distance field that is shorter than this. */
 #define SDFGI_TRACE_MIN_STEP 0.5
@@ -330,8 +328,7 @@ sdfgi_trace_hit sdfgi_trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 
 }
 
 /* Longest step, in cells, of rays whose results are kept while a cascade scrolls. Distances far from a ray
- * may have changed where nothing near it has; longer steps would let them change the rounding of the result.
- */
+ * may have changed where nothing near it has; with longer steps they could change rounding. */
 #define SDFGI_TRACE_STABLE_STEP 3.0
 
 /* A ray through one cascade from `pos`, which counts from the cell `base`. The result depends only on cells
