@@ -15,8 +15,8 @@
 
 /* Added to the mean squared distance between the probes of a pair, in squared cell widths: it draws the
  * gradient towards 0 where pairs are close together or have little weight, and so say little. At 0.25
- * pictures came out worse (FLIP of two_rooms_lit 0.097 instead of 0.095), walls beside probes the same (2.5 %
- * at most instead of 2.3 %). */
+ * pictures came out worse (FLIP of two_rooms_lit 0.097 instead of 0.095), errors of walls next to probes
+ * stayed alike (2.5 % at most instead of 2.3 %). */
 #define SDFGI_CAGE_GRADIENT_DAMPING 1.0
 
 /* For the gradient, a probe in the plane opposite the point keeps at least this trilinear weight per axis:
@@ -120,7 +120,8 @@ vec3 sdfgi_cage_extrapolate(sdfgi_cage_samples samples)
     const vec3 mean = sum.rgb / sum.a;
     const vec3 to_point =
         -centre / sum.a / (samples.gradient_denominator + SDFGI_CAGE_GRADIENT_DAMPING * sum.a);
-    /* A wall beside a point hides at most half of an even sky, or doubles it where it shines as brightly. */
+    /* A wall next to the point may hide half of a uniform sky, or double the light if it is as bright. More
+     * than that is an error of the extrapolation. */
     return clamp(mean + samples.gradient_numerator * to_point, 0.5 * mean, 2.0 * mean);
 }
 

@@ -62,7 +62,7 @@ vec4 sdfgi_lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
              sdfgi_visibility_find_light_cell(cascade, pos, biased, normal, open, light_cell)) {
         visibility = sdfgi_visibility_from_cells(cascade, cage, light_cell, biased);
         rays_from = clamp(biased, vec3(light_cell) + 0.05, vec3(light_cell) + 0.95);
-    } else
+    } else /* the method is TRACED, or there is no light cell near the point */
         visibility =
             sdfgi_visibility_traced(cascade, cage, pos + sdfgi_cells_from_metric(normal + eye) * 0.25);
     const float height = dot(sdfgi_metric_from_cells(biased - pos), normal);

@@ -75,7 +75,7 @@ struct sdfgi_trace_query {
     float longest_step; /* cells that one step of the distance field may cross at most */
 };
 
-/* A ray on its way. */
+/* The state of a ray during the march. */
 struct sdfgi_trace_state {
     vec3 dir, inv_dir; /* in cells per cell width; no component of dir is 0 */
     float scale;       /* cell widths of the first cascade per cell width of this one */

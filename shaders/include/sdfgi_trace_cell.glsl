@@ -45,7 +45,8 @@ int sdfgi_trace_box_exit(vec3 origin, vec3 inv_dir, vec3 low, float size, out fl
     return far.x <= t ? 0 : (far.y <= t ? 1 : 2);
 }
 
-/* A component of a vector. GPUs put a vector into memory if its index differs between threads. */
+/* A component of a vector, without indexing: a vector whose index differs between threads goes through
+ * memory. */
 float sdfgi_trace_component(vec3 v, int axis)
 {
     return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);

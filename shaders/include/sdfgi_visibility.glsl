@@ -52,7 +52,7 @@ bool sdfgi_visibility_find_light_cell(uint cascade, vec3 pos, vec3 biased, vec3 
         return true;
     float nearest = 1e30;
     for (int i = 0; i < 64; i++) {
-        /* Two bits per axis, of whose four values one is skipped. */
+        /* Two bits per axis count to 3, so one of four values is skipped. */
         const ivec3 offset = ivec3(i & 3, i >> 2 & 3, i >> 4) - 1;
         const ivec3 cell = own + offset;
         if (any(greaterThan(offset, ivec3(1))))
@@ -119,7 +119,7 @@ vec2 sdfgi_visibility_depth_texel(uint probe_index, ivec2 coord)
         sdfgi_occlusion[probe_index * stride * stride + uint(coord.y + 1) * stride + uint(coord.x + 1)]);
 }
 
-/* An upper bound of the share of depths beyond the receiver: Chebyshev's inequality on mean and mean of
+/* An upper bound of the fraction of depths beyond the receiver: Chebyshev's inequality on mean and mean of
  * squares (Donnelly and Lauritzen 2006, "Variance shadow maps"), cubed for contrast as in DDGI. `dir` leads
  * from the probe to the receiver, `range` is its distance in cell widths. */
 float sdfgi_visibility_chebyshev(uint probe_index, vec3 dir, float range)

@@ -2,7 +2,7 @@
  * Marks the light cells of a cascade: empty cells with an occupied face neighbour. light_list then writes
  * them into the list.
  *
- * In a dirty light block the cells are searched anew; those that are no light cells lose their light. In
+ * In a dirty light block all cells are tested, and those that are no light cells lose their light. In
  * every other block the light cells are those of the previous list; their direct light is copied from it,
  * because light_list overwrites the list. The threads share the entries of the previous list. The workgroups
  * share the dirty blocks, with a thread per cell. */
@@ -46,7 +46,7 @@ uint block_of_entry(uint entry)
 }
 
 /* A list that was too short lacks cells of its last entry's block and of all blocks after it. The list may
- * have grown since, so these cells are searched again. */
+ * have grown since, so these blocks are dirty. */
 bool previous_was_cut_before(uint block)
 {
     return previous_was_too_short() && block >= block_of_entry(sdfgi_frame.light_cell_room - 1u);
