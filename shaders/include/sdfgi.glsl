@@ -11,10 +11,12 @@
 
 #include "sdfgi_lookup.glsl"
 
-/* Indirect diffuse irradiance E (W/m^2) at a surface point with unit normal. `to_eye` leads to the viewer, in
- * metres, and must be unobstructed; where there is no viewer, a short way along the normal will do. A
- * Lambertian surface reflects albedo * E / pi. Light that comes straight from the sky and from emissive
- * surfaces is included; the host's own lights arriving directly are not. */
+/* Indirect diffuse irradiance E (W/m^2) at a surface point with unit normal. A Lambertian surface reflects
+ * albedo * E / pi. E includes light that comes straight from the sky and from emissive surfaces, and excludes
+ * the direct light of the host's own lights.
+ *
+ * `to_eye` is the vector from the point to the viewer, in metres. Nothing may stand between the two. Where
+ * there is no viewer, a short vector along the normal will do. */
 vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
 {
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * The library's descriptor set. A pass defines SDFGI_WRITES_<NAME> before including this for what it writes;
- * all else is read-only. A host defines SDFGI_SET, the index at which it binds the set. */
+ * The LOOKUP set: what lookups read. All of it is read-only; a pass that writes a buffer defines
+ * SDFGI_WRITES_<NAME> before it includes this file. A host defines SDFGI_SET, the index at which it binds the
+ * set. */
 #ifndef SDFGI_RESOURCES_GLSL
 #define SDFGI_RESOURCES_GLSL
 
@@ -54,47 +55,48 @@ layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_fra
     sdfgi_frame_params sdfgi_frame;
 };
 
-/* Solid bits: per cell 64 sub-voxels, bit x + 4 y + 16 z; x holds z = 0, 1 and y holds z = 2, 3. */
+/* Occupancy bits: 64 per cell, bit x + 4 y + 16 z per sub-voxel; .x holds z = 0, 1 and .y holds z = 2, 3. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_BITS) SDFGI_ACCESS_BITS buffer sdfgi_bits_buffer
 {
     uvec2 sdfgi_bits[];
 };
 
-/* Distance from a cell's centre to the nearest set sub-voxel's centre: 16 bits per cell, two cells per word.
- */
+/* Distance field: from a cell's centre to that of the nearest set sub-voxel, 16 bits per cell, two cells per
+ * word. */
 layout(std430, set = SDFGI_SET,
        binding = SDFGI_BINDING_DISTANCE) SDFGI_ACCESS_DISTANCE buffer sdfgi_distance_buffer
 {
     uint sdfgi_distances[];
 };
 
-/* Outgoing radiance per light cell, lib/light_pack.glsl. */
+/* Outgoing radiance per light cell, packed by lib/light_pack.glsl. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_LIGHT) SDFGI_ACCESS_LIGHT buffer sdfgi_light_buffer
 {
     uvec2 sdfgi_light[];
 };
 
-/* Eight bits per cell: which probes of its cage a light cell sees. Four cells per word. */
+/* Visibility bits: eight per cell, which probes of its cage a light cell sees. Four cells per word. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_MASKS) SDFGI_ACCESS_MASKS buffer sdfgi_masks_buffer
 {
     uint sdfgi_masks[];
 };
 
-/* Where each probe really is, see sdfgi_space.glsl. */
+/* The state of each probe: where it stands, whether it is dead, and its links. See sdfgi_space.glsl. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_PROBES) SDFGI_ACCESS_PROBES buffer sdfgi_probes_buffer
 {
     uint sdfgi_probes[];
 };
 
-/* (mean, mean of squares) of depth as unorm16 of the range, 18 x 18 texels a probe. Empty unless probe_depth
- * is on. */
+/* Mean and mean of squares of depth as unorm16 of SDFGI_OCCLUSION_RANGE, 18 x 18 texels per probe. Empty
+ * unless the visibility method is PROBE_DEPTH. */
 layout(std430, set = SDFGI_SET,
        binding = SDFGI_BINDING_OCCLUSION) SDFGI_ACCESS_OCCLUSION buffer sdfgi_occlusion_buffer
 {
     uint sdfgi_occlusion[];
 };
 
-/* Irradiance over pi times exposure, four half floats a texel, SDFGI_IRRADIANCE_COUNT texels a probe. */
+/* The irradiance atlas: irradiance over pi times exposure, packed by lib/irradiance_pack.glsl,
+ * SDFGI_IRRADIANCE_COUNT texels per probe. */
 layout(std430, set = SDFGI_SET,
        binding = SDFGI_BINDING_IRRADIANCE) SDFGI_ACCESS_IRRADIANCE buffer sdfgi_irradiance_buffer
 {

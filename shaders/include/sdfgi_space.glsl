@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Cells, sub-voxels and probes: where they are and where they are stored. */
+ * Cells, probes and cages: where they are, and where they are stored.
+ *
+ * Cell space of a cascade: one unit is one cell along each axis, and a cell is y_scale times as high as wide.
+ * A local cell or probe counts from the cascade's low corner. Volumes are toroidal: when a cascade scrolls,
+ * what stays keeps its texel or slot. */
 #ifndef SDFGI_SPACE_GLSL
 #define SDFGI_SPACE_GLSL
 
@@ -16,7 +20,7 @@ float sdfgi_space_y_scale()
     return sdfgi_frame.y_scale;
 }
 
-/* Metric lengths of a vector in cell space, in cell widths, and back. */
+/* From a vector in cell space to a metric one, in cell widths, and back. */
 vec3 sdfgi_metric_from_cells(vec3 v)
 {
     return vec3(v.x, v.y * sdfgi_space_y_scale(), v.z);
@@ -27,19 +31,19 @@ vec3 sdfgi_cells_from_metric(vec3 v)
     return vec3(v.x, v.y / sdfgi_space_y_scale(), v.z);
 }
 
-bool sdfgi_cell_inside(ivec3 cell)
+bool sdfgi_cell_is_inside(ivec3 cell)
 {
     return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(sdfgi_space_resolution())));
 }
 
-/* True for cells that are complete: while a cascade scrolls, those of both its old and its new place. */
-bool sdfgi_cell_served(uint cascade, ivec3 cell)
+/* True for cells of the valid region. While a cascade scrolls, its old and its new place share them. */
+bool sdfgi_cell_is_valid(uint cascade, ivec3 cell)
 {
     return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
            all(lessThan(cell, sdfgi_frame.cascades[cascade].valid_high));
 }
 
-/* Texel of a local cell: volumes are toroidal. */
+/* Texel of a local cell. */
 uvec3 sdfgi_cell_texel(uint cascade, ivec3 cell)
 {
     return uvec3(cell + sdfgi_frame.cascades[cascade].wrap) & (sdfgi_frame.resolution - 1u);
@@ -51,7 +55,7 @@ uint sdfgi_texel_index(uvec3 texel)
     return texel.x | texel.y << bits | texel.z << (2u * bits);
 }
 
-/* Index of a local cell in buffers with one element per cell, all cascades one after another. */
+/* Index of a local cell in buffers with one element per cell of all cascades. */
 uint sdfgi_cell_index(uint cascade, ivec3 cell)
 {
     return sdfgi_texel_index(sdfgi_cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.resolution_log2);
@@ -69,14 +73,14 @@ uvec3 sdfgi_texel_from_index(uint index)
 }
 
 /* Index of the albedo block (2x2x2 cells) that holds a cell, within its cascade. */
-uint sdfgi_block_index(uint cascade, ivec3 cell)
+uint sdfgi_albedo_block_index(uint cascade, ivec3 cell)
 {
     const uvec3 block = sdfgi_cell_texel(cascade, cell) >> 1u;
     const uint bits = sdfgi_frame.resolution_log2 - 1u;
     return block.x | block.y << bits | block.z << (2u * bits);
 }
 
-uint sdfgi_block_count()
+uint sdfgi_albedo_block_count()
 {
     return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));
 }
@@ -86,20 +90,20 @@ uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)
     return sdfgi_bits[sdfgi_cell_index(cascade, cell)];
 }
 
-/* Steps per cell width of stored distances: the longest, N sqrt(3) cells, still fits 16 bits. */
-float sdfgi_distance_steps()
+/* Units of a stored distance per cell width. The diagonal of a cascade, N sqrt(3) cells, fits 16 bits. */
+float sdfgi_distance_units()
 {
     return float(32768u >> sdfgi_frame.resolution_log2);
 }
 
-/* The stored form of the longest. */
+/* SDFGI_DISTANCE_REACH in these units: the longest distance that is stored. */
 uint sdfgi_distance_reach()
 {
     return uint(SDFGI_DISTANCE_REACH) << 15u - sdfgi_frame.resolution_log2;
 }
 
-/* Of the cell that is stored at `index`: never more than 0.1 cell above the distance to the nearest set
- * sub-voxel, nor more than SDFGI_DISTANCE_REACH. */
+/* Distance of the cell that is stored at `index`, in cell widths. It is at most 0.1 cell above the distance
+ * to the nearest set sub-voxel, and at most SDFGI_DISTANCE_REACH. */
 float sdfgi_stored_distance(uint index)
 {
     const uint pair = sdfgi_distances[index >> 1u];
@@ -112,12 +116,14 @@ float sdfgi_cell_distance(uint cascade, ivec3 cell)
     return sdfgi_stored_distance(sdfgi_cell_index(cascade, cell));
 }
 
-uint sdfgi_cell_mask(uint cascade, ivec3 cell)
+/* A bit per probe of the cage: whether the light cell sees it. */
+uint sdfgi_cell_visibility_bits(uint cascade, ivec3 cell)
 {
     const uint index = sdfgi_cell_index(cascade, cell);
     return sdfgi_masks[index >> 2u] >> (8u * (index & 3u)) & 0xffu;
 }
 
+/* To the cell space of a cascade from that of cascade 0, and back. */
 vec3 sdfgi_cascade_from_first(uint cascade, vec3 pos_first)
 {
     return sdfgi_frame.cascades[cascade].from_first +
@@ -130,7 +136,7 @@ vec3 sdfgi_first_from_cascade(uint cascade, vec3 pos_cascade)
            sdfgi_frame.cascades[cascade].from_first_scale;
 }
 
-/* Position relative to the host's origin in metres to cell space of cascade 0. */
+/* To cell space of cascade 0 from metres relative to the host's origin. */
 vec3 sdfgi_first_from_position(vec3 position)
 {
     return sdfgi_cells_from_metric((position - sdfgi_frame.cascades[0].origin_rel) /
@@ -143,9 +149,10 @@ vec3 sdfgi_position_from_cascade(uint cascade, vec3 pos_cascade)
            sdfgi_metric_from_cells(pos_cascade) * sdfgi_frame.cascades[cascade].cell_m;
 }
 
-/* ---- Probes: probe k of a cascade stands on the corner of cells 8 k, k in [0, probes_per_side). */
+/* ---- Probes: probe k of a cascade belongs to the lattice point at cell 8 k, k in [0, probes_per_side) per
+ * axis. */
 
-/* Slot of a local probe: probes are toroidal too. */
+/* Slot of a local probe. */
 ivec3 sdfgi_probe_slot(uint cascade, ivec3 probe)
 {
     const ivec3 slot = probe + sdfgi_frame.cascades[cascade].probe_wrap;
@@ -160,15 +167,15 @@ uint sdfgi_probe_index(uint cascade, ivec3 probe)
     return uint(slot.x + side * (slot.y + side * (slot.z + side * int(cascade))));
 }
 
-/* A probe's state: moved ones stand in the centre of the cell at offset (5 bits each, biased by 16) of its
- * corner. */
+/* The state of a probe that has moved off its lattice point, into the centre of the cell at `offset` from it:
+ * 5 bits per axis, biased by 16. */
 uint sdfgi_probe_pack_moved(ivec3 offset)
 {
     const uvec3 o = uvec3(offset + 16);
     return SDFGI_PROBE_MOVED | o.x | o.y << 5u | o.z << 10u;
 }
 
-/* Whether a probe sees the next one along an axis. */
+/* True if a probe and the next one along an axis see each other. */
 bool sdfgi_probe_is_linked(uint state, int axis)
 {
     return (state >> (SDFGI_PROBE_LINK_SHIFT + uint(axis)) & 1u) != 0u;
@@ -179,8 +186,8 @@ bool sdfgi_probe_is_dead(uint state)
     return (state & SDFGI_PROBE_DEAD) != 0u;
 }
 
-/* True if the probe's cells are complete. */
-bool sdfgi_probe_is_served(uint cascade, ivec3 probe)
+/* True if the probe's lattice point is in the valid region or on its border. */
+bool sdfgi_probe_is_valid(uint cascade, ivec3 probe)
 {
     const ivec3 cell = probe * SDFGI_PROBE_SPACING;
     return all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].valid_low)) &&
@@ -188,13 +195,35 @@ bool sdfgi_probe_is_served(uint cascade, ivec3 probe)
            all(lessThan(sdfgi_frame.cascades[cascade].valid_low, sdfgi_frame.cascades[cascade].valid_high));
 }
 
-/* Position in cell space. */
+/* Position of a probe in cell space. */
 vec3 sdfgi_probe_position(ivec3 probe, uint state)
 {
-    const vec3 corner = vec3(probe * SDFGI_PROBE_SPACING);
+    const vec3 lattice_point = vec3(probe * SDFGI_PROBE_SPACING);
     if ((state & SDFGI_PROBE_MOVED) == 0u)
-        return corner;
-    return corner + vec3(ivec3(uvec3(state, state >> 5u, state >> 10u) & 31u) - 16) + 0.5;
+        return lattice_point;
+    return lattice_point + vec3(ivec3(uvec3(state, state >> 5u, state >> 10u) & 31u) - 16) + 0.5;
+}
+
+/* ---- Cages: a cage is named by its first probe. */
+
+/* Offset from the first probe of a cage to its k-th. */
+ivec3 sdfgi_cage_corner(int k)
+{
+    return ivec3(k & 1, k >> 1 & 1, k >> 2);
+}
+
+/* The cage that holds a position, or the nearest one in the valid region. */
+ivec3 sdfgi_cage_of(uint cascade, vec3 pos)
+{
+    const ivec3 low = sdfgi_frame.cascades[cascade].valid_low / SDFGI_PROBE_SPACING;
+    const ivec3 high = sdfgi_frame.cascades[cascade].valid_high / SDFGI_PROBE_SPACING - 1;
+    return clamp(ivec3(floor(pos / float(SDFGI_PROBE_SPACING))), low, max(low, high));
+}
+
+/* A position within its cage, in [0, 1]^3. */
+vec3 sdfgi_cage_coords(ivec3 cage, vec3 pos)
+{
+    return clamp(pos / float(SDFGI_PROBE_SPACING) - vec3(cage), 0.0, 1.0);
 }
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Octahedral maps with +Y at the centre, so that up is a texel centre in maps of odd size and light from the
- * sky onto level ground is read without interpolation. (Meyer et al. 2010, "On floating-point normal
- * vectors".) */
+ * Octahedral maps (Meyer et al. 2010, "On floating-point normal vectors") with +Y at the centre. In maps of
+ * odd size, up is then a texel centre, and light from the sky on level ground needs no interpolation. */
 #ifndef SDFGI_OCTAHEDRAL_GLSL
 #define SDFGI_OCTAHEDRAL_GLSL
 
@@ -39,8 +38,8 @@ float sdfgi_octahedral_solid_angle(vec3 point)
     return 1.0 / (r2 * sqrt(r2));
 }
 
-/* The texel of an n x n map whose value the border texel `coord` in [-1, n] repeats: across an edge the map
- * continues mirrored along that edge, at a corner it meets the opposite corner. */
+/* The texel of an n x n map that has the value of the border texel `coord` in [-1, n]. Beyond an edge the map
+ * continues mirrored along that edge; beyond a corner it continues at the opposite corner. */
 ivec2 sdfgi_octahedral_border_source(ivec2 coord, int n)
 {
     const bool outside_x = coord.x < 0 || coord.x >= n;

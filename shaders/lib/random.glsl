@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Integer hashing and a low-discrepancy sequence. No state, no clock. */
+ * Integer hashes and a low-discrepancy sequence, as pure functions. */
 #ifndef SDFGI_RANDOM_GLSL
 #define SDFGI_RANDOM_GLSL
 
@@ -17,8 +17,8 @@ uint sdfgi_random_hash3(ivec3 v, uint seed)
         uint(v.x) + sdfgi_random_hash(uint(v.y) + sdfgi_random_hash(uint(v.z) + sdfgi_random_hash(seed))));
 }
 
-/* Point `index` of the R2 sequence (Roberts 2018) shifted by a hash, in [0, 1)^2. Fixed point, so that it
- * never loses precision however large the index. */
+/* Point `index` of the R2 sequence (Roberts 2018), shifted by a hash, in [0, 1)^2. It is computed in fixed
+ * point, because floats lose precision as the index grows. */
 vec2 sdfgi_random_r2(uint index, uint shift)
 {
     const uvec2 p = uvec2(3242174889u, 2447445414u) * index + uvec2(shift, sdfgi_random_hash(shift));

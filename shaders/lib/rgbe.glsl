@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * RGB9E5 shared exponent colours (Vulkan specification, "Shared Exponent to RGB"). Exponents are taken from
- * the float's bits: log2 may be off by one at powers of two. */
+ * RGB9E5 shared exponent colours (Vulkan specification, "Shared Exponent to RGB"). The exponent comes from
+ * the bits of a float, because log2 may be off by one at powers of two. */
 #ifndef SDFGI_RGBE_GLSL
 #define SDFGI_RGBE_GLSL
 
@@ -11,7 +11,7 @@ float sdfgi_rgbe_exp2(int e)
     return uintBitsToFloat(uint(e + 127) << 23);
 }
 
-/* Not-a-number and negative values become 0, larger ones the largest. */
+/* NaN and negative values become 0; values above the largest become the largest. */
 vec3 sdfgi_rgbe_clamp(vec3 color)
 {
     return vec3(color.r > 0.0 ? min(color.r, SDFGI_RGBE_MAX) : 0.0,
@@ -19,9 +19,9 @@ vec3 sdfgi_rgbe_clamp(vec3 color)
                 color.b > 0.0 ? min(color.b, SDFGI_RGBE_MAX) : 0.0);
 }
 
-/* `rounding` in [0, 1) is added before the mantissas are cut: 0.5 rounds to nearest, a hash rounds without
- * bias over many values, so that light which grows in small steps does not stall below them (HARD_CASES row
- * 30). */
+/* `rounding` in [0, 1) is added before the mantissas are truncated. 0.5 rounds to nearest. A hash rounds
+ * without bias over many values, so that light which grows in steps smaller than a mantissa's unit does not
+ * stall (HARD_CASES row 30). */
 uint sdfgi_rgbe_encode_rounded(vec3 color, float rounding)
 {
     const vec3 c = sdfgi_rgbe_clamp(color);

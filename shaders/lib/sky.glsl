@@ -8,9 +8,9 @@ vec3 sdfgi_sky_radiance(vec3 dir, vec3 zenith, vec3 horizon, vec3 ground)
     return mix(horizon, dir.y >= 0.0 ? zenith : ground, abs(dir.y));
 }
 
-/* Share of a cosine-weighted hemisphere around a normal of height y that the upward ramp max(0, d.y) fills:
- * exact at y = 1 (2/3), 0 (2 / (3 pi)) and -1 (0), a parabola between, at most 0.006 off (compared with
- * quadrature). */
+/* Mean of max(0, d.y) over the directions d of a hemisphere, weighted by the cosine to its normal, where y is
+ * the normal's y. A parabola through the exact values at y = 1 (2/3), 0 (2 / (3 pi)) and -1 (0); quadrature
+ * differs by at most 0.006. */
 float sdfgi_sky_ramp(float y)
 {
     return 0.212207 + y * (0.333333 + y * 0.121126);

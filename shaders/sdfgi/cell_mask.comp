@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Which of the eight probes of its cage each light cell sees: a ray through the solid bits to each. Eight
- * threads per light cell in a renewed block: nothing new touches the cages of the others. */
+ * The visibility bits of light cells: which of the eight probes of its cage a cell sees, found by a ray to
+ * each. Eight threads per light cell in a dirty block. No dirty box touches the cages of the other light
+ * cells, so they see what they saw before. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
@@ -18,7 +19,7 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly 
 };
 
 const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
-shared uint masks[CELLS];
+shared uint visibility_bits[CELLS];
 
 bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 {
@@ -31,21 +32,21 @@ bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = light_group() * CELLS + lane / 8u;
+    const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = light_workgroup() * CELLS + lane / 8u;
     const bool listed = n < sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] &&
                         sdfgi_scratch[light_dirty_slot(n)] < sdfgi_frame.light_cell_room;
     const ivec3 cell =
-        light_cell_position(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);
+        light_cell_from_index(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
     const uint index = sdfgi_cell_index(args.cascade, cell), shift = 8u * (index & 3u);
     if (k == 0u)
-        masks[lane / 8u] = 0u;
+        visibility_bits[lane / 8u] = 0u;
     barrier();
     if (listed && sees(cell, cage, ivec3(k & 1u, k >> 1u & 1u, k >> 2u)))
-        atomicOr(masks[lane / 8u], 1u << k);
+        atomicOr(visibility_bits[lane / 8u], 1u << k);
     barrier();
     if (!listed || k > 0u)
         return;
     atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << shift));
-    atomicOr(sdfgi_masks[index >> 2u], masks[lane / 8u] << shift);
+    atomicOr(sdfgi_masks[index >> 2u], visibility_bits[lane / 8u] << shift);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What became new in this frame: boxes of cells per cascade, those that left included. */
+ * The dirty boxes of a cascade: boxes of cells that a change completes in this frame. After a scroll they
+ * include the slabs that left the cascade, which lie outside it. */
 #ifndef SDFGI_DIRTY_GLSL
 #define SDFGI_DIRTY_GLSL
 
@@ -10,7 +11,7 @@ int dirty_count(uint cascade)
     return sdfgi_frame.cascades[cascade].dirty_count;
 }
 
-/* True if a box [low, high] comes within `margin` cells of anything new. */
+/* True if the box [low, high] comes within `margin` cells of a dirty box. */
 bool dirty_near(uint cascade, ivec3 low, ivec3 high, int margin)
 {
     for (int i = 0; i < dirty_count(cascade); i++)
@@ -20,8 +21,8 @@ bool dirty_near(uint cascade, ivec3 low, ivec3 high, int margin)
     return false;
 }
 
-/* True for cells that are new or left. */
-bool dirty_holds(uint cascade, ivec3 cell)
+/* True if a dirty box contains the cell. */
+bool dirty_contains(uint cascade, ivec3 cell)
 {
     for (int i = 0; i < dirty_count(cascade); i++)
         if (all(greaterThanEqual(cell, sdfgi_frame.cascades[cascade].dirty[i].low)) &&
@@ -30,8 +31,8 @@ bool dirty_holds(uint cascade, ivec3 cell)
     return false;
 }
 
-/* From `pos` in cell space to the nearest box, widened by `margin` cells, in cell widths; 1e10 where nothing
- * is new. */
+/* Distance from `pos` in cell space to the nearest dirty box, widened by `margin` cells, in cell widths; 1e10
+ * if there is no dirty box. */
 float dirty_distance(uint cascade, vec3 pos, float margin)
 {
     float nearest = 1e10;
@@ -43,7 +44,7 @@ float dirty_distance(uint cascade, vec3 pos, float margin)
     return nearest;
 }
 
-/* True if a ray from `pos` along `dir` (both in cell space) passes anything new, by less than `margin` cells,
+/* True if a ray from `pos` along `dir` (both in cell space) crosses a dirty box, widened by `margin` cells,
  * before parameter `end`. */
 bool dirty_crosses(uint cascade, vec3 pos, vec3 dir, float end, float margin)
 {

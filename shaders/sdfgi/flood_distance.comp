@@ -17,7 +17,7 @@ void main()
 {
     /* Cascades scroll by multiples of 8 cells, so that the texels of a pair of cells share a word. */
     const ivec3 cell = ivec3(gl_GlobalInvocationID) * ivec3(2, 1, 1);
-    if (!sdfgi_cell_inside(cell))
+    if (!sdfgi_cell_is_inside(cell))
         return;
     const uint low = encode_distance(cell), high = encode_distance(cell + ivec3(1, 0, 0));
     sdfgi_distances[sdfgi_cell_index(args.cascade, cell) >> 1u] = low | high << 16u;

@@ -9,7 +9,7 @@
 uint neighbour(ivec3 cell, ivec3 offset)
 {
     const ivec3 other = cell + offset * int(args.jump);
-    return sdfgi_cell_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
+    return sdfgi_cell_is_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
 }
 
 /* The nearest of the sub-voxels that the cell and its neighbours point at. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Indirect diffuse irradiance for a whole screen from depth and normals. One thread per pixel. */
+ * Indirect diffuse irradiance of a whole picture, from its depths and normals. A thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../include/sdfgi.glsl"
@@ -12,7 +12,8 @@ layout(push_constant) uniform sdfgi_push
 };
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_DEPTH) uniform sampler2D depth_image;
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_NORMAL) uniform sampler2D normal_image;
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_OUTPUT, rgba16f) uniform writeonly image2D output_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_OUTPUT,
+       rgba16f) uniform writeonly image2D output_image;
 
 void main()
 {
@@ -27,6 +28,7 @@ void main()
                                       args.inverse_view_projection[2], args.inverse_view_projection[3]);
         const vec4 position = to_position * vec4(ndc, depth, 1.0);
         const vec3 normal = normalize(texelFetch(normal_image, pixel, 0).xyz);
+        /* A point on the near plane: the vector to it leads towards the viewer. */
         const vec4 near = to_position * vec4(ndc, 1.0 - args.background_depth, 1.0);
         const vec3 pos = position.xyz / position.w;
         irradiance = sdfgi_irradiance(pos, normal, near.xyz / near.w - pos);

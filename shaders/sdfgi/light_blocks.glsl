@@ -1,30 +1,37 @@
 /* SPDX-License-Identifier: MIT
- * The scratch buffer while light cells are listed. Blocks are 4^3 texels, numbered by where they are stored,
- * so that a cascade that scrolled here lists what one built here lists; a block is *renewed* if something new
- * touches its cage. Zero at first, but for direct light and entries. per block  a bit per light cell, x + 4 y
- * + 16 z, in two words; 1 if it is renewed; where its cells began in the list before per row    of
- * SDFGI_GROUP_LINEAR blocks: how many cells it has, and how many in renewed blocks per entry  of the list
- * before, its direct light per cell   in a renewed block, in the order of the list, its entry and its texel
- * index */
+ * Light blocks, and the scratch buffer while the list of light cells is made again. Light blocks are 4^3
+ * texels. They are numbered by where they are stored, so that the list of a cascade that has scrolled to a
+ * place is the same as that of one built there. A block is dirty if its cage touches a dirty box.
+ *
+ * In the scratch buffer (shared/scratch.h has the offsets):
+ *
+ * - per block four words: two with a bit per light cell, x + 4 y + 16 z; 1 if the block is dirty; and
+ *   otherwise the first entry of its cells in the previous list;
+ * - per row of SDFGI_GROUP_LINEAR blocks two words: how many light cells it has, and how many in dirty
+ * blocks;
+ * - per entry of the previous list two words: its direct light;
+ * - per light cell in a dirty block, in the order of the list, two words: its entry and its texel index.
+ *
+ * The host clears blocks and rows to 0 before light_mark. */
 #ifndef SDFGI_LIGHT_BLOCKS_GLSL
 #define SDFGI_LIGHT_BLOCKS_GLSL
 
 #include "light_cells.glsl"
 
-uint light_block_bits()
+uint light_block_side_bits()
 {
     return sdfgi_frame.resolution_log2 - 2u;
 }
 
 uint light_block_from_coords(uvec3 block)
 {
-    const uint bits = light_block_bits();
+    const uint bits = light_block_side_bits();
     return block.x | block.y << bits | block.z << (2u * bits);
 }
 
 uvec3 light_block_coords(uint block)
 {
-    const uint bits = light_block_bits(), mask = (1u << bits) - 1u;
+    const uint bits = light_block_side_bits(), mask = (1u << bits) - 1u;
     return uvec3(block & mask, block >> bits & mask, block >> (2u * bits));
 }
 
@@ -36,7 +43,7 @@ uint light_block_slot(uint block)
 
 uint light_block_count()
 {
-    return 1u << (3u * light_block_bits());
+    return 1u << (3u * light_block_side_bits());
 }
 
 uint light_row_count()
@@ -50,26 +57,26 @@ uint light_row_slot(uint row)
     return sdfgi_scratch_light_rows(sdfgi_frame.resolution_log2) + 2u * row;
 }
 
-/* First of the two words of direct light that an entry of the list before had. */
-uint light_before_slot(uint entry)
+/* First of the two words with the direct light of an entry of the previous list. */
+uint light_previous_slot(uint entry)
 {
     return sdfgi_scratch_light_before(sdfgi_frame.resolution_log2) + 2u * entry;
 }
 
-/* The entry of the n-th cell in renewed blocks, then its texel index. */
+/* First of the two words of the n-th light cell in dirty blocks. */
 uint light_dirty_slot(uint n)
 {
     return sdfgi_scratch_light_dirty(sdfgi_frame.resolution_log2, sdfgi_frame.light_cell_room) + 2u * n;
 }
 
-/* Where there are more workgroups than fit a row. */
-uint light_group()
+/* The number of this workgroup. Indirect dispatches spread over y what exceeds SDFGI_MAX_GROUPS along x. */
+uint light_workgroup()
 {
     return gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
 }
 
-/* The n-th entry of the cells in dirty blocks, or of the range [first, end). Returns false if there is none.
- */
+/* Finds the n-th entry to light: of the light cells in dirty blocks, or of the range [first, end). False if
+ * there is none. */
 bool light_entry(uint cascade, bool only_dirty, uint first, uint end, uint n, out uint entry)
 {
     const uint count =

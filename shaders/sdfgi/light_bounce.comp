@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * Outgoing radiance of each light cell: direct light, emission, and what the probes bring from everywhere
- * else. One thread per light cell of those that args name, in the cascade gl_WorkGroupID.y above
- * args.cascade. */
+ * Outgoing radiance of each light cell, per axis along which a surface faces: direct light, the surface's
+ * emission, and the irradiance from the probes times bounce gain. A thread per light cell that args names, in
+ * the cascade args.cascade + gl_WorkGroupID.y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #include "light_blocks.glsl"
-#include "../include/sdfgi_lookup.glsl"
+#include "bounce.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -14,7 +14,7 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_light_bounce_args args;
 };
 
-/* Feedback times albedo, kept contractive so that light in a closed white room stays finite. */
+/* Albedo times feedback, capped below 1 so that light in a closed white room stays finite. */
 vec3 bounce_gain(vec3 albedo)
 {
     const vec3 gain = albedo * sdfgi_frame.bounce_feedback;
@@ -30,22 +30,22 @@ void main()
     if (!light_entry(cascade, args.only_dirty != 0u, args.first, args.end, gl_GlobalInvocationID.x, entry))
         return;
     const uint slot = light_cell_slot(cascade, entry);
-    const ivec3 cell = light_cell_position(cascade, sdfgi_light_cells[slot]);
-    if (!sdfgi_cell_served(cascade, cell))
+    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[slot]);
+    if (!sdfgi_cell_is_valid(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
-    const uint mask = sdfgi_cell_mask(cascade, cell);
+    const uint visibility_bits = sdfgi_cell_visibility_bits(cascade, cell);
 
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++)
         axes[a] = vec3(0.0);
     for (uint rest = facing; rest != 0u; rest &= rest - 1u) {
         const uint a = uint(findLSB(rest));
-        const uint block = surface_block(cascade, cell - surface_axis_step(a));
+        const uint block = surface_block_index(cascade, cell - surface_axis_direction(a));
         axes[a] = sdfgi_light_unpack_axis(direct, a) + surface_emission(block, a);
         if (args.without_probes == 0u) {
-            const vec4 sum = sdfgi_lookup_light_cell(cascade, cell, surface_normal(block, a), mask);
+            const vec4 sum = bounce_light_cell(cascade, cell, surface_normal(block, a), visibility_bits);
             axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
         }
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The list of light cells: empty cells next to occupied ones. Three words each: where it is (texel index),
- * then the direct light packed as in lib/light_pack.glsl. */
+ * The list of light cells: empty cells with an occupied face neighbour. An entry has three words: the cell's
+ * texel index, then its direct light as lib/light_pack.glsl packs it. */
 #ifndef SDFGI_LIGHT_CELLS_GLSL
 #define SDFGI_LIGHT_CELLS_GLSL
 
@@ -18,7 +18,7 @@ uint light_cell_count(uint cascade)
     return min(sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + cascade], sdfgi_frame.light_cell_room);
 }
 
-/* Fixed for a place in the world, whatever texel holds it. */
+/* Depends only on the cell's place in the world, and not on the texel that stores it. */
 uint light_cell_hash(uint cascade, ivec3 cell)
 {
     const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;
@@ -31,7 +31,8 @@ uint light_cell_slot(uint cascade, uint entry)
     return 3u * (cascade * sdfgi_frame.light_cell_room + entry);
 }
 
-ivec3 light_cell_position(uint cascade, uint index)
+/* The local cell with a texel index. */
+ivec3 light_cell_from_index(uint cascade, uint index)
 {
     return sdfgi_cell_from_texel(cascade, sdfgi_texel_from_index(index));
 }
@@ -47,14 +48,14 @@ void light_cell_store_direct(uint slot, uvec2 light)
     sdfgi_light_cells[slot + 2u] = light.y;
 }
 
-/* Whether the cell behind an axis is solid, so that a surface faces along it. */
+/* True if a surface of the cell faces along an axis: the neighbour behind it is occupied. */
 bool light_cell_faces(uint cascade, ivec3 cell, uint axis)
 {
-    const ivec3 behind = cell - surface_axis_step(axis);
-    return sdfgi_cell_served(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
+    const ivec3 behind = cell - surface_axis_direction(axis);
+    return sdfgi_cell_is_valid(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
 }
 
-/* Bit per axis along which a surface faces. */
+/* A bit per axis along which a surface faces. */
 uint light_cell_facing(uint cascade, ivec3 cell)
 {
     uint facing = 0u;
@@ -64,8 +65,8 @@ uint light_cell_facing(uint cascade, ivec3 cell)
     return facing;
 }
 
-/* Axes along which no surface faces take the mean of those along which one does: a hit on the side of a
- * sub-voxel step then reads the slope's light instead of black. */
+/* Gives axes along which no surface faces the mean of the others. A ray may hit a sub-voxel of a slope on a
+ * side along which the slope does not face, and then reads the slope's light instead of black. */
 void light_fill_axes(uint facing, inout vec3 axes[6])
 {
     vec3 mean = vec3(0.0);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * Direct light on the surfaces behind each light cell: sun, point and spot lights with traced shadows,
- * reflected by the surface's albedo, one value per axis along which a surface faces. A thread per axis of
- * each light cell that args name finds out which lights arrive; then all threads of a workgroup share out the
- * shadow rays from its cells to those lights, so that none follows several while others wait. Lights are
- * added in their order. Shared memory: 4 KiB. */
+ * Direct light on the surfaces around each light cell: sun, point and spot lights with traced shadows,
+ * reflected by the surface's albedo, one value per axis along which a surface faces.
+ *
+ * A thread per axis of each light cell finds the lights that would light its surface. All threads of the
+ * workgroup then share the shadow rays from its cells to those lights; if each thread traced its own rays,
+ * most would wait for the one with the most. A surface adds its lights in the order of the light list, so
+ * that sums do not depend on which thread traces which ray. Shared memory: 4 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
@@ -21,18 +23,20 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHTS) readonly bu
 
 const float PI = 3.14159265;
 const uint CELLS = uint(SDFGI_CELLS_OF_SURFACES);
-const uint ROUND = 32u; /* lights at once, a bit each */
+const uint BATCH = 32u; /* lights at once, a bit each */
 
 shared ivec3 cells[CELLS];
 shared uint facing[CELLS];
-shared uint arriving[CELLS],
-    reaching[CELLS];             /* bits of a round's lights: those whose light would arrive, and that does */
-shared uint rays[CELLS * ROUND]; /* a cell's place here times ROUND, plus a light's in the round */
+/* Bits of the batch's lights: those that would light a surface of the cell, and those in whose light the cell
+ * is. */
+shared uint candidates[CELLS], unshadowed[CELLS];
+shared uint rays[CELLS * BATCH]; /* a cell's index in `cells` times BATCH, plus a light's in the batch */
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
-/* Irradiance that a light sends to `position` on a surface that faces it, and the way to it. Inside half a
- * cell the inverse square is cut off: a voxelised surface is no closer than that (HARD_CASES row 47). */
+/* Irradiance of a light at `position`, on a surface that faces it; the direction to the light, and its
+ * distance in metres. The inverse square stops growing within half a cell, because the place of a voxelised
+ * surface is not known more closely (HARD_CASES row 47). */
 vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, out float range)
 {
     if ((light.kind & 3u) == SDFGI_LIGHT_KIND_DIRECTIONAL) {
@@ -40,10 +44,10 @@ vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, 
         range = 1e9;
         return light.intensity;
     }
-    const vec3 way = light.position - position;
+    const vec3 offset = light.position - position;
     const float floor_m = 0.5 * sdfgi_frame.cascades[args.cascade].cell_m;
-    range = length(way);
-    to_light = range > 0.0 ? way / range : vec3(0.0, 1.0, 0.0);
+    range = length(offset);
+    to_light = range > 0.0 ? offset / range : vec3(0.0, 1.0, 0.0);
     if (light.range_m > 0.0 && range > light.range_m)
         return vec3(0.0);
     float cone = 1.0;
@@ -61,25 +65,25 @@ struct surface {
     uint block;
 };
 
-/* Shadows are traced from a cell's centre, which is in the open; light arrives at the surface before it. */
+/* Light is computed at the surface. Shadow rays start at the cell's centre instead, which is in the open. */
 surface surface_behind(ivec3 cell, uint axis)
 {
-    const ivec3 step = surface_axis_step(axis);
+    const ivec3 step = surface_axis_direction(axis);
     const float depth = clamp(sdfgi_cell_distance(args.cascade, cell), 0.5, 1.0);
-    const uint block = surface_block(args.cascade, cell - step);
+    const uint block = surface_block_index(args.cascade, cell - step);
     const vec3 position = sdfgi_position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
     return surface(position, surface_normal(block, axis), block);
 }
 
-vec3 light_on(uint light, surface s)
+vec3 light_on_surface(uint light, surface s)
 {
     vec3 to_light;
     float range;
-    const vec3 full = light_arriving(sdfgi_lights[light], s.position, to_light, range);
-    return full * max(dot(s.normal, to_light), 0.0);
+    const vec3 facing_light = light_arriving(sdfgi_lights[light], s.position, to_light, range);
+    return facing_light * max(dot(s.normal, to_light), 0.0);
 }
 
-bool light_reaches(ivec3 cell, uint light)
+bool is_unshadowed(ivec3 cell, uint light)
 {
     const vec3 pos = vec3(cell) + 0.5;
     vec3 to_light;
@@ -90,59 +94,58 @@ bool light_reaches(ivec3 cell, uint light)
                 .hit;
 }
 
-/* Bits of the lights from `first` on that would light a surface. */
-uint find_arriving(uint first, uint count, surface s)
+/* A bit per light from `first` on that would light a surface if nothing stood between them. */
+uint find_candidates(uint first, uint count, surface s)
 {
     uint bits = 0u;
     for (uint i = 0u; i < count; i++)
-        if (any(greaterThan(light_on(first + i, s), vec3(0.0))))
+        if (any(greaterThan(light_on_surface(first + i, s), vec3(0.0))))
             bits |= 1u << i;
     return bits;
 }
 
-/* A cell's lights that cast no shadows reach it; to the others there are rays. */
+/* Lists a shadow ray from a cell to each of its candidates. A light that casts no shadows needs none. */
 void list_rays(uint own, uint axis, uint first)
 {
-    for (uint i = axis; i < ROUND; i += 6u) {
-        if ((arriving[own] >> i & 1u) == 0u)
+    for (uint i = axis; i < BATCH; i += 6u) {
+        if ((candidates[own] >> i & 1u) == 0u)
             continue;
         if ((sdfgi_lights[first + i].kind & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
-            rays[atomicAdd(ray_count, 1u)] = own * ROUND + i;
+            rays[atomicAdd(ray_count, 1u)] = own * BATCH + i;
         else
-            atomicOr(reaching[own], 1u << i);
+            atomicOr(unshadowed[own], 1u << i);
     }
 }
 
-/* What a round's lights bring to the surface that is this thread's, if there is one. Called by the whole
- * workgroup. */
-vec3 light_round(uint first, uint own, uint axis, bool faces, surface s)
+/* Irradiance of a batch of lights on this thread's surface, if it has one. Called by the whole workgroup. */
+vec3 light_from_batch(uint first, uint own, uint axis, bool faces, surface s)
 {
-    const uint count = min(sdfgi_frame.light_count - first, ROUND);
+    const uint count = min(sdfgi_frame.light_count - first, BATCH);
     barrier();
     if (axis == 0u)
-        arriving[own] = reaching[own] = 0u;
+        candidates[own] = unshadowed[own] = 0u;
     if (gl_LocalInvocationIndex == 0u)
         ray_count = 0u;
     barrier();
-    const uint bits = faces ? find_arriving(first, count, s) : 0u;
+    const uint bits = faces ? find_candidates(first, count, s) : 0u;
     if (bits != 0u)
-        atomicOr(arriving[own], bits);
+        atomicOr(candidates[own], bits);
     barrier();
     list_rays(own, axis, first);
     barrier();
-    /* Rays of one subgroup wait for each other: fewer than there are threads go to threads as far apart as
-     * can be. */
-    const uint apart = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
-    for (uint i = gl_LocalInvocationIndex; i < ray_count * apart; i += SDFGI_GROUP_SURFACES) {
-        const uint cell = rays[i / apart] / ROUND, light = rays[i / apart] % ROUND;
-        if (i % apart == 0u && light_reaches(cells[cell], first + light))
-            atomicOr(reaching[cell], 1u << light);
+    /* The rays of a subgroup wait for each other. If there are fewer rays than threads, they are spread over
+     * the threads evenly, and so over as many subgroups as possible. */
+    const uint threads_per_ray = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
+    for (uint i = gl_LocalInvocationIndex; i < ray_count * threads_per_ray; i += SDFGI_GROUP_SURFACES) {
+        const uint cell = rays[i / threads_per_ray] / BATCH, light = rays[i / threads_per_ray] % BATCH;
+        if (i % threads_per_ray == 0u && is_unshadowed(cells[cell], first + light))
+            atomicOr(unshadowed[cell], 1u << light);
     }
     barrier();
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < count; i++)
-        if ((bits & reaching[own] & 1u << i) != 0u)
-            sum += light_on(first + i, s);
+        if ((bits & unshadowed[own] & 1u << i) != 0u)
+            sum += light_on_surface(first + i, s);
     return sum;
 }
 
@@ -163,10 +166,10 @@ void main()
     const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
     uint entry;
     bool lit = light_entry(args.cascade, args.only_dirty != 0u, args.first, args.end,
-                           light_group() * CELLS + own, entry);
+                           light_workgroup() * CELLS + own, entry);
     const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
-    const ivec3 cell = light_cell_position(args.cascade, sdfgi_light_cells[slot]);
-    lit = lit && sdfgi_cell_served(args.cascade, cell);
+    const ivec3 cell = light_cell_from_index(args.cascade, sdfgi_light_cells[slot]);
+    lit = lit && sdfgi_cell_is_valid(args.cascade, cell);
     if (axis == 0u) {
         cells[own] = cell;
         facing[own] = 0u;
@@ -177,8 +180,8 @@ void main()
         atomicOr(facing[own], 1u << axis);
     const surface s = surface_behind(cell, axis);
     vec3 sum = vec3(0.0);
-    for (uint first = 0u; first < sdfgi_frame.light_count; first += ROUND)
-        sum += light_round(first, own, axis, faces, s);
+    for (uint first = 0u; first < sdfgi_frame.light_count; first += BATCH)
+        sum += light_from_batch(first, own, axis, faces, s);
     reflected[own][axis] = faces ? sum * surface_albedo(s.block) / PI : vec3(0.0);
     barrier();
     if (lit && axis == 0u)

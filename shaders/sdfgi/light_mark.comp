@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * Marks the light cells, empty ones with an occupied face neighbour. In renewed blocks they are looked for,
- * and all others forget their light; in other blocks they are those of the list before, whose direct light is
- * taken out of it here. A thread per entry of the list before; workgroups share the blocks of 4^3 texels that
- * may be renewed, a thread per cell. */
+ * Marks the light cells of a cascade: empty cells with an occupied face neighbour. light_list then writes
+ * them into the list.
+ *
+ * In a dirty light block all cells are tested, and those that are no light cells lose their light. In
+ * every other block the light cells are those of the previous list; their direct light is copied from it,
+ * because light_list overwrites the list. The threads share the entries of the previous list. The workgroups
+ * share the dirty blocks, with a thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -21,40 +24,32 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly 
     uint sdfgi_indirect[];
 };
 
-shared uint mask[2];
+/* ---- Which blocks are dirty */
 
-/* In the list before, unclamped. */
-uint count_before()
+/* Number of light cells that the previous list counted. It is more than the list holds where it was too
+ * short. */
+uint previous_count()
 {
     return sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_CELLS) + args.cascade) + 3u];
 }
 
-bool is_light_cell(ivec3 cell)
+bool previous_was_too_short()
 {
-    const float distance = sdfgi_cell_distance(args.cascade, cell);
-    /* Further than this no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2) and the flood's
-     * 0.1. */
-    return distance < 1.6 && sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) &&
-           light_cell_facing(args.cascade, cell) != 0u;
+    return previous_count() > sdfgi_frame.light_cell_room;
 }
 
-void forget(uint index)
-{
-    sdfgi_light[index] = uvec2(0u);
-    atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << (8u * (index & 3u))));
-}
-
+/* The block of an entry of the previous list. */
 uint block_of_entry(uint entry)
 {
     const uint index = sdfgi_light_cells[light_cell_slot(args.cascade, entry)];
     return light_block_from_coords(sdfgi_texel_from_index(index) / SDFGI_GROUP_CELLS);
 }
 
-/* Where the list was too short, blocks from its last entry on may hold cells that have room this time. */
-bool lacked_room(uint block)
+/* A list that was too short lacks cells of its last entry's block and of all blocks after it. The list may
+ * have grown since, so these blocks are dirty. */
+bool previous_was_cut_before(uint block)
 {
-    const uint room = sdfgi_frame.light_cell_room;
-    return count_before() > room && block >= block_of_entry(room - 1u);
+    return previous_was_too_short() && block >= block_of_entry(sdfgi_frame.light_cell_room - 1u);
 }
 
 bool is_dirty(uint block)
@@ -63,112 +58,142 @@ bool is_dirty(uint block)
         sdfgi_cell_from_texel(args.cascade, 4u * light_block_coords(block)) / SDFGI_PROBE_SPACING;
     return args.rebuild != 0u ||
            dirty_near(args.cascade, cage * SDFGI_PROBE_SPACING, (cage + 1) * SDFGI_PROBE_SPACING, 0) ||
-           lacked_room(block);
+           previous_was_cut_before(block);
 }
 
-uint row_of(uint block)
+/* Without a usable previous list, or with one that was too short, any block may be dirty. */
+bool any_block_may_be_dirty()
 {
-    return light_row_slot(block / SDFGI_GROUP_LINEAR);
+    return args.rebuild != 0u || previous_was_too_short();
 }
 
-void keep_entry(uint entry)
-{
-    const uint count = min(count_before(), sdfgi_frame.light_cell_room);
-    if (args.rebuild != 0u || entry >= count)
-        return;
-    const uint block = block_of_entry(entry);
-    if (is_dirty(block))
-        return;
-    const uint slot = light_cell_slot(args.cascade, entry), before = light_before_slot(entry);
-    sdfgi_scratch[before] = sdfgi_light_cells[slot + 1u];
-    sdfgi_scratch[before + 1u] = sdfgi_light_cells[slot + 2u];
-    const uvec3 inside = sdfgi_texel_from_index(sdfgi_light_cells[slot]) & 3u;
-    const uint bit = inside.x | inside.y << 2u | inside.z << 4u;
-    atomicOr(sdfgi_scratch[light_block_slot(block) + (bit >> 5u)], 1u << (bit & 31u));
-    /* Its block's cells are one after another: their number is the last one's place less the first one's. */
-    if (entry == 0u || block_of_entry(entry - 1u) != block) {
-        sdfgi_scratch[light_block_slot(block) + 3u] = entry;
-        atomicAdd(sdfgi_scratch[row_of(block)], 0u - entry);
-    }
-    if (entry + 1u == count || block_of_entry(entry + 1u) != block)
-        atomicAdd(sdfgi_scratch[row_of(block)], entry + 1u);
-}
-
-/* Without a list before, or with one that was too short, any block may be renewed. */
-bool searches_all()
-{
-    return args.rebuild != 0u || count_before() > sdfgi_frame.light_cell_room;
-}
-
-/* Cells whose cages touch a box that changed. */
-void dirty_cells(int box, out ivec3 low, out ivec3 high)
+/* The cells whose cages touch a dirty box. */
+void cells_around_box(int box, out ivec3 low, out ivec3 high)
 {
     const ivec3 end = ivec3(sdfgi_space_resolution());
     low = clamp(sdfgi_frame.cascades[args.cascade].dirty[box].low - SDFGI_PROBE_SPACING, ivec3(0), end);
     high = clamp(sdfgi_frame.cascades[args.cascade].dirty[box].high + SDFGI_PROBE_SPACING, ivec3(0), end);
 }
 
-bool in_earlier_box(int box, ivec3 cell)
+bool is_around_earlier_box(int box, ivec3 cell)
 {
     for (int i = 0; i < box; i++) {
         ivec3 low, high;
-        dirty_cells(i, low, high);
+        cells_around_box(i, low, high);
         if (all(greaterThanEqual(cell, low)) && all(lessThan(cell, high)))
             return true;
     }
     return false;
 }
 
-/* The n-th of the blocks in question: those that boxes which changed name, box by box. False if it is not
- * renewed, or an earlier box has it; `more` is false beyond the last one. */
+/* Finds the n-th block that may be dirty: of all blocks, or else of the blocks around dirty boxes, box by
+ * box. Returns false if that block is not dirty, or belongs to an earlier box. `more` is false beyond the
+ * last one. */
 bool dirty_block(uint n, out uint block, out bool more)
 {
     block = n;
     more = false;
-    if (searches_all()) {
+    if (any_block_may_be_dirty()) {
         more = n < light_block_count();
         return more && is_dirty(n);
     }
     for (int i = 0; i < dirty_count(args.cascade); i++) {
         ivec3 low, high;
-        dirty_cells(i, low, high);
+        cells_around_box(i, low, high);
         const uvec3 size = uvec3(max(high - low, ivec3(0))) / 4u;
         const uint blocks = size.x * size.y * size.z;
         if (n < blocks) {
             const ivec3 cell = low + 4 * ivec3(n % size.x, n / size.x % size.y, n / (size.x * size.y));
             block = light_block_from_coords(sdfgi_cell_texel(args.cascade, cell) / 4u);
             more = true;
-            return !in_earlier_box(i, cell);
+            return !is_around_earlier_box(i, cell);
         }
         n -= blocks;
     }
     return false;
 }
 
-/* Called by the whole workgroup. */
+/* ---- Cells of the previous list */
+
+/* First word of the row that holds a block: the number of the row's light cells. */
+uint row_slot_of_block(uint block)
+{
+    return light_row_slot(block / SDFGI_GROUP_LINEAR);
+}
+
+/* Marks an entry of the previous list again, unless its block is dirty. */
+void keep_entry(uint entry)
+{
+    const uint count = min(previous_count(), sdfgi_frame.light_cell_room);
+    if (args.rebuild != 0u || entry >= count)
+        return;
+    const uint block = block_of_entry(entry);
+    if (is_dirty(block))
+        return;
+    const uint slot = light_cell_slot(args.cascade, entry), previous = light_previous_slot(entry);
+    sdfgi_scratch[previous] = sdfgi_light_cells[slot + 1u];
+    sdfgi_scratch[previous + 1u] = sdfgi_light_cells[slot + 2u];
+    const uvec3 inside = sdfgi_texel_from_index(sdfgi_light_cells[slot]) & 3u;
+    const uint bit = inside.x | inside.y << 2u | inside.z << 4u;
+    atomicOr(sdfgi_scratch[light_block_slot(block) + (bit >> 5u)], 1u << (bit & 31u));
+
+    /* The entries of a block are contiguous, so a block has last + 1 - first of them. The thread of its first
+     * entry subtracts `first` and the thread of its last one adds `last + 1`: two atomics per block instead
+     * of one per cell, in either order, because unsigned sums may wrap. */
+    const bool is_first = entry == 0u || block_of_entry(entry - 1u) != block;
+    const bool is_last = entry + 1u == count || block_of_entry(entry + 1u) != block;
+    if (is_first) {
+        sdfgi_scratch[light_block_slot(block) + 3u] = entry;
+        atomicAdd(sdfgi_scratch[row_slot_of_block(block)], 0u - entry);
+    }
+    if (is_last)
+        atomicAdd(sdfgi_scratch[row_slot_of_block(block)], entry + 1u);
+}
+
+/* ---- Cells of dirty blocks */
+
+shared uint found[2]; /* a bit per light cell of the workgroup's block */
+
+bool is_light_cell(ivec3 cell)
+{
+    const float distance = sdfgi_cell_distance(args.cascade, cell);
+    /* Beyond this distance no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2), and the
+     * flood's 0.1. The test spares the bits of most cells. */
+    return distance < 1.6 && sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) &&
+           light_cell_facing(args.cascade, cell) != 0u;
+}
+
+/* Clears the light and the visibility bits of a cell that is no light cell any more. */
+void clear_cell(uint index)
+{
+    sdfgi_light[index] = uvec2(0u);
+    atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << (8u * (index & 3u))));
+}
+
+/* Finds the light cells of a dirty block. Called by the whole workgroup, a thread per cell. */
 void mark_block(uint block)
 {
     const uint bit = gl_LocalInvocationIndex;
     if (bit < 2u)
-        mask[bit] = 0u;
+        found[bit] = 0u;
     barrier();
     const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
     const ivec3 cell = sdfgi_cell_from_texel(args.cascade, 4u * light_block_coords(block) + inside);
     const uint index = sdfgi_cell_index(args.cascade, cell);
     if (is_light_cell(cell))
-        atomicOr(mask[bit >> 5u], 1u << (bit & 31u));
+        atomicOr(found[bit >> 5u], 1u << (bit & 31u));
     else if (sdfgi_light[index] != uvec2(0u))
-        forget(index);
+        clear_cell(index);
     barrier();
-    const uint count = bitCount(mask[0]) + bitCount(mask[1]);
+    const uint count = bitCount(found[0]) + bitCount(found[1]);
     if (bit > 0u || count == 0u)
         return;
     const uint slot = light_block_slot(block);
-    sdfgi_scratch[slot] = mask[0];
-    sdfgi_scratch[slot + 1u] = mask[1];
+    sdfgi_scratch[slot] = found[0];
+    sdfgi_scratch[slot + 1u] = found[1];
     sdfgi_scratch[slot + 2u] = 1u;
-    atomicAdd(sdfgi_scratch[row_of(block)], count);
-    atomicAdd(sdfgi_scratch[row_of(block) + 1u], count);
+    atomicAdd(sdfgi_scratch[row_slot_of_block(block)], count);
+    atomicAdd(sdfgi_scratch[row_slot_of_block(block) + 1u], count);
 }
 
 void main()

@@ -83,7 +83,7 @@ void nearest_offer(ivec3 cell, ivec3 other, inout uint best, inout float best2)
  * up. */
 uint encode_nearest(float d2)
 {
-    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * sdfgi_distance_steps()), sdfgi_distance_reach())
+    return d2 < 1e29 ? min(uint(sqrt(d2) * (1.0 - 1e-6) * sdfgi_distance_units()), sdfgi_distance_reach())
                      : sdfgi_distance_reach();
 }
 

@@ -21,7 +21,7 @@ const uint TEXELS = uint(N * N);
 /* A ray takes the same steps as before if no dirty box is within this distance of it, in cells: the longest
  * step and its margin, because distances reach so far, and twice the distance from a ray to the centre of its
  * cell. */
-const float RAY_MARGIN = SDFGI_TRACE_KEPT_STEP + SDFGI_TRACE_MARGIN + 1.74;
+const float RAY_MARGIN = SDFGI_TRACE_STABLE_STEP + SDFGI_TRACE_MARGIN + 1.74;
 /* Cells: farthest that a probe stands from its corner. */
 const float MOST_MOVED = 4.0;
 
@@ -89,11 +89,9 @@ void find_texels(vec3 pos, bool all)
 /* `pos` counts from the probe's corner, so that it is rounded alike wherever the cascade stands. */
 float trace_depth(ivec3 corner, vec3 pos, uint texel)
 {
-    sdfgi_trace_way unused;
-    return min(sdfgi_trace_from(args.cascade, args.cascade, corner, pos, texel_direction(texel),
-                                SDFGI_OCCLUSION_RANGE, SDFGI_TRACE_KEPT_STEP, unused)
-                   .distance,
-               SDFGI_OCCLUSION_RANGE);
+    return min(
+        sdfgi_trace_stable(args.cascade, corner, pos, texel_direction(texel), SDFGI_OCCLUSION_RANGE).distance,
+        SDFGI_OCCLUSION_RANGE);
 }
 
 float depth_at(ivec2 coord)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What every pass of the library includes: push constants, counters and the resources only passes touch. */
+ * What every pass of the library includes: push constants, counters, and the buffers that several passes use
+ * but hosts do not bind. */
 #ifndef SDFGI_PASS_GLSL
 #define SDFGI_PASS_GLSL
 
@@ -8,7 +9,7 @@
 #include "../shared/counters.h"
 #include "../shared/scratch.h"
 
-/* Shared by several tenants, one after another: see shared/scratch.h. */
+/* Several groups of passes use this buffer in turn: see shared/scratch.h. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SCRATCH) buffer sdfgi_scratch_buffer
 {
     uint sdfgi_scratch[];

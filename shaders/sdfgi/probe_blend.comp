@@ -175,14 +175,15 @@ vec4 texel_display(texel t, vec3 displayed_before, float deviation)
     const vec3 target = mix(t.previous.rgb, t.estimate.rgb, k);
     const bool exact = cycle_ends() && t.change < INVISIBLE_CHANGE;
     const vec3 displayed = mix(displayed_before, target, exact ? 1.0 : DISPLAY_BLEND);
-    return vec4(displayed, texel_gain(displayed, t.estimate.rgb));
+    return sdfgi_irradiance_pack_gain(displayed, texel_gain(displayed, t.estimate.rgb));
 }
 
 void texel_publish(uint slot, texel t, uint state, float deviation)
 {
     const uint i = gl_LocalInvocationIndex;
-    const vec4 value = state == PROBE_STEADY ? texel_display(t, probe_load_irradiance(slot, i).rgb, deviation)
-                                             : vec4(t.estimate.rgb, -probe_confidence(t.estimate.w));
+    const vec4 value = state == PROBE_STEADY
+                           ? texel_display(t, probe_load_irradiance(slot, i).rgb, deviation)
+                           : sdfgi_irradiance_pack_confidence(t.estimate.rgb, probe_confidence(t.estimate.w));
     probe_store_irradiance(slot, i, value);
 }
 
@@ -221,7 +222,7 @@ void main()
     const uint cascade = gl_WorkGroupID.y;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(cascade, probe);
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return;
 
     const probe_history history = probe_history_load(slot);

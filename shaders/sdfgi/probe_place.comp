@@ -49,7 +49,7 @@ shared uint best_candidate;
 
 bool cell_empty(ivec3 cell)
 {
-    return !sdfgi_cell_inside(cell) || sdfgi_cell_bits(args.cascade, cell) == uvec2(0u);
+    return !sdfgi_cell_is_inside(cell) || sdfgi_cell_bits(args.cascade, cell) == uvec2(0u);
 }
 
 ivec3 candidate_offset(uint i)
@@ -62,7 +62,7 @@ ivec3 candidate_offset(uint i)
 int candidate_score(ivec3 corner, uint i)
 {
     const ivec3 offset = candidate_offset(i), cell = corner + offset;
-    if (i >= CANDIDATES || !sdfgi_cell_inside(cell) || sdfgi_cell_bits(args.cascade, cell) != uvec2(0u))
+    if (i >= CANDIDATES || !sdfgi_cell_is_inside(cell) || sdfgi_cell_bits(args.cascade, cell) != uvec2(0u))
         return NO_ROOM;
     const float moved = length(sdfgi_metric_from_cells(vec3(offset) + 0.5));
     const float score = min(sdfgi_cell_distance(args.cascade, cell), ENOUGH_ROOM) - MOVE_COST * moved -

@@ -9,7 +9,7 @@
 #define SDFGI_WRITES_IRRADIANCE
 #include "probe_common.glsl"
 #include "probe_store.glsl"
-#include "../include/sdfgi_lookup.glsl"
+#include "bounce.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform sdfgi_push
@@ -17,7 +17,7 @@ layout(push_constant) uniform sdfgi_push
     sdfgi_cascade_args args;
 };
 
-shared sdfgi_lookup_visibility visible;
+shared sdfgi_visibility visible;
 shared uint seen_by; /* a bit per probe of the coarser cage */
 
 /* Which of the eight probes around `pos` see it. Called by the whole workgroup. */
@@ -25,7 +25,7 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
 {
     const uint k = gl_LocalInvocationIndex;
     if (k < 8u) {
-        const ivec3 probe = cage + sdfgi_lookup_corner(int(k));
+        const ivec3 probe = cage + sdfgi_cage_corner(int(k));
         const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
         if (!sdfgi_probe_is_dead(state) &&
             sdfgi_trace_visible(cascade, pos, sdfgi_probe_position(probe, state)))
@@ -33,17 +33,17 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
     }
     barrier();
     if (k == 0u)
-        visible = sdfgi_lookup_from_mask(seen_by);
+        visible = sdfgi_visibility_from_bits(seen_by);
     barrier();
 }
 
 /* Sum of the trilinear weights of those probes that see a place. */
 float visible_weight(ivec3 cage, vec3 pos)
 {
-    const vec3 f = sdfgi_lookup_place(cage, pos);
+    const vec3 f = sdfgi_cage_coords(cage, pos);
     float weight = 0.0;
     for (int k = 0; k < 8; k++) {
-        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_lookup_corner(k)));
+        const vec3 t = mix(1.0 - f, f, vec3(sdfgi_cage_corner(k)));
         weight += t.x * t.y * t.z * visible.of_probe[k];
     }
     return weight;
@@ -52,7 +52,7 @@ float visible_weight(ivec3 cage, vec3 pos)
 /* Light in rgb, its weight among the samples of a cycle in a. */
 vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
 {
-    const vec4 sum = sdfgi_lookup_sum(coarser, cage, pos, normal, visible);
+    const vec4 sum = bounce_sum(coarser, cage, pos, normal, visible);
     if (sum.a <= 1e-6)
         return vec4(0.0);
     return vec4(sum.rgb / sum.a, visible_weight(cage, pos) * PROBE_SEED_FRACTION * probe_cycle_weight());
@@ -62,7 +62,7 @@ void store_seed(uint slot, uint texel, vec4 seed)
 {
     sdfgi_sums[probe_sums(slot) + texel] = vec4(0.0);
     probe_store_previous(slot, texel, seed.rgb, seed.a);
-    probe_store_irradiance(slot, texel, vec4(seed.rgb, -probe_confidence(seed.a)));
+    probe_store_irradiance(slot, texel, sdfgi_irradiance_pack_confidence(seed.rgb, probe_confidence(seed.a)));
 }
 
 void main()
@@ -82,7 +82,7 @@ void main()
     if (exists) {
         pos = sdfgi_cascade_from_first(
             coarser, sdfgi_first_from_cascade(args.cascade, sdfgi_probe_position(probe, state)));
-        cage = sdfgi_lookup_cage(coarser, pos);
+        cage = sdfgi_cage_of(coarser, pos);
         find_visible(coarser, cage, pos);
     }
     if (i < uint(SDFGI_IRRADIANCE_COUNT))

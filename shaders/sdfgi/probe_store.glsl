@@ -4,6 +4,7 @@
 #define SDFGI_PROBE_STORE_GLSL
 
 #include "probe_common.glsl"
+#include "../lib/irradiance_pack.glsl"
 
 /* Mean radiance and weight of the last cycle, four half floats. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_PREVIOUS) buffer sdfgi_previous_buffer
@@ -22,15 +23,14 @@ uint probe_texel(uint slot, uint texel)
 
 void probe_store_previous(uint slot, uint texel, vec3 mean, float weight)
 {
-    sdfgi_previous[probe_texel(slot, texel)] =
-        uvec2(packHalf2x16(mean.rg), packHalf2x16(vec2(mean.b, weight)));
+    sdfgi_previous[probe_texel(slot, texel)] = sdfgi_half4_encode(vec4(mean, weight));
 }
 
 /* Mean in rgb, weight in a. */
 vec4 probe_load_previous(uint slot, uint texel)
 {
     const uvec2 packed = sdfgi_previous[probe_texel(slot, texel)];
-    return vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
+    return sdfgi_half4_decode(packed);
 }
 
 /* How far a texel of this weight counts beside those of probes with a longer history. */
@@ -42,13 +42,13 @@ float probe_confidence(float weight)
 /* Irradiance of a texel, as sdfgi_lookup_stored reads it. */
 void probe_store_irradiance(uint slot, uint texel, vec4 value)
 {
-    sdfgi_irradiance_texels[probe_texel(slot, texel)] = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
+    sdfgi_irradiance_texels[probe_texel(slot, texel)] = sdfgi_half4_encode(value);
 }
 
 vec4 probe_load_irradiance(uint slot, uint texel)
 {
     const uvec2 halves = sdfgi_irradiance_texels[probe_texel(slot, texel)];
-    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+    return sdfgi_half4_decode(halves);
 }
 
 #endif

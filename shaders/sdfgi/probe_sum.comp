@@ -82,7 +82,7 @@ void main()
         sdfgi_counters[SDFGI_COUNTER_RAYS_TRACED] = ray_queue_count();
         counter_add(SDFGI_COUNTER_TRACE_CAPS, ray_queue_capped());
     }
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return;
 
     const bool is_new = probe_history_state(probe_history_load(slot)) == PROBE_NEW;

@@ -43,7 +43,7 @@ bool ray_is_cached(uint code)
         return true;
     uint cascade;
     const ivec3 cell = ray_cell(code, cascade);
-    return sdfgi_cell_served(cascade, cell);
+    return sdfgi_cell_is_valid(cascade, cell);
 }
 
 #endif

@@ -23,7 +23,7 @@ bool needs_tracing(uint cascade, uint n, out uint ray)
         return false;
     const ivec3 probe = probe_from_linear(i);
     const uint slot = sdfgi_probe_index(cascade, probe);
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_served(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return false;
     ray = slot * sdfgi_frame.cycle_samples + sdfgi_frame.first_sample + n % rays;
     return !ray_is_cached(sdfgi_rays[ray]);

@@ -18,9 +18,9 @@ layout(push_constant) uniform sdfgi_push
 
 void clear_accumulators(ivec3 cell)
 {
-    const uint block = sdfgi_block_index(args.cascade, cell);
+    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
     for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
-        sdfgi_scratch[plane * sdfgi_block_count() + block] = 0u;
+        sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] = 0u;
 }
 
 /* Adds those of four cells that hold bits to the dirty bounds; `held` has a bit per cell. Volumes are

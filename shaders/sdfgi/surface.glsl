@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the volumes know of surfaces: albedo, emission and normals per block of 2x2x2 cells. A pass defines
- * SDFGI_WRITES_SURFACE to write them. */
+ * The properties of surfaces: one albedo, emission and set of normals per albedo block (2^3 cells). A pass
+ * defines SDFGI_WRITES_SURFACE to write them. */
 #ifndef SDFGI_SURFACE_GLSL
 #define SDFGI_SURFACE_GLSL
 
@@ -14,40 +14,45 @@
 #endif
 
 /* unorm8 RGB. */
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
 {
     uint sdfgi_albedo[];
 };
 
-/* x: RGB9E5 radiance, in units of the scene's brightest emission, that leaves the block on the side on which
- * it emits most, mean over all that is seen from there; y: per axis 5 bits, the share of that which leaves on
- * this side. */
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
+/* x: RGB9E5 mean radiance of the block, seen from the side on which it emits most, in units of the scene's
+ * brightest emission. y: 5 bits per axis, the fraction of that radiance which leaves along this axis. */
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
 {
     uvec2 sdfgi_emission[];
 };
 
-/* Mean normals of the triangles whose dominant axis is x, y or z: ten bits each, two slopes of 5 bits in [-1,
- * 1]; a first slope of 31 says there are none. */
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
+/* Three mean normals: of the triangles whose dominant axis is x, y and z. Each has ten bits, two slopes of 5
+ * bits in
+ * [-1, 1]. If there are no such triangles, the first slope is SURFACE_NO_NORMAL. */
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
 {
     uint sdfgi_normals[];
 };
 
 const uint SURFACE_NO_NORMAL = 31u;
 
-ivec3 surface_axis_step(uint axis)
+/* Unit vector of axis 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. */
+ivec3 surface_axis_direction(uint axis)
 {
     const uint major = axis >> 1u;
     return ivec3(major == 0u, major == 1u, major == 2u) * ((axis & 1u) == 0u ? 1 : -1);
 }
 
-/* Mean unit normal of class `axis` / 2 turned towards `axis`; false if the block has no such triangles. */
+/* Mean unit normal of the triangles whose dominant axis is `axis`, turned to that side. False if the block
+ * has no such triangles. */
 bool surface_class_normal(uint packed, uint axis, out vec3 normal)
 {
     const uint major = axis >> 1u;
     const uint slopes = packed >> (10u * major);
-    normal = vec3(surface_axis_step(axis));
+    normal = vec3(surface_axis_direction(axis));
     if ((slopes & 31u) == SURFACE_NO_NORMAL)
         return false;
     const vec2 slope = vec2(slopes & 31u, slopes >> 5u & 31u) / 15.0 - 1.0;
@@ -57,15 +62,15 @@ bool surface_class_normal(uint packed, uint axis, out vec3 normal)
     return true;
 }
 
-/* The normal of the surface that faces `axis` in a block: of the triangles that face this way most, else of
- * those of another class that lean towards it. */
+/* The normal of the surface that faces `axis` in a block: that of the triangles whose dominant axis it is, or
+ * else that of the triangles which lean towards it most. */
 vec3 surface_normal(uint block, uint axis)
 {
     const uint packed = sdfgi_normals[block];
     vec3 normal;
     if (surface_class_normal(packed, axis, normal))
         return normal;
-    const vec3 towards = vec3(surface_axis_step(axis));
+    const vec3 towards = vec3(surface_axis_direction(axis));
     vec3 best = towards;
     float best_height = 0.2;
     for (uint other = 0u; other < 6u; other += 2u) {
@@ -94,10 +99,10 @@ vec3 surface_emission(uint block, uint axis)
            sdfgi_frame.emission_scale;
 }
 
-/* Index of the block of a cell in these buffers. */
-uint surface_block(uint cascade, ivec3 cell)
+/* Index in these buffers of the albedo block that holds a cell. */
+uint surface_block_index(uint cascade, ivec3 cell)
 {
-    return sdfgi_block_index(cascade, cell) + cascade * sdfgi_block_count();
+    return sdfgi_albedo_block_index(cascade, cell) + cascade * sdfgi_albedo_block_count();
 }
 
 #endif

@@ -18,7 +18,7 @@ layout(push_constant) uniform sdfgi_push
 
 uint accumulated(uint plane, uint block)
 {
-    return sdfgi_scratch[plane * sdfgi_block_count() + block];
+    return sdfgi_scratch[plane * sdfgi_albedo_block_count() + block];
 }
 
 vec3 accumulated3(uint plane, uint block)
@@ -164,10 +164,10 @@ shared uint voxels;
 void resolve(ivec3 cell)
 {
     const uvec3 block_texel = sdfgi_cell_texel(args.cascade, cell) / 2u;
-    const uint block = sdfgi_block_index(args.cascade, cell);
+    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
-    const uint out_index = block + args.cascade * sdfgi_block_count();
+    const uint out_index = block + args.cascade * sdfgi_albedo_block_count();
     const vec3 albedo = accumulated3(SDFGI_ACCUM_ALBEDO, block) / (float(max(count, 1u)) * 255.0);
     sdfgi_albedo[out_index] = packUnorm4x8(vec4(albedo, 0.0));
     sdfgi_emission[out_index] = resolve_emission(block, block_texel);

@@ -280,7 +280,7 @@ surface_sample triangle_sample(triangle t, ivec2 column)
 void accumulate(uint plane, uint block, uint value)
 {
     if (value != 0u)
-        atomicAdd(sdfgi_scratch[plane * sdfgi_block_count() + block], value);
+        atomicAdd(sdfgi_scratch[plane * sdfgi_albedo_block_count() + block], value);
 }
 
 /* Sums are integers, so that they do not depend on the order of additions. */
@@ -361,7 +361,7 @@ void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s
         if (height > 0.2 || (height < -0.2 && (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u))
             facing |= 1u << axis;
     }
-    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_block_count() + block], facing);
+    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_albedo_block_count() + block], facing);
     if (bit < 32u)
         atomicOr(sdfgi_light[cell].x, 1u << bit);
     else
@@ -396,7 +396,7 @@ void triangle_store_column(triangle t, ivec2 column)
     const surface_sample s = triangle_sample(t, column);
     if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
         return;
-    const uint block = sdfgi_block_index(args.cascade, cell);
+    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
     if (emits)
         accumulate_emission(t, column, block, s);
     if (!set)

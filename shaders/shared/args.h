@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Push constants: the arguments of each pass, at most 128 bytes. pass_table.h says which struct a pass takes.
- */
+ * Push constants: the arguments of each pass, at most 128 bytes. pass_table.h names the struct of a pass. */
 #ifndef SDFGI_SHARED_ARGS_H
 #define SDFGI_SHARED_ARGS_H
 
@@ -13,13 +12,13 @@ struct sdfgi_cascade_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_cascade_args, 4);
 
-/* region_clear, voxel_resolve: a box of cells. */
+/* region_clear, voxel_resolve: a box of cells to make again. */
 struct sdfgi_region_args {
     ivec3 low; /* cells [low, high) */
     uint cascade;
     ivec3 high;
-    int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: nobody asks for bounds */
-    ivec3 before;    /* low corner of the cells whose storage the box takes over */
+    int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: no bounds are needed */
+    ivec3 before;    /* low corner of the cells whose texels the box takes over */
     uint padding_0;
 };
 SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
@@ -38,11 +37,11 @@ struct sdfgi_voxelize_args {
     uint box_low; /* low corner of the box of cells to fill, 10 bits per axis */
     uint cascade;
     uint triangle_count;
-    uint groups; /* of SDFGI_GROUP_TRIANGLE triangles */
+    uint groups; /* groups of SDFGI_GROUP_TRIANGLE triangles */
     uint slices; /* workgroups that share the columns of a group of triangles */
     uint material;
     uint flags;                            /* SDFGI_MESH_* */
-    uint position_offset, position_stride; /* in words, as all that follow */
+    uint position_offset, position_stride; /* in words, as all offsets and strides below */
     uint uv_offset, uv_stride;
     uint color_offset, color_stride;
     uint index_offset;
@@ -52,7 +51,7 @@ struct sdfgi_voxelize_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 128);
 
-/* distance_prepare: which blocks need new distances. */
+/* distance_prepare: which light blocks need new distances. */
 struct sdfgi_distance_prepare_args {
     uint cascade;
     uint first_block;                    /* along x */
@@ -79,21 +78,21 @@ SDFGI_ASSERT_SIZE(sdfgi_flood_args, 12);
 
 struct sdfgi_light_mark_args {
     uint cascade;
-    uint rebuild; /* 1: the list before holds nothing of use */
+    uint rebuild; /* 1: the previous list holds nothing of use */
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_mark_args, 8);
 
-/* Entries of the light list: those in dirty blocks, or a range. */
+/* Entries of the light list to light directly: those in dirty blocks, or a range. */
 struct sdfgi_light_direct_args {
     uint cascade;
     uint only_dirty; /* 1: cells in dirty blocks; 0: entries [first, end) */
     uint first, end;
-    uint threads_per_ray; /* at most */
+    uint threads_per_ray; /* threads over which a shadow ray is spread at most */
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 20);
 
 struct sdfgi_light_bounce_args {
-    uint cascade;    /* of workgroups with y = 0 */
+    uint cascade;    /* of workgroups with y = 0; the next one follows at y = 1, and so on */
     uint only_dirty; /* as in sdfgi_light_direct_args */
     uint first, end;
     uint without_probes; /* 1: no probe holds light */
@@ -102,7 +101,7 @@ SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 20);
 
 struct sdfgi_probe_blend_args {
     uint cycle_ends;      /* 1: this is the last frame of a sample cycle */
-    uint without_history; /* 1: no sample cycle has been completed since nothing was there */
+    uint without_history; /* 1: no sample cycle has been completed since the cascades were empty */
 };
 SDFGI_ASSERT_SIZE(sdfgi_probe_blend_args, 8);
 

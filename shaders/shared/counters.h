@@ -11,17 +11,17 @@
 #define SDFGI_COUNTER_TRACE_CAPS        3
 #define SDFGI_COUNTER_UNLIT_HITS        4
 #define SDFGI_COUNTER_RAYS_TRACED       5
-#define SDFGI_COUNTER_MAX_CHANGE                                                                             \
-    6 /* float bits: largest relative change of a probe texel over a sample cycle */
-#define SDFGI_COUNTER_MAX_IRRADIANCE 7 /* float bits: brightest probe texel of the last sample cycle */
-#define SDFGI_COUNTER_DEAD_PROBES    8
-#define SDFGI_COUNTER_VOXELS         9  /* sub-voxel samples that the voxeliser accepted */
-#define SDFGI_COUNTER_DISTANCE_CELLS 10 /* cells whose distances the exact search made again */
-#define SDFGI_COUNTER_SINGLE_COUNT   16 /* room for counters that are not per cascade */
-#define SDFGI_COUNTER_LIGHT_CELLS    16 /* per cascade, not clamped to the room in the list */
-#define SDFGI_COUNTER_LIGHT_DIRTY                                                                            \
-    24 /* per cascade, not clamped: light cells in dirty blocks when they were listed */
-#define SDFGI_COUNTER_COUNT 32
+#define SDFGI_COUNTER_MAX_CHANGE        6 /* float bits: largest relative change of a texel over a cycle */
+#define SDFGI_COUNTER_MAX_IRRADIANCE    7 /* float bits: brightest probe texel of the last sample cycle */
+#define SDFGI_COUNTER_DEAD_PROBES       8
+#define SDFGI_COUNTER_VOXELS            9  /* sub-voxel samples that the voxeliser accepted */
+#define SDFGI_COUNTER_DISTANCE_CELLS    10 /* cells whose distances the exact search made again */
+#define SDFGI_COUNTER_SINGLE_COUNT      16 /* room for counters that are not per cascade */
+/* Per cascade: light cells, and those in dirty blocks when they were listed. Neither is clamped to the room
+ * in the list. */
+#define SDFGI_COUNTER_LIGHT_CELLS 16
+#define SDFGI_COUNTER_LIGHT_DIRTY 24
+#define SDFGI_COUNTER_COUNT       32
 
 /* X(id, cleared, health): the counters that are not per cascade.
  *   cleared  CHANGE: in a frame that voxelises anything; CYCLE: then, and at the start of every sample cycle
@@ -39,12 +39,14 @@
     X(VOXELS, CHANGE, NONE)                                                                                  \
     X(DISTANCE_CELLS, CHANGE, NONE)
 
-/* Records of four words: three workgroup counts of an indirect dispatch, and a count of items. Passes that
- * run beside writers of the counters read the count here. CELLS   per cascade: one thread per dirty light
- * cell; the count is that of all listed cells, not clamped MASKS   per cascade: eight threads per dirty light
- * cell; the count is that of dirty cells DIRECT  per cascade: six threads per dirty light cell; no count RAYS
- * one thread per ray that this frame traces; the count is that of the rays; the word after the record counts
- *           rays that ran out of steps */
+/* Records of four words: the three workgroup counts of an indirect dispatch, and a number of items. Passes
+ * that run beside passes that write COUNTERS must read the number here.
+ *
+ * - CELLS, per cascade: one thread per dirty light cell. The number is that of all light cells, not clamped.
+ * - MASKS, per cascade: eight threads per dirty light cell. The number is that of dirty light cells.
+ * - DIRECT, per cascade: six threads per dirty light cell. No number.
+ * - RAYS: one thread per ray that this frame traces. The number is that of these rays. The word after the
+ *   record counts rays that ran out of steps. */
 #define SDFGI_INDIRECT_CELLS   0
 #define SDFGI_INDIRECT_MASKS   SDFGI_MAX_CASCADES
 #define SDFGI_INDIRECT_DIRECT  (2 * SDFGI_MAX_CASCADES)

@@ -6,7 +6,7 @@
 #include "types.h"
 #include "constants.h"
 
-/* Local cells [low, high) of a cascade. */
+/* Dirty box: local cells [low, high) of a cascade. */
 struct sdfgi_dirty_box {
     ivec3 low;
     uint padding_0;
@@ -32,13 +32,13 @@ struct sdfgi_cascade_params {
     int dirty_count; /* boxes in `dirty` */
     ivec3 valid_high;
     uint padding_3;
-    vec3 blend_low; /* blend region: cells [low, high) that lookups sample, inside the valid region. It
-                       follows the */
-    uint padding_4; /*   valid region smoothly, while that region changes in steps of SDFGI_PROBE_SPACING
-                       cells */
+    /* Blend region: cells [low, high) that lookups sample, inside the valid region. It follows the valid
+     * region smoothly, whereas that changes in steps of SDFGI_PROBE_SPACING cells. */
+    vec3 blend_low;
+    uint padding_4;
     vec3 blend_high;
     uint padding_5;
-    ivec3 kept_low;  /* cells [low, high) that were complete before this frame */
+    ivec3 kept_low;  /* cells [low, high) that were valid before this frame */
     int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: this change has no bounds */
     ivec3 kept_high;
     uint padding_6;
@@ -72,17 +72,17 @@ struct sdfgi_frame_params {
     uint light_cell_room; /* entries of the light list per cascade */
     uint visibility;      /* SDFGI_SHADER_VISIBILITY_* */
     uint seed;
-    uint rays_per_frame;   /* of a probe */
-    uint first_sample;     /* of this frame in the sample cycle */
-    uint cycle_samples;    /* in the sample cycle of a probe */
-    float brightest_texel; /* of all probes, in the newest cycle known */
+    uint rays_per_frame;   /* rays of a probe in a frame */
+    uint first_sample;     /* this frame's first sample in the sample cycle */
+    uint cycle_samples;    /* samples of a probe in a sample cycle */
+    float brightest_texel; /* of all probes, in the last sample cycle that the host has read back */
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 8 * 16);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */
     float range_m;  /* 0: unlimited */
-    vec3 direction; /* unit, the way light travels */
+    vec3 direction; /* unit vector in which light travels */
     float cos_outer;
     vec3 intensity;   /* W/sr or W/m^2, times exposure and indirect energy */
     float cone_scale; /* 1 / (cos inner - cos outer) */

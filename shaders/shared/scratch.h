@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * The scratch buffer. Its tenants follow one another within a frame, and each begins at word 0; no tenant
- * keeps anything for a later one. Offsets are in words (4 bytes). `bits` is the logarithm of the resolution
- * N.
+ * The scratch buffer. Its tenants use it in turn within a frame. Each begins at word 0, and none keeps
+ * anything for a later one. Offsets are in words (4 bytes); `bits` is the logarithm of the resolution N.
  *
- *   tenant           passes                                      holds
- *   accumulators     region_clear, voxelize, voxel_resolve       SDFGI_ACCUM_PLANES planes of a word per
- * albedo block distance search  distance_prepare, _plane, _exact            planes, runs, layers and dirty
- * blocks (occupancy.glsl) flood            flood_seed, _step, _distance                two halves of a
- * pointer per cell light list       light_mark, _list, _direct, _bounce, cell_mask   blocks, rows and entries
- * (light_blocks.glsl) ray queue        ray_list, probe_trace                       a word per ray of the
- * frame
- */
+ * - Accumulators (region_clear, voxelize, voxel_resolve): SDFGI_ACCUM_PLANES words per albedo block.
+ * - Distance search (distance_prepare, _plane, _exact): planes, runs, layers and dirty blocks, see
+ *   occupancy.glsl.
+ * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
+ * - Light list (light_mark, _list, _direct, _bounce, cell_mask): light blocks, rows and entries, see
+ *   light_blocks.glsl.
+ * - Ray queue (ray_list, probe_trace): a word per ray of the frame. */
 #ifndef SDFGI_SHARED_SCRATCH_H
 #define SDFGI_SHARED_SCRATCH_H
 
@@ -41,7 +39,7 @@ SDFGI_FUNCTION uint sdfgi_scratch_dirty_blocks(uint bits)
     return sdfgi_scratch_layers(bits) + (1u << (2u * bits)) / SDFGI_GROUP_COLUMNS;
 }
 
-/* Two words per column of blocks of 4^3 cells. */
+/* Two words per column of light blocks (4^3 cells). */
 SDFGI_FUNCTION uint sdfgi_scratch_distance_end(uint bits)
 {
     return sdfgi_scratch_dirty_blocks(bits) + (2u << (2u * bits - 4u));
@@ -59,7 +57,7 @@ SDFGI_FUNCTION uint sdfgi_scratch_light_rows(uint bits)
     return 4u << (3u * bits - 6u);
 }
 
-/* Two words of direct light per entry of the list before, */
+/* Two words of direct light per entry of the previous list, */
 SDFGI_FUNCTION uint sdfgi_scratch_light_before(uint bits)
 {
     return sdfgi_scratch_light_rows(bits) + (2u << (3u * bits - 6u)) / SDFGI_GROUP_LINEAR;

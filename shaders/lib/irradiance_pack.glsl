@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT
+ * A texel of the irradiance atlas: four half floats. rgb is the irradiance that surfaces show. Alpha holds
+ * one of two values, which its sign tells apart:
+ *
+ * - confidence, for a probe with a short history: how far the probe counts beside others, 0 to 1, stored
+ *   negated. Nothing is filtered yet, so the light that surfaces show is all that is known.
+ * - gain, above 0, for a probe with a longer history: the unfiltered irradiance over the one that surfaces
+ * show, which follows it slowly. The confidence of such a probe is 1.
+ *
+ * All texels of a probe hold the same of the two, so interpolation between them never mixes the two. */
+#ifndef SDFGI_IRRADIANCE_PACK_GLSL
+#define SDFGI_IRRADIANCE_PACK_GLSL
+
+struct sdfgi_irradiance_texel {
+    vec3 light;       /* what surfaces show; times gain what light cells read */
+    float confidence; /* weight of the probe beside others */
+    float gain;
+};
+
+vec4 sdfgi_irradiance_pack_confidence(vec3 light, float confidence)
+{
+    return vec4(light, -confidence);
+}
+
+vec4 sdfgi_irradiance_pack_gain(vec3 light, float gain)
+{
+    return vec4(light, gain);
+}
+
+sdfgi_irradiance_texel sdfgi_irradiance_unpack(vec4 packed)
+{
+    const bool has_gain = packed.a > 0.0;
+    return sdfgi_irradiance_texel(packed.rgb, has_gain ? 1.0 : -packed.a, has_gain ? packed.a : 1.0);
+}
+
+/* Four half floats. */
+uvec2 sdfgi_half4_encode(vec4 v)
+{
+    return uvec2(packHalf2x16(v.rg), packHalf2x16(v.ba));
+}
+
+vec4 sdfgi_half4_decode(uvec2 halves)
+{
+    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+}
+
+#endif
