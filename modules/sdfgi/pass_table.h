@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT
- * One row per pass: pipelines, layouts, push constants, dispatch sizes, labels, timers, barriers, the plan and the
- * report follow from it. A pass has the name of its shader; Meson takes the list of shaders from the rows.
+ * One row per pass: pipelines, layouts, push constants, dispatch sizes, labels, timers, barriers, the plan and
+ * the report follow from it. A pass has the name of its shader; Meson takes the list of shaders from here.
  *
- * X(id, kind, shader, unit, need, made, domain, args, group, set, reads, writes)
- *   kind    COMPUTE: <shader>.comp; RASTER: <shader>.vert and .frag. _TEXTURED: a second variant for materials
- *           with textures
- *   unit    what its work counter counts
+ * X(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)
+ *   kind    COMPUTE: <shader>.comp; RASTER: <shader>.vert and .frag. _TEXTURED: a second variant for
+ *           materials with textures
+ *   unit    what its work counter counts: enum pass_unit in pass/pass_rows.h
  *   need    the condition of the scene that calls for it: frame/frame_needs.c
+ *   phase   where in a frame it runs, in the order of the rows: enum pass_phase in pass/pass_rows.h. A row is
+ *           all that a pass needs to be planned; OWN: a function in frame/stage_*.c plans it
  *   made    when its pipeline is made: CREATED with the context, on DEMAND, or with the RASTER target
  *   domain  what it runs over, from which the size of a dispatch follows: enum domain in pass/work.h
- *   args    its push constants: struct sdfgi_<args>_args of shaders/shared/args.h
- *   group   elements of the domain that a workgroup takes: SDFGI_GROUP_* of shaders/shared/constants.h, or its own
+ *   args    its push constants: struct sdfgi_<args>_args of shaders/shared/args.h, or none
+ *   group   elements of the domain that a workgroup takes, such as SDFGI_GROUP_* of shared/constants.h
  *   set     beside LOOKUP and WORK: MESH (and MATERIAL), VIEW, or NONE
  *   reads   resources, as bits; R(NAME) | ...  FRAME is read by all. What a pass writes may be left out
  *   writes  likewise
@@ -20,62 +22,73 @@
 #define SDFGI_PASS_TABLE_H
 
 /* clang-format off */
-#define SDFGI_PASSES(X)                                                                                       \
-    X(REGION_CLEAR, COMPUTE, region_clear, "cells", GENERATE, CREATED, BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, \
-      0, R(BITS) | R(LIGHT) | R(MASKS) | R(SCRATCH) | R(BOUNDS))                                              \
-    X(VOXELIZE, COMPUTE_TEXTURED, voxelize, "triangles", VOXELS, CREATED, INSTANCES, voxelize,                \
-      SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS))                \
-    X(VOXELIZE_RASTER, RASTER_TEXTURED, voxelize_raster, "triangles", VOXELS_RASTER, RASTER, INSTANCES, voxelize, \
-      1, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS))                                   \
-    X(VOXEL_RESOLVE, COMPUTE, voxel_resolve, "blocks", GENERATE, CREATED, BOX, region, 8 * SDFGI_GROUP_LINEAR, NONE, \
-      R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS))        \
-    X(DISTANCE_PREPARE, COMPUTE, distance_prepare, "cells", EXACT, CREATED, DISTANCE_ROWS, distance_prepare,  \
-      SDFGI_GROUP_COLUMNS, NONE, R(BITS) | R(DISTANCE) | R(BOUNDS), R(SCRATCH) | R(COUNTERS))                 \
-    X(DISTANCE_PLANE, COMPUTE, distance_plane, "cells", EXACT, CREATED, DISTANCE_LAYERS, distance_search,     \
-      SDFGI_LINES, NONE, R(BITS) | R(SCRATCH), R(SCRATCH))                                                    \
-    X(DISTANCE_EXACT, COMPUTE, distance_exact, "cells", EXACT, CREATED, DISTANCE_COLUMNS, distance_search,    \
-      SDFGI_LINES, NONE, R(SCRATCH), R(DISTANCE))                                                             \
-    X(FLOOD_SEED, COMPUTE, flood_seed, "cells", FLOOD, CREATED, CELLS, flood, SDFGI_GROUP_CELLS, NONE,        \
-      R(BITS), R(SCRATCH))                                                                                    \
-    X(FLOOD_STEP, COMPUTE, flood_step, "cells", FLOOD, CREATED, CELLS, flood, SDFGI_GROUP_CELLS, NONE,        \
-      R(BITS), R(SCRATCH))                                                                                    \
-    X(FLOOD_DISTANCE, COMPUTE, flood_distance, "cells", FLOOD, CREATED, CELLS, flood, SDFGI_GROUP_CELLS, NONE, \
-      R(SCRATCH), R(DISTANCE))                                                                                \
-    X(PROBE_PLACE, COMPUTE, probe_place, "probes", COMPLETE, CREATED, PROBES, cascade, 1, NONE,               \
-      R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS))                                                         \
-    X(PROBE_SEED, COMPUTE, probe_seed, "probes", SEED, CREATED, PROBES, cascade, 1, NONE,                     \
-      R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE))               \
-    X(OCCLUSION_TRACE, COMPUTE, occlusion_trace, "rays", OCCLUSION, CREATED, PROBES, cascade, 1, NONE,        \
-      R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION))                                                        \
-    X(LIGHT_MARK, COMPUTE, light_mark, "cells", LIST, CREATED, LIGHT_BLOCKS, light_mark, SDFGI_GROUP_LINEAR, NONE, \
-      R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) | R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH))                 \
-    X(LIGHT_LIST, COMPUTE, light_list, "light cells", LIST, CREATED, LIGHT_ROWS, cascade, SDFGI_GROUP_LINEAR, NONE, \
-      0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT))                                  \
-    X(CELL_MASK, COMPUTE, cell_mask, "light cells", MASKS, CREATED, LIGHT_CELLS, cascade, SDFGI_GROUP_LINEAR / 8, NONE, \
-      R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH) | R(INDIRECT), R(MASKS))                                 \
-    X(RAY_INVALIDATE, COMPUTE, ray_invalidate, "rays", SEED, CREATED, ALL_PROBES, none, 1, NONE,                      \
-      R(PROBES) | R(BOUNDS), R(RAYS))                                                                         \
-    X(LIGHT_DIRECT, COMPUTE, light_direct, "light cells", DIRECT, CREATED, LIGHT_CELLS, light_direct,         \
-      SDFGI_CELLS_OF_SURFACES, NONE,                                                                          \
-      R(BITS) | R(DISTANCE) | R(LIGHTS) | R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS))  \
-    X(LIGHT_BOUNCE, COMPUTE, light_bounce, "light cells", LIGHT, CREATED, ALL_LIGHT_CELLS, light_bounce,      \
-      SDFGI_GROUP_LINEAR, NONE,                                                                               \
-      R(BITS) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | \
-      R(SCRATCH) | R(IRRADIANCE), R(LIGHT) | R(COUNTERS))                                                     \
-    X(RAY_LIST, COMPUTE, ray_list, "rays", RAYS, CREATED, ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE,             \
-      R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                                                          \
-    X(PROBE_TRACE, COMPUTE, probe_trace, "rays", RAYS, CREATED, ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE,     \
-      R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS) | R(INDIRECT))                                  \
-    X(PROBE_SUM, COMPUTE, probe_sum, "rays", TRACE, CREATED, ALL_PROBES, none, 1, NONE,                       \
-      R(PROBES) | R(RAYS) | R(LIGHT) | R(INDIRECT), R(SUMS) | R(COUNTERS))                                    \
-    X(PROBE_BLEND, COMPUTE, probe_blend, "probes", BLEND, CREATED, ALL_PROBES, probe_blend, 1, NONE,          \
-      R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))                                         \
-    X(GATHER, COMPUTE, gather, "pixels", GATHER, DEMAND, PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW,            \
-      R(BITS) | R(DISTANCE) | R(LIGHT) | R(PROBES) | R(MASKS) | R(OCCLUSION) | R(IRRADIANCE), 0)
+#define SDFGI_PASSES(X)                                                                                      \
+    X(REGION_CLEAR, COMPUTE, region_clear, CELLS, GENERATE, VOXELS, CREATED,                                 \
+      BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, 0, R(BITS) | R(LIGHT) | R(MASKS) | R(SCRATCH) |             \
+      R(BOUNDS))                                                                                             \
+    X(VOXELIZE, COMPUTE_TEXTURED, voxelize, TRIANGLES, VOXELS, VOXELS, CREATED,                              \
+      INSTANCES, voxelize, SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) |       \
+      R(COUNTERS))                                                                                           \
+    X(VOXELIZE_RASTER, RASTER_TEXTURED, voxelize_raster, TRIANGLES, VOXELS_RASTER, VOXELS, RASTER,           \
+      INSTANCES, voxelize, 1, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS))             \
+    X(VOXEL_RESOLVE, COMPUTE, voxel_resolve, BLOCKS, GENERATE, VOXELS, CREATED,                              \
+      BOX, region, 8 * SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) |                \
+      R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS))                                                    \
+    X(DISTANCE_PREPARE, COMPUTE, distance_prepare, CELLS, EXACT, DISTANCES, CREATED,                         \
+      DISTANCE_ROWS, distance_prepare, SDFGI_GROUP_COLUMNS, NONE, R(BITS) | R(DISTANCE) | R(BOUNDS),         \
+      R(SCRATCH) | R(COUNTERS))                                                                              \
+    X(DISTANCE_PLANE, COMPUTE, distance_plane, CELLS, EXACT, DISTANCES, CREATED,                             \
+      DISTANCE_LAYERS, distance_search, SDFGI_LINES, NONE, R(BITS) | R(SCRATCH), R(SCRATCH))                 \
+    X(DISTANCE_EXACT, COMPUTE, distance_exact, CELLS, EXACT, DISTANCES, CREATED,                             \
+      DISTANCE_COLUMNS, distance_search, SDFGI_LINES, NONE, R(SCRATCH), R(DISTANCE))                         \
+    X(FLOOD_SEED, COMPUTE, flood_seed, CELLS, FLOOD, OWN, CREATED,                                           \
+      CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(BITS), R(SCRATCH))                                            \
+    X(FLOOD_STEP, COMPUTE, flood_step, CELLS, FLOOD, OWN, CREATED,                                           \
+      CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(BITS), R(SCRATCH))                                            \
+    X(FLOOD_DISTANCE, COMPUTE, flood_distance, CELLS, FLOOD, OWN, CREATED,                                   \
+      CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(SCRATCH), R(DISTANCE))                                        \
+    X(LIGHT_MARK, COMPUTE, light_mark, CELLS, LIST, MARK, CREATED,                                           \
+      LIGHT_BLOCKS, light_mark, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) |           \
+      R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH))                                                         \
+    X(PROBE_PLACE, COMPUTE, probe_place, PROBES, COMPLETE, PLACE, CREATED,                                   \
+      PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS))                              \
+    X(LIGHT_LIST, COMPUTE, light_list, LIGHT_CELLS, LIST, LIST, CREATED,                                     \
+      LIGHT_ROWS, cascade, SDFGI_GROUP_LINEAR, NONE, 0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) |             \
+      R(COUNTERS) | R(INDIRECT))                                                                             \
+    X(LIGHT_DIRECT, COMPUTE, light_direct, LIGHT_CELLS, DIRECT, OWN, CREATED,                                \
+      LIGHT_CELLS, light_direct, SDFGI_CELLS_OF_SURFACES, NONE, R(BITS) | R(DISTANCE) | R(LIGHTS) |          \
+      R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS))                                     \
+    X(CELL_MASK, COMPUTE, cell_mask, LIGHT_CELLS, MASKS, OWN, CREATED,                                       \
+      LIGHT_CELLS, cascade, SDFGI_GROUP_LINEAR / 8, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)     \
+      | R(INDIRECT), R(MASKS))                                                                               \
+    X(OCCLUSION_TRACE, COMPUTE, occlusion_trace, RAYS, OCCLUSION, SEED, CREATED,                             \
+      PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION))                             \
+    X(PROBE_SEED, COMPUTE, probe_seed, PROBES, SEED, SEED, CREATED,                                          \
+      PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS)     \
+      | R(IRRADIANCE))                                                                                       \
+    X(RAY_INVALIDATE, COMPUTE, ray_invalidate, RAYS, SEED, OWN, CREATED,                                     \
+      ALL_PROBES, none, 1, NONE, R(PROBES) | R(BOUNDS), R(RAYS))                                             \
+    X(LIGHT_BOUNCE, COMPUTE, light_bounce, LIGHT_CELLS, LIGHT, OWN, CREATED,                                 \
+      ALL_LIGHT_CELLS, light_bounce, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(PROBES) | R(MASKS) |              \
+      R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE),     \
+      R(LIGHT) | R(COUNTERS))                                                                                \
+    X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
+      ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                 \
+    X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
+      ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS)      \
+      | R(INDIRECT))                                                                                         \
+    X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, PROBES, CREATED,                                           \
+      ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(INDIRECT), R(SUMS) | R(COUNTERS))        \
+    X(PROBE_BLEND, COMPUTE, probe_blend, PROBES, BLEND, PROBES, CREATED,                                     \
+      ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
+    X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
+      PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(LIGHT) | R(PROBES) | R(MASKS)      \
+      | R(OCCLUSION) | R(IRRADIANCE), 0)
 /* clang-format on */
 
 enum pass {
-#define PASS_ENUM(id, kind, shader, unit, need, made, domain, args, group, set, reads, writes) PASS_##id,
+#define PASS_ENUM(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes) \
+    PASS_##id,
     SDFGI_PASSES(PASS_ENUM)
 #undef PASS_ENUM
     PASS_COUNT,

@@ -19,7 +19,7 @@ static void report_passes(const struct sdfgi *gi, struct sdfgi_report *report)
             .reason = pass->reason ? pass->reason : "no frame has been recorded",
             .dispatches = pass->tally.dispatches,
             .work = pass->tally.units,
-            .work_unit = pass_row((enum pass)i)->unit,
+            .work_unit = pass_unit_name(pass_row((enum pass)i)->unit),
             .gpu_ns = time->ns,
             .gpu_ns_valid = time->is_new,
         };

@@ -39,7 +39,7 @@ float probe_confidence(float weight)
     return min(weight / (PROBE_SEED_FRACTION * probe_cycle_weight()), 1.0);
 }
 
-/* Irradiance of a texel, as sdfgi_lookup_stored reads it. */
+/* Irradiance of a texel, packed by lib/irradiance_pack.glsl. */
 void probe_store_irradiance(uint slot, uint texel, vec4 value)
 {
     sdfgi_irradiance_texels[probe_texel(slot, texel)] = sdfgi_half4_encode(value);

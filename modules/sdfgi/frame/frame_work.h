@@ -15,7 +15,16 @@ struct plan_stage {
     const struct situation_needs *needs;
 };
 
-/* NULL if nothing calls for the pass in this frame. */
+/* What items are about: a cascade, or a piece of its change. */
+struct plan_target {
+    uint32_t cascade;
+    const struct scroll_piece *piece; /* NULL: all of the cascade */
+};
+
+/* Adds the passes of a phase that the needs call for, in the order of the table. */
+void stage_add_phase(const struct plan_stage *stage, enum pass_phase phase, const struct plan_target *target);
+
+/* Adds an item by hand. NULL if nothing calls for the pass in this frame. */
 struct work *stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade);
 /* Items added from here on, until `stage_end_group`, run side by side: they touch nothing in common. */
 uint32_t stage_begin_group(const struct plan_stage *stage);

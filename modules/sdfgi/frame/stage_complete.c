@@ -25,48 +25,6 @@ static void clear_list(const struct plan_stage *stage)
     work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0, 4 * (uint64_t)sdfgi_scratch_light_before(bits));
 }
 
-/* Cells in the blocks that a change makes dirty, some of them more than once: those in cages that touch it. */
-static uint64_t dirty_cells(const struct plan_stage *stage, uint32_t c)
-{
-    if (frame_relist(stage->frame, c) == RELIST_NEW)
-        return stage->input->extent.cells;
-    const struct change *change = &stage->frame->next.cascades.at[c].change;
-    const struct cell_box whole = cell_box_whole(stage->frame->next.cascades.resolution);
-    uint64_t cells = 0;
-    for (uint32_t i = 0; i < change->count; i++) {
-        const struct cell_box wide = cell_box_widened(&change->boxes[i], SDFGI_PROBE_SPACING);
-        const struct cell_box inside = cell_box_common(&wide, &whole);
-        cells += cell_box_cells(&inside);
-    }
-    return cells;
-}
-
-static void add_probes(const struct plan_stage *stage, enum pass pass, uint32_t c, uint64_t units_per_probe)
-{
-    struct work *work = stage_add(stage, pass, c);
-    if (!work)
-        return;
-    work->args.cascade.cascade = c;
-    work->units = stage->input->extent.probes * units_per_probe;
-}
-
-static void add_mark(const struct plan_stage *stage, uint32_t c)
-{
-    const uint64_t cells = dirty_cells(stage, c), room = stage->input->extent.light_cells;
-    struct work *work = stage_add(stage, PASS_LIGHT_MARK, c);
-    work->args.light_mark =
-        (struct sdfgi_light_mark_args){ .cascade = c, .rebuild = frame_relist(stage->frame, c) == RELIST_NEW };
-    work->count = (uint32_t)(cells > room ? cells : room);
-    work->units = cells;
-}
-
-static void add_list(const struct plan_stage *stage, uint32_t c)
-{
-    struct work *work = stage_add(stage, PASS_LIGHT_LIST, c);
-    work->args.cascade.cascade = c;
-    work->units = stage->input->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
-}
-
 /* A pass over the light cells in dirty blocks, with the workgroups of a record of indirect arguments. How many cells
  * that is comes back frames later: the work is that of the list before. */
 static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c, uint32_t record,
@@ -120,25 +78,24 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
  * comes between them. */
 static void complete_cascade(const struct plan_stage *stage, uint32_t c)
 {
-    const bool all = cascade_completes(&stage->frame->next.cascades.at[c]);
+    const bool completes = cascade_completes(&stage->frame->next.cascades.at[c]);
+    const struct plan_target target = { .cascade = c };
     const union work_args mask = { .cascade = { c } };
     clear_list(stage);
 
     const uint32_t first = stage_begin_group(stage);
-    add_mark(stage, c);
-    if (all)
-        add_probes(stage, PASS_PROBE_PLACE, c, 1);
+    stage_add_phase(stage, PHASE_MARK, &target);
+    if (completes)
+        stage_add_phase(stage, PHASE_PLACE, &target);
     stage_end_group(stage, first);
 
-    add_list(stage, c);
+    stage_add_phase(stage, PHASE_LIST, &target);
 
     const uint32_t second = stage_begin_group(stage);
     add_direct(stage, c);
     add_dirty(stage, PASS_CELL_MASK, c, SDFGI_INDIRECT_MASKS, &mask);
-    if (all)
-        add_probes(stage, PASS_OCCLUSION_TRACE, c, SDFGI_OCCLUSION_TEXELS * SDFGI_OCCLUSION_TEXELS);
-    if (all)
-        add_probes(stage, PASS_PROBE_SEED, c, 1);
+    if (completes)
+        stage_add_phase(stage, PHASE_SEED, &target);
     add_ray_invalidate(stage, c);
     stage_end_group(stage, second);
 

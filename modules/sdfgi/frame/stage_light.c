@@ -63,16 +63,6 @@ static void relight(const struct plan_stage *stage)
         accumulation_invalidate(&frame->next.accumulation);
 }
 
-static void add_ray_list(const struct plan_stage *stage)
-{
-    const uint64_t rays = stage->input->extent.probes * stage->frame->next.params.rays_per_frame;
-    struct work *work = stage_add(stage, PASS_RAY_LIST, 0);
-    if (!work)
-        return;
-    work->count = (uint32_t)rays;
-    work->units = rays * stage->input->extent.cascades;
-}
-
 /* How many rays are traced comes back frames later: the work is that of the newest frame known. */
 static void add_probe_trace(const struct plan_stage *stage)
 {
@@ -83,21 +73,10 @@ static void add_probe_trace(const struct plan_stage *stage)
     work->units = stage->input->counters[SDFGI_COUNTER_RAYS_TRACED];
 }
 
-static struct work *add_all_probes(const struct plan_stage *stage, enum pass pass, uint64_t units_per_probe)
-{
-    const struct extent *e = &stage->input->extent;
-    struct work *work = stage_add(stage, pass, 0);
-    if (!work)
-        return NULL;
-    work->count = (uint32_t)e->cascades;
-    work->units = e->probes * e->cascades * units_per_probe;
-    return work;
-}
-
 /* This frame's rays, and beside them some direct light. */
 static void trace(const struct plan_stage *stage)
 {
-    add_ray_list(stage);
+    stage_add_phase(stage, PHASE_RAYS, &(struct plan_target){ 0 });
     const uint32_t first = stage_begin_group(stage);
     add_probe_trace(stage);
     if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
@@ -105,18 +84,12 @@ static void trace(const struct plan_stage *stage)
     stage_end_group(stage, first);
 }
 
-/* Adds up what this frame's rays find, and shows what the probes have gathered. */
+/* Adds up what this frame's rays find, shows what the probes have gathered, and hands it to the surfaces. */
 static void light_probes(const struct plan_stage *stage)
 {
-    add_all_probes(stage, PASS_PROBE_SUM, stage->frame->next.params.rays_per_frame);
-    struct work *blend = add_all_probes(stage, PASS_PROBE_BLEND, 1);
-    if (!blend)
-        return;
-    blend->args.probe_blend = (struct sdfgi_probe_blend_args){
-        .cycle_ends = stage->frame->cycle_ends,
-        .without_history = stage->frame->next.accumulation.phase < LIGHTING_RUNNING,
-    };
-    add_bounce(stage);
+    stage_add_phase(stage, PHASE_PROBES, &(struct plan_target){ 0 });
+    if (work_has(&stage->frame->work, PASS_PROBE_BLEND))
+        add_bounce(stage);
 }
 
 void stage_light(const struct plan_stage *stage)

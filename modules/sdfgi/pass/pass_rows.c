@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 #include "pass_rows.h"
 
-/* Sizes of the argument structs, by the names that the table has for them. */
 #define ARGS_SIZE(name) sizeof(((union work_args *)0)->name)
 enum {
-    ARGS_none = 0,
-    ARGS_cascade = ARGS_SIZE(cascade),
-    ARGS_region = ARGS_SIZE(region),
-    ARGS_voxelize = sizeof(struct sdfgi_voxelize_args),
-    ARGS_distance_prepare = ARGS_SIZE(distance_prepare),
-    ARGS_distance_search = ARGS_SIZE(distance_search),
-    ARGS_flood = ARGS_SIZE(flood),
-    ARGS_light_mark = ARGS_SIZE(light_mark),
-    ARGS_light_direct = ARGS_SIZE(light_direct),
-    ARGS_light_bounce = ARGS_SIZE(light_bounce),
-    ARGS_probe_blend = ARGS_SIZE(probe_blend),
-    ARGS_gather = ARGS_SIZE(gather),
+    SIZE_none = 0,
+    SIZE_cascade = ARGS_SIZE(cascade),
+    SIZE_region = ARGS_SIZE(region),
+    SIZE_voxelize = sizeof(struct sdfgi_voxelize_args),
+    SIZE_distance_prepare = ARGS_SIZE(distance_prepare),
+    SIZE_distance_search = ARGS_SIZE(distance_search),
+    SIZE_flood = ARGS_SIZE(flood),
+    SIZE_light_mark = ARGS_SIZE(light_mark),
+    SIZE_light_direct = ARGS_SIZE(light_direct),
+    SIZE_light_bounce = ARGS_SIZE(light_bounce),
+    SIZE_probe_blend = ARGS_SIZE(probe_blend),
+    SIZE_gather = ARGS_SIZE(gather),
 };
 
 static const struct pass_row rows[PASS_COUNT] = {
 #define R(id) RESOURCE_BIT(id)
-#define ROW(id, kind_, shader, unit_, need_, made_, domain_, args, group_, set_, reads_, writes_)            \
+#define ROW(id, kind_, shader, unit_, need_, phase_, made_, domain_, args_, group_, set_, reads_, writes_)   \
     [PASS_##id] = {                                                                                          \
         .name = #shader,                                                                                     \
-        .unit = unit_,                                                                                       \
+        .unit = UNIT_##unit_,                                                                                \
         .kind = PASS_KIND_##kind_,                                                                           \
         .need = NEED_##need_,                                                                                \
+        .phase = PHASE_##phase_,                                                                             \
         .made = PASS_MADE_##made_,                                                                           \
         .domain = DOMAIN_##domain_,                                                                          \
-        .args_size = ARGS_##args,                                                                            \
+        .args = ARGS_##args_,                                                                                \
+        .args_size = SIZE_##args_,                                                                           \
         .group = group_,                                                                                     \
         .set = PASS_SET_##set_,                                                                              \
         .reads = (reads_) | R(FRAME),                                                                        \
@@ -38,6 +39,16 @@ static const struct pass_row rows[PASS_COUNT] = {
 #undef ROW
 #undef R
 };
+
+const char *pass_unit_name(enum pass_unit unit)
+{
+    static const char *const names[UNIT_COUNT] = {
+        [UNIT_CELLS] = "cells",   [UNIT_TRIANGLES] = "triangles",     [UNIT_BLOCKS] = "blocks",
+        [UNIT_PROBES] = "probes", [UNIT_RAYS] = "rays",               [UNIT_LIGHT_CELLS] = "light cells",
+        [UNIT_PIXELS] = "pixels",
+    };
+    return names[unit];
+}
 
 const struct pass_row *pass_row(enum pass pass)
 {

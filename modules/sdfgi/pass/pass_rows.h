@@ -37,19 +37,66 @@ enum need {
     NEED_COUNT,
 };
 
+/* Where in a frame a pass runs; in the order in which phases follow one another. */
+enum pass_phase {
+    PHASE_VOXELS,    /* for each box whose voxels are due */
+    PHASE_DISTANCES, /* for each range of layers whose distances are due */
+    PHASE_MARK,      /* for each cascade whose light list is written; beside PLACE */
+    PHASE_PLACE,     /* for each cascade that a change completes */
+    PHASE_LIST,      /* as MARK, afterwards */
+    PHASE_SEED,      /* as PLACE, afterwards, beside the new light cells' direct light */
+    PHASE_RAYS,      /* before this frame's rays are traced */
+    PHASE_PROBES,    /* after that */
+    PHASE_OWN,       /* planned by a function of its own */
+};
+
+/* What the work of a pass is counted in. */
+enum pass_unit {
+    UNIT_CELLS,
+    UNIT_TRIANGLES,
+    UNIT_BLOCKS,
+    UNIT_PROBES,
+    UNIT_RAYS,
+    UNIT_LIGHT_CELLS,
+    UNIT_PIXELS,
+    UNIT_COUNT,
+};
+
+/* struct sdfgi_<name>_args. */
+enum pass_args {
+    ARGS_none,
+    ARGS_cascade,
+    ARGS_region,
+    ARGS_voxelize,
+    ARGS_distance_prepare,
+    ARGS_distance_search,
+    ARGS_flood,
+    ARGS_light_mark,
+    ARGS_light_direct,
+    ARGS_light_bounce,
+    ARGS_probe_blend,
+    ARGS_gather,
+    ARGS_COUNT,
+};
+
 struct pass_row {
-    const char *name, *unit;
+    const char *name;
+    enum pass_unit unit;
     enum pass_kind kind;
     enum need need;
+    enum pass_phase phase;
     enum pass_made made;
     enum domain domain;
-    uint32_t args_size;
+    enum pass_args args;
+    uint32_t args_size; /* bytes */
     uint32_t group;
     enum pass_set set;
     uint64_t reads, writes; /* bits of enum resource */
 };
 
 const struct pass_row *pass_row(enum pass pass);
+/* "light cells" */
+const char *pass_unit_name(enum pass_unit unit);
 
 #define RESOURCE_BIT(id) (UINT64_C(1) << RESOURCE_##id)
 

@@ -26,7 +26,7 @@ struct pass_shaders {
     { .vertex = SHADER(file##_vert), .fragment = { SHADER(file##_frag), SHADER(file##_textured_frag) } }
 
 static const struct pass_shaders shaders[PASS_COUNT] = {
-#define ROW(id, kind, shader, unit, need, made, domain, args, group, set, reads, writes)                     \
+#define ROW(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)              \
     [PASS_##id] = SHADERS_##kind(shader),
     SDFGI_PASSES(ROW)
 #undef ROW
