@@ -127,7 +127,7 @@ int main(int argc, char **argv)
     for (uint64_t frame = 0; !report.converged; frame++) {
         check(frame < MAX_FRAMES, "converging"); /* a real host shows each frame, and never waits */
         CHECK(vkBeginCommandBuffer(cmd, &(VkCommandBufferBeginInfo){ INFO(COMMAND_BUFFER_BEGIN_INFO) }));
-        CHECK(sdfgi_update(gi, cmd, &(struct sdfgi_frame_desc){ .frame_index = frame }));
+        CHECK(sdfgi_update(gi, cmd, &(struct sdfgi_frame_desc){ 0 }));
         VkDescriptorSet set = sdfgi_get_descriptor_set(gi);
         vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);

@@ -67,8 +67,8 @@ void point_light_build(struct scene *scene, float albedo, float unused)
 /* ---- Cornell box ------------------------------------------------------------------------------------- */
 
 /* The room of Cornell University's Program of Computer Graphics, with the dimensions published for it, in
- * millimetres, x to the left. Its paints and its lamp were published as spectra; the colours here are plain linear
- * RGB values that look like them, not computed from those spectra. */
+ * millimetres, x to the left. Its paints and its lamp were published as spectra; the colours here are plain
+ * linear RGB values that look like them, not computed from those spectra. */
 static vec3s cornell_point(float x, float y, float z)
 {
     return v3(0.001f * x, 0.001f * y, 0.001f * z);

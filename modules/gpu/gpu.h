@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * The thinnest Vulkan layer the passes need: functions of an imported device, buffers, images, pipelines, a recorder
- * that counts commands and places barriers, timestamps. Knows nothing of lighting. Functions that can fail return a
- * VkResult; destructors accept objects that were never or only half created.
+ * The thinnest Vulkan layer the passes need: functions of an imported device, buffers, images, pipelines, a
+ * recorder that counts commands and places barriers, timestamps. Knows nothing of lighting. Functions that
+ * can fail return a VkResult; destructors accept objects that were never or only half created.
  */
 #ifndef GPU_H
 #define GPU_H
@@ -13,66 +13,66 @@
 
 #include <vulkan/vulkan_core.h>
 
-#define GPU_INSTANCE_FUNCTIONS(X)                                                                               \
-    X(GetDeviceProcAddr)                                                                                        \
-    X(GetPhysicalDeviceMemoryProperties)                                                                        \
-    X(GetPhysicalDeviceProperties)                                                                              \
-    X(GetPhysicalDeviceFeatures2)                                                                               \
-    X(GetPhysicalDeviceFormatProperties)                                                                        \
+#define GPU_INSTANCE_FUNCTIONS(X)                                                                            \
+    X(GetDeviceProcAddr)                                                                                     \
+    X(GetPhysicalDeviceMemoryProperties)                                                                     \
+    X(GetPhysicalDeviceProperties)                                                                           \
+    X(GetPhysicalDeviceFeatures2)                                                                            \
+    X(GetPhysicalDeviceFormatProperties)                                                                     \
     X(GetPhysicalDeviceQueueFamilyProperties)
 
-#define GPU_DEVICE_FUNCTIONS(X)                                                                                 \
-    X(AllocateDescriptorSets)                                                                                   \
-    X(AllocateMemory)                                                                                           \
-    X(BindBufferMemory)                                                                                         \
-    X(BindImageMemory)                                                                                          \
-    X(CmdBeginRenderPass)                                                                                       \
-    X(CmdBindDescriptorSets)                                                                                    \
-    X(CmdBindPipeline)                                                                                          \
-    X(CmdCopyBuffer)                                                                                            \
-    X(CmdDispatch)                                                                                              \
-    X(CmdDispatchIndirect)                                                                                      \
-    X(CmdDraw)                                                                                                  \
-    X(CmdEndRenderPass)                                                                                         \
-    X(CmdFillBuffer)                                                                                            \
-    X(CmdPipelineBarrier)                                                                                       \
-    X(CmdPushConstants)                                                                                         \
-    X(CmdResetQueryPool)                                                                                        \
-    X(CmdUpdateBuffer)                                                                                          \
-    X(CmdWriteTimestamp)                                                                                        \
-    X(CreateBuffer)                                                                                             \
-    X(CreateComputePipelines)                                                                                   \
-    X(CreateDescriptorPool)                                                                                     \
-    X(CreateDescriptorSetLayout)                                                                                \
-    X(CreateFramebuffer)                                                                                        \
-    X(CreateGraphicsPipelines)                                                                                  \
-    X(CreateImage)                                                                                              \
-    X(CreateImageView)                                                                                          \
-    X(CreatePipelineLayout)                                                                                     \
-    X(CreateQueryPool)                                                                                          \
-    X(CreateRenderPass)                                                                                         \
-    X(CreateSampler)                                                                                            \
-    X(CreateShaderModule)                                                                                       \
-    X(DestroyBuffer)                                                                                            \
-    X(DestroyDescriptorPool)                                                                                    \
-    X(DestroyDescriptorSetLayout)                                                                               \
-    X(DestroyFramebuffer)                                                                                       \
-    X(DestroyImage)                                                                                             \
-    X(DestroyImageView)                                                                                         \
-    X(DestroyPipeline)                                                                                          \
-    X(DestroyPipelineLayout)                                                                                    \
-    X(DestroyQueryPool)                                                                                         \
-    X(DestroyRenderPass)                                                                                        \
-    X(DestroySampler)                                                                                           \
-    X(DestroyShaderModule)                                                                                      \
-    X(FlushMappedMemoryRanges)                                                                                  \
-    X(FreeDescriptorSets)                                                                                       \
-    X(FreeMemory)                                                                                               \
-    X(GetBufferMemoryRequirements)                                                                              \
-    X(GetImageMemoryRequirements)                                                                               \
-    X(GetQueryPoolResults)                                                                                      \
-    X(InvalidateMappedMemoryRanges)                                                                             \
-    X(MapMemory)                                                                                                \
+#define GPU_DEVICE_FUNCTIONS(X)                                                                              \
+    X(AllocateDescriptorSets)                                                                                \
+    X(AllocateMemory)                                                                                        \
+    X(BindBufferMemory)                                                                                      \
+    X(BindImageMemory)                                                                                       \
+    X(CmdBeginRenderPass)                                                                                    \
+    X(CmdBindDescriptorSets)                                                                                 \
+    X(CmdBindPipeline)                                                                                       \
+    X(CmdCopyBuffer)                                                                                         \
+    X(CmdDispatch)                                                                                           \
+    X(CmdDispatchIndirect)                                                                                   \
+    X(CmdDraw)                                                                                               \
+    X(CmdEndRenderPass)                                                                                      \
+    X(CmdFillBuffer)                                                                                         \
+    X(CmdPipelineBarrier)                                                                                    \
+    X(CmdPushConstants)                                                                                      \
+    X(CmdResetQueryPool)                                                                                     \
+    X(CmdUpdateBuffer)                                                                                       \
+    X(CmdWriteTimestamp)                                                                                     \
+    X(CreateBuffer)                                                                                          \
+    X(CreateComputePipelines)                                                                                \
+    X(CreateDescriptorPool)                                                                                  \
+    X(CreateDescriptorSetLayout)                                                                             \
+    X(CreateFramebuffer)                                                                                     \
+    X(CreateGraphicsPipelines)                                                                               \
+    X(CreateImage)                                                                                           \
+    X(CreateImageView)                                                                                       \
+    X(CreatePipelineLayout)                                                                                  \
+    X(CreateQueryPool)                                                                                       \
+    X(CreateRenderPass)                                                                                      \
+    X(CreateSampler)                                                                                         \
+    X(CreateShaderModule)                                                                                    \
+    X(DestroyBuffer)                                                                                         \
+    X(DestroyDescriptorPool)                                                                                 \
+    X(DestroyDescriptorSetLayout)                                                                            \
+    X(DestroyFramebuffer)                                                                                    \
+    X(DestroyImage)                                                                                          \
+    X(DestroyImageView)                                                                                      \
+    X(DestroyPipeline)                                                                                       \
+    X(DestroyPipelineLayout)                                                                                 \
+    X(DestroyQueryPool)                                                                                      \
+    X(DestroyRenderPass)                                                                                     \
+    X(DestroySampler)                                                                                        \
+    X(DestroyShaderModule)                                                                                   \
+    X(FlushMappedMemoryRanges)                                                                               \
+    X(FreeDescriptorSets)                                                                                    \
+    X(FreeMemory)                                                                                            \
+    X(GetBufferMemoryRequirements)                                                                           \
+    X(GetImageMemoryRequirements)                                                                            \
+    X(GetQueryPoolResults)                                                                                   \
+    X(InvalidateMappedMemoryRanges)                                                                          \
+    X(MapMemory)                                                                                             \
     X(UpdateDescriptorSets)
 
 struct gpu_functions {
@@ -99,11 +99,13 @@ struct gpu_device {
 };
 
 /* Loads functions of an instance; false if one is missing. */
-bool gpu_functions_load_instance(struct gpu_functions *fn, VkInstance instance, PFN_vkGetInstanceProcAddr get);
+bool gpu_functions_load_instance(struct gpu_functions *fn, VkInstance instance,
+                                 PFN_vkGetInstanceProcAddr get);
 
 /* Imports a device. VK_ERROR_INITIALIZATION_FAILED if a core function is missing. */
-VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysicalDevice physical, VkDevice handle,
-                         uint32_t queue_family, PFN_vkGetInstanceProcAddr get, const VkAllocationCallbacks *callbacks);
+VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysicalDevice physical,
+                         VkDevice handle, uint32_t queue_family, PFN_vkGetInstanceProcAddr get,
+                         const VkAllocationCallbacks *callbacks);
 
 /* Names an object for debuggers; does nothing without VK_EXT_debug_utils. */
 void gpu_object_name(const struct gpu_device *device, VkObjectType type, uint64_t handle, const char *name);
@@ -137,8 +139,9 @@ VkResult gpu_buffer_zero(const struct gpu_device *device, const struct gpu_buffe
 VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer);
 
 /* A 2D array image, device local, with a view of all layers. */
-VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format, uint32_t width,
-                        uint32_t height, uint32_t layers, VkImageUsageFlags usage, const char *name);
+VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
+                        uint32_t width, uint32_t height, uint32_t layers, VkImageUsageFlags usage,
+                        const char *name);
 void gpu_image_finish(const struct gpu_device *device, struct gpu_image *image);
 
 /* ---- Pipelines: gpu_pipeline.c */
@@ -148,12 +151,14 @@ struct gpu_shader {
     size_t size; /* bytes */
 };
 
-VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu_shader shader, VkPipelineLayout layout,
-                                     const char *name, VkPipeline *pipeline);
+VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu_shader shader,
+                                     VkPipelineLayout layout, const char *name, VkPipeline *pipeline);
 
-/* Triangles into a render pass without attachments, `extent` pixels a side, neither culled nor clipped in depth. */
-VkResult gpu_raster_pipeline_create(const struct gpu_device *device, struct gpu_shader vertex, struct gpu_shader fragment,
-                                    VkPipelineLayout layout, VkRenderPass render_pass, uint32_t extent, const char *name,
+/* Triangles into a render pass without attachments, `extent` pixels a side, neither culled nor clipped in
+ * depth. */
+VkResult gpu_raster_pipeline_create(const struct gpu_device *device, struct gpu_shader vertex,
+                                    struct gpu_shader fragment, VkPipelineLayout layout,
+                                    VkRenderPass render_pass, uint32_t extent, const char *name,
                                     VkPipeline *pipeline);
 
 /* ---- Recording: gpu_recorder.c */
@@ -167,14 +172,14 @@ enum gpu_usage {
     GPU_USAGE_COUNT,
 };
 
-/* Resources are bits of a mask, chosen by the caller. A barrier is placed before a command whose reads meet earlier
- * writes, or whose writes meet earlier reads or writes. */
+/* Resources are bits of a mask, chosen by the caller. A barrier is placed before a command whose reads meet
+ * earlier writes, or whose writes meet earlier reads or writes. */
 struct gpu_recorder {
     const struct gpu_device *device;
     VkCommandBuffer cmd;
     uint32_t command_count;
-    bool begun;              /* the barrier against earlier work has been placed */
-    uint64_t reads, writes;  /* since the last barrier */
+    bool begun;             /* the barrier against earlier work has been placed */
+    uint64_t reads, writes; /* since the last barrier */
     VkPipelineStageFlags stages;
     VkAccessFlags write_access;
 };
@@ -189,7 +194,8 @@ void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uin
 
 void gpu_label_begin(struct gpu_recorder *rec, const char *name);
 void gpu_label_end(struct gpu_recorder *rec);
-void gpu_fill(struct gpu_recorder *rec, const struct gpu_buffer *buffer, uint64_t offset, uint64_t size, uint32_t value);
+void gpu_fill(struct gpu_recorder *rec, const struct gpu_buffer *buffer, uint64_t offset, uint64_t size,
+              uint32_t value);
 /* Any size that is a multiple of 4; recorded inline, so `data` may be freed afterwards. */
 void gpu_update(struct gpu_recorder *rec, const struct gpu_buffer *buffer, uint64_t offset, uint64_t size,
                 const void *data);
@@ -197,14 +203,15 @@ void gpu_copy(struct gpu_recorder *rec, const struct gpu_buffer *from, uint64_t 
               const struct gpu_buffer *to, uint64_t to_offset, uint64_t size);
 void gpu_image_to_general(struct gpu_recorder *rec, const struct gpu_image *image, uint32_t layers);
 void gpu_bind_pipeline(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipeline pipeline);
-void gpu_bind_set(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipelineLayout layout, uint32_t index,
-                  VkDescriptorSet set);
+void gpu_bind_set(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipelineLayout layout,
+                  uint32_t index, VkDescriptorSet set);
 void gpu_push(struct gpu_recorder *rec, VkPipelineLayout layout, uint32_t size, const void *data);
 void gpu_dispatch(struct gpu_recorder *rec, uint32_t x, uint32_t y, uint32_t z);
 void gpu_dispatch_indirect(struct gpu_recorder *rec, const struct gpu_buffer *arguments, uint64_t offset);
 void gpu_draw(struct gpu_recorder *rec, uint32_t vertices);
 /* A render pass over `extent` pixels a side without attachments. */
-void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t extent);
+void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer,
+                           uint32_t extent);
 void gpu_render_pass_end(struct gpu_recorder *rec);
 
 /* ---- Timestamps: gpu_timer.c */
@@ -212,7 +219,7 @@ void gpu_render_pass_end(struct gpu_recorder *rec);
 enum { GPU_TIMER_SPANS = 256 }; /* timed spans per frame; further ones are not timed */
 
 struct gpu_timer_span {
-    uint32_t tag;    /* the caller's */
+    uint32_t tag; /* the caller's */
     uint64_t ns;
 };
 
@@ -220,17 +227,18 @@ struct gpu_timer_span {
 struct gpu_timer {
     VkQueryPool pool; /* null: no timestamps on this queue */
     uint32_t slots, slot;
-    uint32_t count;                       /* spans begun in the current slot */
-    uint32_t *tags;                       /* slots * GPU_TIMER_SPANS */
-    uint32_t *counts;                     /* per slot */
+    uint32_t count;   /* spans begun in the current slot */
+    uint32_t *tags;   /* slots * GPU_TIMER_SPANS */
+    uint32_t *counts; /* per slot */
 };
 
 /* `tags` holds slots * GPU_TIMER_SPANS and `counts` slots elements; both stay the caller's. */
-VkResult gpu_timer_init(const struct gpu_device *device, struct gpu_timer *timer, uint32_t slots, uint32_t *tags,
-                        uint32_t *counts);
+VkResult gpu_timer_init(const struct gpu_device *device, struct gpu_timer *timer, uint32_t slots,
+                        uint32_t *tags, uint32_t *counts);
 void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer);
 
-/* Reads the spans last recorded in `slot`, whose frame must be over. Returns how many were written to `spans`. */
+/* Reads the spans last recorded in `slot`, whose frame must be over. Returns how many were written to
+ * `spans`. */
 uint32_t gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
                         struct gpu_timer_span spans[GPU_TIMER_SPANS]);
 

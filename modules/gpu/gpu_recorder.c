@@ -172,7 +172,8 @@ void gpu_draw(struct gpu_recorder *rec, uint32_t vertices)
     rec->command_count++;
 }
 
-void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer, uint32_t extent)
+void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer,
+                           uint32_t extent)
 {
     rec->device->fn.CmdBeginRenderPass(
         rec->cmd,

@@ -46,11 +46,13 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     struct hooks *hooks = &gi->backend.hooks;
     enum sdfgi_result result = check_device(hooks, &desc->vulkan);
     if (result == SDFGI_OK)
-        result = message_vulkan(hooks, import_device(&gi->backend, desc), "sdfgi_create: importing the device");
+        result =
+            message_vulkan(hooks, import_device(&gi->backend, desc), "sdfgi_create: importing the device");
     if (result == SDFGI_OK)
         result = message_vulkan(hooks, pipelines_init(&gi->backend), "sdfgi_create: pipelines");
     if (result == SDFGI_OK)
-        result = message_vulkan(hooks, blank_set_init(&gi->backend, &gi->blank), "sdfgi_create: the blank set");
+        result =
+            message_vulkan(hooks, blank_set_init(&gi->backend, &gi->blank), "sdfgi_create: the blank set");
     if (result == SDFGI_OK && desc->settings)
         result = sdfgi_set_settings(gi, desc->settings);
     return result;

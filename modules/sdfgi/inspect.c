@@ -22,9 +22,11 @@ enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t cascade,
                                             struct sdfgi_inspect_cascade *out)
 {
     if (!sdfgi_is_active(gi))
-        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
+        return message_invalid(&gi->backend.hooks,
+                               "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
     if (cascade >= gi->settings.cascades)
-        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: cascade %u of %u", cascade, gi->settings.cascades);
+        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: cascade %u of %u", cascade,
+                               gi->settings.cascades);
     const struct cascade *from = &gi->volume.state.cascades.at[cascade];
     for (int i = 0; i < 3; i++) {
         out->origin_cells[i] = from->origin[i];

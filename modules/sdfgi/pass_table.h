@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * One row per pass: pipelines, layouts, push constants, dispatch sizes, labels, timers, barriers, the plan and
- * the report follow from it. A pass has the name of its shader; Meson takes the list of shaders from here.
+ * One row per pass: pipelines, layouts, push constants, dispatch sizes, labels, timers, barriers, the plan
+ * and the report follow from it. A pass has the name of its shader. Meson takes the list of shaders from
+ * here.
  *
  * X(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)
  *   kind    COMPUTE: <shader>.comp; RASTER: <shader>.vert and .frag. _TEXTURED: a second variant for

@@ -35,10 +35,10 @@ static double max_distance_factor(const struct sdfgi_settings *settings)
 /* clang-format off */
 /* Rows: member or factor, name, type, default, minimum, maximum, unit, choices, what more of it buys, what it
  * costs, description. LIVE takes effect at once, RECREATE rebuilds everything, DERIVED sets min_cell_size. */
-#define INFO(name_, type_, default_, min_, max_, unit_, choices_, buys_, costs_, text_, recreates_, derived_) \
+#define INFO(name_, type_, default_, min_, max_, unit_, choices_, buys_, costs_, text_, again_, derived_) \
     .info = { .name = name_, .type = SDFGI_PROPERTY_##type_, .default_value = default_, .minimum = min_,    \
               .maximum = max_, .unit = unit_, .choices = choices_, .buys = buys_, .costs = costs_,           \
-              .recreates = recreates_, .derived = derived_, .description = text_ }
+              .recreates = again_, .derived = derived_, .description = text_ }
 #define MEMBER(member)      .offset = offsetof(struct sdfgi_settings, member)
 #define LIVE(member, ...)     { INFO(__VA_ARGS__, false, false), MEMBER(member) }
 #define RECREATE(member, ...) { INFO(__VA_ARGS__, true, false), MEMBER(member) }
@@ -86,8 +86,8 @@ static const struct row rows[] = {
         "How far a lookup moves along the surface normal before it reads the probes."),
     LIVE(probe_bias_cells, "sdfgi_probe_bias", FLOAT, 1, 0, 4, "cells", "",
         "no self-shadowing where sdfgi_visibility is probe_depth", "light leaks through thin walls there",
-        "How much further than a probe's mean depth a point may be without counting as hidden. Only probe_depth "
-        "reads it."),
+        "How much further than a probe's mean depth a point may be without counting as hidden. Only "
+        "probe_depth reads it."),
     RECREATE(ray_count, "sdfgi_ray_count", INT, 25, 1, 128, "rays per probe and frame", "",
         "less noise, and light that follows changes sooner", "tracing time in proportion",
         "Rays that each probe sends in a frame while it has not converged."),
@@ -96,19 +96,23 @@ static const struct row rows[] = {
         "Length of the ring of ray directions that is averaged. A static scene repeats after one round per "
         "bounce, and then stops costing anything."),
     LIVE(frames_to_update_lights, "sdfgi_frames_to_update_lights", INT, 1, 1, 16, "frames", "",
-        "less time per frame", "frames until a changed light is seen",
-        "Frames over which the direct light of all cells is brought up to date."),
+        "less time per frame", "frames until bounced light is seen",
+        "Probes show what they have gathered, and hand it to surfaces, once in so many frames. Direct "
+        "light is made in the frame in which a light changes."),
     LIVE(max_scroll_cells, "sdfgi_max_scroll_cells_per_frame", INT, 4194304, 524288, 134217728, "cells", "",
         "fine cascades that keep up with faster cameras, and changed geometry that is seen sooner",
         "time of the frames in which cascades step or geometry changes, in proportion",
-        "At most so many cells are voxelised or given distances in a frame, once there is anything to show. A step of a cascade "
-        "of 128 cells takes 2,228,224. Where the camera is faster, fine cascades wait and coarser ones answer."),
+        "At most so many cells are voxelised or given distances in a frame, once there is anything to "
+        "show. A step of a cascade of 128 cells takes 2,228,224. Where the camera is faster, fine "
+        "cascades wait and coarser ones answer."),
     RECREATE(resolution, "sdfgi_resolution", INT, 128, 32, 256, "cells", "32,64,128,256",
         "range at the same cell size, or detail at the same range", "memory and time with the third power",
         "Cells along a side of each cascade, a power of two."),
-    RECREATE(visibility, "sdfgi_visibility", ENUM, SDFGI_VISIBILITY_CELL_MASK, 0, 2, "", "cell_mask,probe_depth,traced",
+    RECREATE(visibility, "sdfgi_visibility", ENUM, SDFGI_VISIBILITY_CELL_MASK, 0, 2, "",
+        "cell_mask,probe_depth,traced",
         "nothing: they differ in kind",
-        "probe_depth needs 16x16 depths per probe and leaks more behind thin walls; traced needs eight rays per lookup",
+        "probe_depth needs 16x16 depths per probe and leaks more behind thin walls; traced needs eight "
+        "rays per lookup",
         "How a lookup learns which probes see a point: cell_mask traces a ray from each cell to each of its "
         "eight probes once; probe_depth compares with mean depths around each probe; traced sends the eight "
         "rays in every lookup."),

@@ -62,8 +62,7 @@ static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
         cells += count;
         overflow += count > room ? count - room : 0;
     }
-    add_health(report, SDFGI_MESSAGE_NO_GEOMETRY,
-               volume->state.accumulation.known_cycle > 0 && cells == 0);
+    add_health(report, SDFGI_MESSAGE_NO_GEOMETRY, volume->state.accumulation.known_cycle > 0 && cells == 0);
     add_health(report, SDFGI_MESSAGE_NO_LIGHTS, !scene_has_light(&gi->scene, gi->settings.read_sky_light));
     add_health(report, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW, overflow);
     report_counters(counters, report);
@@ -71,7 +70,8 @@ static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
 
 /* ---- Convergence and scrolling */
 
-/* Change shrinks by about the same factor from cycle to cycle: its logarithm measures how far light has come. */
+/* Change shrinks by about the same factor from cycle to cycle: its logarithm measures how far light has come.
+ */
 static float converged_fraction(const struct volume *volume)
 {
     const struct accumulation *a = &volume->state.accumulation;

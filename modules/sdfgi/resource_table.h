@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: MIT
- * One row per resource of a volume: allocation, names, bindings, barriers, the memory estimate and report follow from it.
+ * One row per resource of a volume: allocation, names, bindings, barriers, the memory estimate and report
+ * follow from it.
  *
  * X(id, kind, format, category, scope, set, extent, keep)
  *   kind      UNIFORM or STORAGE buffer
  *   format    of an element: RESOURCE_FORMATS
  *   category  of the memory report
  *   scope     who owns it: VOLUME (follows a camera) or VIEW (belongs to one picture)
- *   set       LOOKUP: what hosts bind for sdfgi.glsl; WORK: what only passes bind. Rows of a set stand in the order of
- *             their bindings (shaders/shared/bindings.h)
+ *   set       LOOKUP: what hosts bind for sdfgi.glsl; WORK: what only passes bind. Bindings are those of
+ *             shaders/shared/bindings.h
  *   extent    elements, from `const struct extent *e`: elements of one cascade, cascades, samples in a cycle
  *   keep      SAVED: cannot be made again from the scene at once, as light gathers over many frames;
- *             DERIVED: made again from the scene and from what is saved; SCRATCH: holds nothing between frames
+ *             DERIVED: made again from the scene and from what is saved; SCRATCH: empty between frames
  *
  * FRAME, LIGHTS, MATERIALS  written by the host when anything in them changes
  * BITS .. NORMALS           valid until the cascade moves or its geometry changes
  * LIGHT                     outgoing light; holds emissive bits between voxelize and voxel_resolve
- * LIGHT_CELLS               the light list: grows when it is too short; direct light is valid until a light changes
+ * LIGHT_CELLS               the light list: grows when it is too short; direct light is kept
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes
  * SUMS                      of this sample cycle; and each probe's history
  * PREVIOUS                  the sample cycle before
@@ -39,31 +40,34 @@
     X(MATERIAL_PARAMS, sizeof(struct sdfgi_material_params))
 
 /* clang-format off */
-#define SDFGI_RESOURCES(X)                                                                                        \
-    X(FRAME,       UNIFORM, FRAME_PARAMS,    LISTS,   VOLUME, LOOKUP, 1,                                   DERIVED) \
-    X(BITS,        STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              DERIVED) \
-    X(DISTANCE,    STORAGE, U16,             VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              DERIVED) \
-    X(LIGHT,       STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              SAVED)   \
-    X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,              DERIVED) \
-    X(PROBES,      STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->probes * e->cascades,             DERIVED) \
-    X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->occlusion,                        DERIVED) \
-    X(IRRADIANCE,  STORAGE, F16X4,           PROBES,  VOLUME, LOOKUP, IRRADIANCE_TEXELS(e),                SAVED)   \
-    X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,                    DERIVED) \
-    X(MATERIALS,   STORAGE, MATERIAL_PARAMS, LISTS,   VOLUME, WORK,   SDFGI_MAX_MATERIALS,                 DERIVED) \
-    X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                          SCRATCH) \
-    X(ALBEDO,      STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,             DERIVED) \
-    X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,             DERIVED) \
-    X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,             DERIVED) \
-    X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   e->light_cells * e->cascades,        DERIVED) \
-    X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   e->probes * e->cascades * e->cycle_samples, DERIVED) \
-    X(SUMS,        STORAGE, F32X4,           PROBES,  VOLUME, WORK,   SDFGI_SUMS_STRIDE * e->probes * e->cascades, SAVED) \
-    X(PREVIOUS,    STORAGE, F16X4,           PROBES,  VOLUME, WORK,   IRRADIANCE_TEXELS(e),                SAVED)   \
-    X(COUNTERS,    STORAGE, U32,             LISTS,   VOLUME, WORK,   SDFGI_COUNTER_COUNT,                 DERIVED) \
-    X(INDIRECT,    STORAGE, U32X4,           LISTS,   VOLUME, WORK,   SDFGI_INDIRECT_RECORDS,              DERIVED) \
-    X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES, DERIVED)
+#define SDFGI_RESOURCES(X)                                                                                   \
+    X(FRAME,       UNIFORM, FRAME_PARAMS,    LISTS,   VOLUME, LOOKUP, 1,                            DERIVED) \
+    X(BITS,        STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       DERIVED) \
+    X(DISTANCE,    STORAGE, U16,             VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       DERIVED) \
+    X(LIGHT,       STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       SAVED)   \
+    X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       DERIVED) \
+    X(PROBES,      STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->probes * e->cascades,      DERIVED) \
+    X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->occlusion,                 DERIVED) \
+    X(IRRADIANCE,  STORAGE, F16X4,           PROBES,  VOLUME, LOOKUP, TEXEL_COUNT(e),               SAVED)   \
+    X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,             DERIVED) \
+    X(MATERIALS,   STORAGE, MATERIAL_PARAMS, LISTS,   VOLUME, WORK,   SDFGI_MAX_MATERIALS,          DERIVED) \
+    X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                   SCRATCH) \
+    X(ALBEDO,      STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
+    X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
+    X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
+    X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   e->light_cells * e->cascades, DERIVED) \
+    X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   RAY_COUNT(e),                 DERIVED) \
+    X(SUMS,        STORAGE, F32X4,           PROBES,  VOLUME, WORK,   SUM_COUNT(e),                 SAVED)   \
+    X(PREVIOUS,    STORAGE, F16X4,           PROBES,  VOLUME, WORK,   TEXEL_COUNT(e),               SAVED)   \
+    X(COUNTERS,    STORAGE, U32,             LISTS,   VOLUME, WORK,   SDFGI_COUNTER_COUNT,          DERIVED) \
+    X(INDIRECT,    STORAGE, U32X4,           LISTS,   VOLUME, WORK,   SDFGI_INDIRECT_RECORDS,       DERIVED) \
+    X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   BOUNDS_BYTES,                 DERIVED)
 /* clang-format on */
 
-#define IRRADIANCE_TEXELS(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
+#define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
+#define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
+#define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)
+#define BOUNDS_BYTES   (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
 
 enum resource {
 #define RESOURCE_ENUM(id, kind, format, category, scope, set, extent, keep) RESOURCE_##id,

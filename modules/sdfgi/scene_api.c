@@ -2,7 +2,8 @@
  * The scene functions of sdfgi.h. */
 #include "context.h"
 
-enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_material_desc *desc, sdfgi_material *out)
+enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_material_desc *desc,
+                                        sdfgi_material *out)
 {
     return scene_material_create(&gi->scene, desc, out);
 }
@@ -22,7 +23,8 @@ enum sdfgi_result sdfgi_mesh_destroy(sdfgi *gi, sdfgi_mesh mesh)
     return scene_mesh_destroy(&gi->scene, mesh);
 }
 
-enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_desc *desc, sdfgi_instance *out)
+enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_desc *desc,
+                                        sdfgi_instance *out)
 {
     return scene_instance_create(&gi->scene, desc, out);
 }

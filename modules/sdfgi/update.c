@@ -21,7 +21,8 @@ static uint32_t threads_per_ray(const struct gpu_device *device)
     return device->is_cpu ? 1 : SDFGI_GROUP_SURFACES;
 }
 
-static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc, bool list_grew)
+static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc,
+                                      bool list_grew)
 {
     return (struct frame_input){ .state = &gi->volume.state,
                                  .desc = desc,

@@ -160,9 +160,7 @@ static void pass_begin(struct host_renderer *renderer, VkCommandBuffer cmd, VkRe
 
 static bool gi_record(struct host_renderer *renderer, VkCommandBuffer cmd)
 {
-    struct sdfgi_frame_desc desc = { .frame_index = renderer->frame_index,
-                                     .seed = renderer->seed,
-                                     .exposure = renderer->gi_exposure };
+    struct sdfgi_frame_desc desc = { .seed = renderer->seed, .exposure = renderer->gi_exposure };
     memcpy(desc.camera_position, renderer->camera.position, sizeof(desc.camera_position));
     memcpy(desc.origin, renderer->camera.origin, sizeof(desc.origin));
     return host_gi_update(renderer->gi, cmd, &desc);
@@ -239,7 +237,6 @@ struct host_slot *host_renderer_frame_begin(struct host_renderer *renderer, cons
     struct host_slot *slot = host_slot_begin(renderer);
     if (!slot || !host_frame_record(renderer, slot, true))
         return NULL;
-    renderer->frame_index++;
     return slot;
 }
 

@@ -327,7 +327,7 @@ struct host_renderer {
     struct host_buffer exposure;
     struct host_sampler sampler;
     VkQueryPool queries; /* two per slot */
-    uint64_t frame_index, submit_count, gpu_ns;
+    uint64_t submit_count, gpu_ns;
     bool has_frame;
     struct host_camera_frame camera; /* of the last frame */
     enum host_aov shown;

@@ -8,9 +8,7 @@
 static bool voxelize(struct host_renderer *renderer, const struct host_camera *camera)
 {
     host_camera_resolve(camera, (double)renderer->width / renderer->height, &renderer->camera);
-    struct sdfgi_frame_desc desc = { .frame_index = renderer->frame_index++,
-                                     .seed = renderer->seed,
-                                     .exposure = renderer->gi_exposure };
+    struct sdfgi_frame_desc desc = { .seed = renderer->seed, .exposure = renderer->gi_exposure };
     memcpy(desc.camera_position, renderer->camera.position, sizeof(desc.camera_position));
     memcpy(desc.origin, renderer->camera.origin, sizeof(desc.origin));
     VkCommandBuffer cmd = host_commands_begin(renderer->device);

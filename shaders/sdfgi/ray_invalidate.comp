@@ -210,7 +210,8 @@ void main()
     const vec3 pos = sdfgi_probe_position(probe, state);
     const vec3 start = sdfgi_first_from_cascade(own_cascade(), pos);
     /* Rays of a probe on the edge of the valid region began outside it, in the next cascade. */
-    const bool all_dirty = (state & SDFGI_PROBE_NEW) != 0u || dirty_contains(own_cascade(), ivec3(floor(pos)));
+    const bool all_dirty =
+        (state & SDFGI_PROBE_NEW) != 0u || dirty_contains(own_cascade(), ivec3(floor(pos)));
     for (uint first = 0u; first < sdfgi_frame.cycle_samples; first += HITS * uint(SDFGI_GROUP_RAYS)) {
         load_hits(cache, first, all_dirty);
         for (uint c = own_cascade(); c < sdfgi_frame.cascade_count; c++)

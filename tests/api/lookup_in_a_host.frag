@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A host's shader as the README has it, with nothing switched on for the library's sake but the include directive. The test
- * compiles it for each GLSL version that hosts use. */
+ * A host's shader as the README has it, with nothing switched on for the library's sake but the include
+ * directive. The test compiles it for each GLSL version that hosts use. */
 #extension GL_GOOGLE_include_directive : require
 
 const float PI = 3.14159265;
@@ -39,5 +39,6 @@ layout(location = 0) out vec4 color;
 
 void main()
 {
-    color = vec4(albedo.rgb / PI * sdfgi_irradiance(position, normal, eye.xyz - position), trace_ray(normal).x);
+    color =
+        vec4(albedo.rgb / PI * sdfgi_irradiance(position, normal, eye.xyz - position), trace_ray(normal).x);
 }

@@ -76,7 +76,6 @@ static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
     (void)index;
     struct journey *j = user;
     REQUIRE_CMP(sdfgi_update(j->t.gi, cmd, &j->t.frame), ==, SDFGI_OK);
-    j->t.frame.frame_index++;
     clear_new(j);
 }
 

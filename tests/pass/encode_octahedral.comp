@@ -7,8 +7,14 @@
 #include "../../shaders/lib/octahedral.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, set = 1, binding = 0) buffer data_buffer { vec4 data[]; };
-layout(push_constant) uniform push { uint count; };
+layout(std430, set = 1, binding = 0) buffer data_buffer
+{
+    vec4 data[];
+};
+layout(push_constant) uniform push
+{
+    uint count;
+};
 
 void main()
 {
@@ -20,5 +26,6 @@ void main()
     const ivec2 source = sdfgi_octahedral_border_source(ivec2(texel % 100, texel / 100 % 100) - 1, n);
     const vec2 at = sdfgi_octahedral_encode(data[3u * i].xyz);
     data[3u * i + 1u] = vec4(at, source);
-    data[3u * i + 2u] = vec4(sdfgi_octahedral_decode(at), sdfgi_octahedral_solid_angle(sdfgi_octahedral_point(at)));
+    data[3u * i + 2u] =
+        vec4(sdfgi_octahedral_decode(at), sdfgi_octahedral_solid_angle(sdfgi_octahedral_point(at)));
 }

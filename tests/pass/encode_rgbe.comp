@@ -5,8 +5,14 @@
 #include "../../shaders/lib/rgbe.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, set = 1, binding = 0) buffer data_buffer { vec4 data[]; };
-layout(push_constant) uniform push { uint count; };
+layout(std430, set = 1, binding = 0) buffer data_buffer
+{
+    vec4 data[];
+};
+layout(push_constant) uniform push
+{
+    uint count;
+};
 
 void main()
 {

@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: MIT
- * The host's lookup at a list of points: three vec4 each, position, normal, result; in their w the way to the viewer. */
+ * The host's lookup at a list of points: three vec4 each, position, normal, result; in their w the way to the
+ * viewer. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_SET 0
 #include "sdfgi.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, set = 1, binding = 0) buffer points_buffer { vec4 points[]; };
-layout(push_constant) uniform push { uint count; };
+layout(std430, set = 1, binding = 0) buffer points_buffer
+{
+    vec4 points[];
+};
+layout(push_constant) uniform push
+{
+    uint count;
+};
 
 void main()
 {

@@ -114,7 +114,6 @@ static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
     (void)index;
     struct gi_test *t = user;
     REQUIRE_CMP(sdfgi_update(t->gi, cmd, &t->frame), ==, SDFGI_OK);
-    t->frame.frame_index++;
 }
 
 void gi_test_update(struct gi_test *t, uint32_t count)

@@ -115,7 +115,8 @@ bool cell_box_contains(const struct cell_box *box, const struct cell_box *other)
     return cell_box_cells(&common) == cell_box_cells(other);
 }
 
-uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole, struct cell_box out[static 3])
+uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole,
+                             struct cell_box out[static 3])
 {
     assert(cell_box_contains(box, hole));
     uint32_t count = 0;

@@ -32,7 +32,8 @@ bool cell_box_contains(const struct cell_box *box, const struct cell_box *other)
 uint64_t cell_box_cells(const struct cell_box *box);
 int cell_box_longest_axis(const struct cell_box *box);
 /* Cuts what is in `box` but not in `hole`, which lies inside it, into up to three boxes; returns how many. */
-uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole, struct cell_box out[static 3]);
+uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole,
+                             struct cell_box out[static 3]);
 
 /* Floored division and remainder: right for negative coordinates too. */
 int64_t floor_div(int64_t a, int64_t b);

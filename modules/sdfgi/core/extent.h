@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What follows from settings: lengths of sample cycles, and how many elements everything has. Needs no device. */
+ * What follows from settings: lengths of sample cycles, and how many elements everything has. Needs no
+ * device. */
 #ifndef SDFGI_EXTENT_H
 #define SDFGI_EXTENT_H
 
@@ -10,7 +11,8 @@
 /* Elements of one cascade, and what else the sizes in the resource table depend on. */
 struct extent {
     uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, scratch, occlusion;
-    uint64_t light_cells, light_cells_max; /* room in the light list of a cascade, and how much it may become */
+    uint64_t light_cells,
+        light_cells_max; /* room in the light list of a cascade, and how much it may become */
 };
 
 struct extent extent_from_settings(const struct sdfgi_settings *settings);
@@ -24,7 +26,8 @@ uint32_t settings_cycle_frames(const struct sdfgi_settings *settings);
 /* The method by which lookups weigh probes: SDFGI_SHADER_VISIBILITY_*. */
 uint32_t settings_shader_visibility(const struct sdfgi_settings *settings);
 
-/* True if two settings cannot share device objects: they differ in a property that is marked so (properties.c). */
+/* True if two settings cannot share device objects: they differ in a property that is marked so
+ * (properties.c). */
 bool settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
 
 uint32_t log2_of(uint64_t power);

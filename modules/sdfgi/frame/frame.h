@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A frame: planned as a list of work, then recorded, then committed. docs/frame.md tells the same with reasons. */
+ * A frame: planned as a list of work, then recorded, then committed. docs/frame.md tells the same with
+ * reasons. */
 #ifndef SDFGI_FRAME_H
 #define SDFGI_FRAME_H
 
@@ -15,10 +16,10 @@ struct frame_input {
     const struct scene *scene;
     const struct journal *journal; /* what changed in the scene */
     struct extent extent;
-    const uint32_t *counters;      /* of the newest finished frame */
+    const uint32_t *counters; /* of the newest finished frame */
     struct light_lists lists;
-    bool list_grew;                /* the light lists are empty now */
-    uint32_t threads_per_ray;      /* of light_direct: few threads at once should not idle */
+    bool list_grew;           /* the light lists are empty now */
+    uint32_t threads_per_ray; /* of light_direct: few threads at once should not idle */
 };
 
 /* Small data that the host writes into buffers. */
@@ -34,8 +35,8 @@ struct frame {
     struct scroll_plan scroll;
     struct situation situation;
     struct work_list work;
-    uint32_t uploads;        /* enum frame_upload */
-    bool cycle_ends;         /* this is the last frame of a sample cycle */
+    uint32_t uploads;                /* enum frame_upload */
+    bool cycle_ends;                 /* this is the last frame of a sample cycle */
     const char *reasons[PASS_COUNT]; /* why each pass runs, or not */
 };
 
@@ -43,7 +44,8 @@ struct frame {
 void frame_plan(struct frame *frame, const struct frame_input *input);
 
 /* Records a plan. Changes nothing but the command buffer and what the recorder counts. */
-void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec, uint32_t slot);
+void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec,
+                  uint32_t slot);
 
 /* Makes a recorded plan the volume's state. */
 void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume);

@@ -91,7 +91,8 @@ static bool needs_gather(const struct situation *s)
 
 static const struct need_row needs[NEED_COUNT] = {
     [NEED_VOXELS] = { needs_voxels, "geometry lies in cells that are voxelised",
-                      "no geometry lies in cells that are voxelised in this frame, or sdfgi_voxelizer is raster" },
+                      "no geometry lies in cells that are voxelised in this frame, or sdfgi_voxelizer is "
+                      "raster" },
     [NEED_VOXELS_RASTER] = { needs_voxels_raster, "geometry lies in cells that are voxelised",
                              "sdfgi_voxelizer is compute, or no geometry lies in cells that are voxelised" },
     [NEED_GENERATE] = { needs_generate, "a cascade moved or its geometry changed",
@@ -112,12 +113,14 @@ static const struct need_row needs[NEED_COUNT] = {
                      "lookups read no cell masks, or no change is complete" },
     [NEED_DIRECT] = { needs_direct, "lights or the surfaces that they reach changed",
                       "no light and no surface changed, or cells wait for a later frame to be lit again" },
-    [NEED_LIGHT] = { needs_light, "light has not converged", "light has converged, or is due in a later frame" },
+    [NEED_LIGHT] = { needs_light, "light has not converged",
+                     "light has converged, or is due in a later frame" },
     [NEED_TRACE] = { needs_trace, "light has not converged",
                      "light has converged, or waits for the frame after a scroll" },
     [NEED_RAYS] = { needs_rays, "rays of the sample cycle are not cached",
                     "all rays are cached, or light has converged or waits" },
-    [NEED_BLEND] = { needs_blend, "light has not converged", "light has converged, or is due in a later frame" },
+    [NEED_BLEND] = { needs_blend, "light has not converged",
+                     "light has converged, or is due in a later frame" },
     [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
 };
 

@@ -9,16 +9,16 @@
 struct situation {
     bool voxels_due, geometry_due; /* voxels of cells; of cells that an instance touches */
     bool distances_due;
-    bool completes;      /* a change of a cascade completes */
+    bool completes;        /* a change of a cascade completes */
     bool scroll_completes; /* one that was not an edit */
-    bool from_nothing;   /* no cascade was complete before */
-    bool list_grew;      /* light lists were lost: they are written again */
+    bool from_nothing;     /* no cascade was complete before */
+    bool list_grew;        /* light lists were lost: they are written again */
     bool has_lights;
     bool lights_changed;
-    bool relights;       /* light cells wait to be lit again */
-    bool light_waits;    /* light goes on in the next frame */
-    bool rays_missing;   /* some of this frame's rays are not cached */
-    bool shows;          /* probes show in this frame what they have gathered */
+    bool relights;     /* light cells wait to be lit again */
+    bool light_waits;  /* light goes on in the next frame */
+    bool rays_missing; /* some of this frame's rays are not cached */
+    bool shows;        /* probes show in this frame what they have gathered */
     bool converged;
     bool raster, flood, occlusion, masks; /* methods that the settings choose */
 };

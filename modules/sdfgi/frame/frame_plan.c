@@ -59,11 +59,12 @@ static bool scroll_completes(const struct frame *frame)
     return false;
 }
 
-/* A frame in which a scroll completes has enough to do: light goes on in the next one. Not where scrolls come thick and
- * fast, and not for geometry, which may change in every frame: that would keep light waiting. */
+/* A frame in which a scroll completes has enough to do: light goes on in the next one. Not where scrolls come
+ * thick and fast, and not for geometry, which may change in every frame: that would keep light waiting. */
 static bool light_waits(const struct frame *frame)
 {
-    return frame->situation.scroll_completes && !restarts(frame) && frame->next.accumulation.phase != LIGHTING_DARK &&
+    return frame->situation.scroll_completes && !restarts(frame) &&
+           frame->next.accumulation.phase != LIGHTING_DARK &&
            frame->next.scroll.calm_frames >= SCROLL_CALM_FRAMES;
 }
 
@@ -78,7 +79,8 @@ static void plan_cycle(struct frame *frame, const struct frame_input *input)
     frame->situation.light_waits = light_waits(frame);
     if (frame->scroll.from_nothing)
         accumulation_go_dark(a);
-    /* Any change may invalidate cached rays of any sample, so rays are traced for one full cycle afterwards. */
+    /* Any change may invalidate cached rays of any sample, so rays are traced for one full cycle afterwards.
+     */
     bool changes = restarts(frame);
     for (uint32_t c = 0; c < frame->next.cascades.count; c++)
         changes = changes || frame->next.cascades.at[c].change.cause != CHANGE_NONE;
@@ -135,7 +137,8 @@ static void plan_methods(struct situation *s, const struct sdfgi_settings *setti
 }
 
 /* Compares the parameters with those that were uploaded last. */
-static void plan_uploads(struct frame *frame, const struct frame_input *input, const struct situation_needs *needs)
+static void plan_uploads(struct frame *frame, const struct frame_input *input,
+                         const struct situation_needs *needs)
 {
     const struct params_input params_input = { input->settings, input->scene, input->extent.light_cells };
     struct sdfgi_frame_params params;

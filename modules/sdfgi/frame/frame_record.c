@@ -6,12 +6,14 @@
 
 /* ---- Uploads: recorded inline, so that frames in flight never meet */
 
-static void upload(struct pass_recorder *r, enum resource resource, uint64_t offset, uint64_t size, const void *data)
+static void upload(struct pass_recorder *r, enum resource resource, uint64_t offset, uint64_t size,
+                   const void *data)
 {
     gpu_update(&r->gpu, &r->resources->buffers[resource], offset, size, data);
 }
 
-static void upload_lights(struct pass_recorder *r, const struct volume_state *state, const struct pool *lights)
+static void upload_lights(struct pass_recorder *r, const struct volume_state *state,
+                          const struct pool *lights)
 {
     enum { BATCH = 64 };
     struct sdfgi_light_params batch[BATCH];
@@ -79,10 +81,12 @@ static void record_readback(struct pass_recorder *r, uint32_t slot)
 {
     const uint64_t bytes = SDFGI_COUNTER_COUNT * sizeof(uint32_t);
     gpu_use(&r->gpu, GPU_USAGE_TRANSFER, RESOURCE_BIT(COUNTERS), 0);
-    gpu_copy(&r->gpu, &r->resources->buffers[RESOURCE_COUNTERS], 0, &r->resources->readback, slot * bytes, bytes);
+    gpu_copy(&r->gpu, &r->resources->buffers[RESOURCE_COUNTERS], 0, &r->resources->readback, slot * bytes,
+             bytes);
 }
 
-void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r, uint32_t slot)
+void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r,
+                  uint32_t slot)
 {
     const struct voxelizer voxelizer = { r, scene, &frame->next.cascades };
     record_uploads(r, frame, scene);

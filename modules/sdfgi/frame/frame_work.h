@@ -6,7 +6,8 @@
 #include "frame.h"
 
 /* Adds all passes that the needs call for, in the order in which they run. */
-void frame_add_work(struct frame *frame, const struct frame_input *input, const struct situation_needs *needs);
+void frame_add_work(struct frame *frame, const struct frame_input *input,
+                    const struct situation_needs *needs);
 
 /* What a stage needs to add its items. */
 struct plan_stage {

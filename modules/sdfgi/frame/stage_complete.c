@@ -25,8 +25,8 @@ static void clear_list(const struct plan_stage *stage)
     work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0, 4 * (uint64_t)sdfgi_scratch_light_before(bits));
 }
 
-/* A pass over the light cells in dirty blocks, with the workgroups of a record of indirect arguments. How many cells
- * that is comes back frames later: the work is that of the list before. */
+/* A pass over the light cells in dirty blocks, with the workgroups of a record of indirect arguments. How
+ * many cells that is comes back frames later: the work is that of the list before. */
 static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c, uint32_t record,
                       const union work_args *args)
 {
@@ -40,9 +40,9 @@ static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c
 
 static void add_direct(const struct plan_stage *stage, uint32_t c)
 {
-    const union work_args args = { .light_direct = { .cascade = c,
-                                                     .only_dirty = 1,
-                                                     .threads_per_ray = stage->input->threads_per_ray } };
+    const union work_args args = {
+        .light_direct = { .cascade = c, .only_dirty = 1, .threads_per_ray = stage->input->threads_per_ray }
+    };
     add_dirty(stage, PASS_LIGHT_DIRECT, c, SDFGI_INDIRECT_DIRECT, &args);
 }
 
@@ -56,8 +56,8 @@ static void add_bounce(const struct plan_stage *stage, uint32_t c)
     add_dirty(stage, PASS_LIGHT_BOUNCE, c, SDFGI_INDIRECT_CELLS, &args);
 }
 
-/* Rays of a cascade go on into coarser ones, never into finer: those of the finest cascades, up to the coarsest that
- * completes, may be invalid. Once per frame, with the finest cascade that completes. */
+/* Rays of a cascade go on into coarser ones, never into finer: those of the finest cascades, up to the
+ * coarsest that completes, may be invalid. Once per frame, with the finest cascade that completes. */
 static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
 {
     const struct cascades *cascades = &stage->frame->next.cascades;
@@ -74,8 +74,8 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
     work->units = stage->input->extent.probes * stage->input->extent.cycle_samples * count;
 }
 
-/* Probes and light cells of a cascade. The order of passes is such that neighbours touch nothing in common: no barrier
- * comes between them. */
+/* Probes and light cells of a cascade. The order of passes is such that neighbours touch nothing in common:
+ * no barrier comes between them. */
 static void complete_cascade(const struct plan_stage *stage, uint32_t c)
 {
     const bool completes = cascade_completes(&stage->frame->next.cascades.at[c]);

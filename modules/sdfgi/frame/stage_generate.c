@@ -6,7 +6,8 @@
 
 /* ---- A jump flood cannot be cut: it makes all distances of a cascade at once */
 
-static void add_flood_pass(const struct plan_stage *stage, enum pass pass, const struct sdfgi_flood_args *args)
+static void add_flood_pass(const struct plan_stage *stage, enum pass pass,
+                           const struct sdfgi_flood_args *args)
 {
     struct work *work = stage_add(stage, pass, args->cascade);
     work->args.flood = *args;
@@ -20,8 +21,8 @@ static void add_flood_step(const struct plan_stage *stage, struct sdfgi_flood_ar
     args->source = 1 - args->source;
 }
 
-/* Jumps from half the resolution down to 1, then once more 2 and 1, which brings the largest error from over a cell
- * to about 0.1 (HARD_CASES, jump flood facts). */
+/* Jumps from half the resolution down to 1, then once more 2 and 1, which brings the largest error from over
+ * a cell to about 0.1 (HARD_CASES, jump flood facts). */
 static void add_flood(const struct plan_stage *stage, uint32_t c)
 {
     struct sdfgi_flood_args args = { .cascade = c };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Items of passes that are planned by their row alone: what they run over follows from the domain, their arguments
- * from the argument struct. */
+ * Items of passes that are planned by their row alone: what they run over follows from the domain, their
+ * arguments from the argument struct. */
 #include "frame_work.h"
 
 #include "volume/change.h"
@@ -14,7 +14,8 @@ static const struct change *change_of(const struct plan_stage *stage, const stru
 
 /* ---- Domains */
 
-/* Cells in the light blocks that a change makes dirty, some of them more than once: those in cages that touch it. */
+/* Cells in the light blocks that a change makes dirty, some of them more than once: those in cages that touch
+ * it. */
 static uint64_t dirty_cells(const struct plan_stage *stage, const struct plan_target *target)
 {
     if (frame_relist(stage->frame, target->cascade) == RELIST_NEW)
@@ -113,7 +114,8 @@ static void pack_box(const struct cell_box *box, int32_t n, uint corners[static 
     }
 }
 
-static struct sdfgi_region_args region_args(const struct change *change, uint32_t c, const struct cell_box *box)
+static struct sdfgi_region_args region_args(const struct change *change, uint32_t c,
+                                            const struct cell_box *box)
 {
     return (struct sdfgi_region_args){
         .low = { box->low[0], box->low[1], box->low[2] },
@@ -152,8 +154,8 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
         work->args.distance_prepare = prepare_args(change, work, frame->next.cascades.resolution);
         break;
     case ARGS_distance_search:
-        work->args.distance_search = (struct sdfgi_distance_search_args){ c, 4 * work->first,
-                                                                          4 * (work->first + work->count) };
+        work->args.distance_search =
+            (struct sdfgi_distance_search_args){ c, 4 * work->first, 4 * (work->first + work->count) };
         break;
     case ARGS_light_mark:
         work->args.light_mark =

@@ -187,10 +187,9 @@ static void record_raster(const struct voxelizer *v, const struct work *work)
 {
     struct pass_recorder *rec = v->rec;
     const struct raster_target *target = &rec->resources->raster;
-    struct binder b = { .voxelizer = v,
-                        .work = work,
-                        .point = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                        .pipelines = target->pipelines };
+    struct binder b = {
+        .voxelizer = v, .work = work, .point = VK_PIPELINE_BIND_POINT_GRAPHICS, .pipelines = target->pipelines
+    };
     gpu_use(&rec->gpu, GPU_USAGE_GRAPHICS, pass_row(work->pass)->reads, pass_row(work->pass)->writes);
     gpu_render_pass_begin(&rec->gpu, target->pass, target->framebuffer, target->extent);
     draw_instances(&b);

@@ -28,8 +28,8 @@ void backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
     gpu_buffer_finish(&backend->device, buffer);
 }
 
-VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool, VkDescriptorSetLayout layout,
-                              VkDescriptorSet *set)
+VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
+                              VkDescriptorSetLayout layout, VkDescriptorSet *set)
 {
     return backend->device.fn.AllocateDescriptorSets(
         backend->device.handle,

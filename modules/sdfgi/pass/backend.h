@@ -48,7 +48,7 @@ VkResult pipelines_raster(struct backend *backend, enum pass pass, uint32_t vari
                           uint32_t extent, VkPipeline *pipeline);
 
 /* One set from a pool. */
-VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool, VkDescriptorSetLayout layout,
-                              VkDescriptorSet *set);
+VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
+                              VkDescriptorSetLayout layout, VkDescriptorSet *set);
 
 #endif

@@ -4,8 +4,8 @@
 #include <assert.h>
 #include <string.h>
 
-/* Blocks whose light cells a workgroup marks. On a CPU looking for the next block in vain takes as long as marking
- * it: with one block for each workgroup, a slab of 64^3 takes 42 ms there instead of 17. */
+/* Blocks whose light cells a workgroup marks. On a CPU looking for the next block in vain takes as long as
+ * marking it: with one block for each workgroup, a slab of 64^3 takes 42 ms there instead of 17. */
 #define MARK_BLOCKS     1
 #define MARK_BLOCKS_CPU 16
 
@@ -60,8 +60,8 @@ static bool same_pass(const struct work *a, const struct work *b)
     return a && a->pass == b->pass && a->group == b->group;
 }
 
-/* Passes that run side by side have one time, that of the first: timestamps between them would have each wait for
- * the one before. */
+/* Passes that run side by side have one time, that of the first: timestamps between them would have each wait
+ * for the one before. */
 void pass_open(struct pass_recorder *r, const struct work *work)
 {
     if (same_pass(r->open, work)) {
@@ -91,8 +91,8 @@ static void dispatch(struct pass_recorder *r, const struct work *work)
         gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[RESOURCE_INDIRECT], 16 * work->indirect);
         return;
     }
-    const struct work_groups groups = work_groups(work, &r->resources->extent,
-                                                  r->backend->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
+    const struct work_groups groups =
+        work_groups(work, &r->resources->extent, r->backend->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
     gpu_use(&r->gpu, GPU_USAGE_COMPUTE, row->reads, row->writes);
     gpu_dispatch(&r->gpu, groups.x, groups.y, groups.z);
 }

@@ -43,8 +43,8 @@ static const struct pass_row rows[PASS_COUNT] = {
 const char *pass_unit_name(enum pass_unit unit)
 {
     static const char *const names[UNIT_COUNT] = {
-        [UNIT_CELLS] = "cells",   [UNIT_TRIANGLES] = "triangles",     [UNIT_BLOCKS] = "blocks",
-        [UNIT_PROBES] = "probes", [UNIT_RAYS] = "rays",               [UNIT_LIGHT_CELLS] = "light cells",
+        [UNIT_CELLS] = "cells",   [UNIT_TRIANGLES] = "triangles", [UNIT_BLOCKS] = "blocks",
+        [UNIT_PROBES] = "probes", [UNIT_RAYS] = "rays",           [UNIT_LIGHT_CELLS] = "light cells",
         [UNIT_PIXELS] = "pixels",
     };
     return names[unit];

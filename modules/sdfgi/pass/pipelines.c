@@ -19,11 +19,22 @@ struct pass_shaders {
     struct gpu_shader compute[PASS_VARIANTS], vertex, fragment[PASS_VARIANTS];
 };
 
-#define SHADER(name) { name, sizeof name }
-#define SHADERS_COMPUTE(file)          { .compute = { SHADER(file##_comp) } }
-#define SHADERS_COMPUTE_TEXTURED(file) { .compute = { SHADER(file##_comp), SHADER(file##_textured_comp) } }
-#define SHADERS_RASTER_TEXTURED(file) \
-    { .vertex = SHADER(file##_vert), .fragment = { SHADER(file##_frag), SHADER(file##_textured_frag) } }
+#define SHADER(name)                                                                                         \
+    {                                                                                                        \
+        name, sizeof name                                                                                    \
+    }
+#define SHADERS_COMPUTE(file)                                                                                \
+    {                                                                                                        \
+        .compute = { SHADER(file##_comp) }                                                                   \
+    }
+#define SHADERS_COMPUTE_TEXTURED(file)                                                                       \
+    {                                                                                                        \
+        .compute = { SHADER(file##_comp), SHADER(file##_textured_comp) }                                     \
+    }
+#define SHADERS_RASTER_TEXTURED(file)                                                                        \
+    {                                                                                                        \
+        .vertex = SHADER(file##_vert), .fragment = { SHADER(file##_frag), SHADER(file##_textured_frag) }     \
+    }
 
 static const struct pass_shaders shaders[PASS_COUNT] = {
 #define ROW(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)              \

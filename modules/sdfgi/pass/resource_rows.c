@@ -9,9 +9,10 @@
 
 static const struct resource_row rows[RESOURCE_COUNT] = {
 #define ROW(id, kind_, format, category_, scope_, set_, extent, keep_)                                       \
-    [RESOURCE_##id] = { "sdfgi " #id,          RESOURCE_KIND_##kind_, SDFGI_MEMORY_##category_,              \
-                        RESOURCE_SCOPE_##scope_, RESOURCE_SET_##set_,   RESOURCE_KEEP_##keep_,               \
-                        SDFGI_BINDING_##id },
+    [RESOURCE_##id] = {                                                                                      \
+        "sdfgi " #id,        RESOURCE_KIND_##kind_, SDFGI_MEMORY_##category_, RESOURCE_SCOPE_##scope_,       \
+        RESOURCE_SET_##set_, RESOURCE_KEEP_##keep_, SDFGI_BINDING_##id                                       \
+    },
     SDFGI_RESOURCES(ROW)
 #undef ROW
 };

@@ -12,8 +12,9 @@
 static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer, enum resource resource,
                               const struct extent *extent)
 {
-    return backend_buffer_init(backend, buffer, resource_size(resource, extent), BUFFER_USAGE, GPU_DEVICE_LOCAL,
-                               resource_row(resource)->category, resource_row(resource)->name);
+    return backend_buffer_init(backend, buffer, resource_size(resource, extent), BUFFER_USAGE,
+                               GPU_DEVICE_LOCAL, resource_row(resource)->category,
+                               resource_row(resource)->name);
 }
 
 static VkResult create_buffers(struct backend *backend, struct resources *r)
@@ -31,7 +32,8 @@ static VkResult create_buffers(struct backend *backend, struct resources *r)
 /* ---- Descriptor sets */
 
 /* A pool for `sets` sets with one binding for each of `count` resources. */
-static VkResult create_pool(const struct backend *backend, uint32_t sets, uint32_t count, VkDescriptorPool *pool)
+static VkResult create_pool(const struct backend *backend, uint32_t sets, uint32_t count,
+                            VkDescriptorPool *pool)
 {
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
@@ -84,9 +86,8 @@ static VkResult create_framebuffer(const struct gpu_device *d, struct raster_tar
     const VkSubpassDescription subpass = { .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS };
     const VkResult result = d->fn.CreateRenderPass(
         d->handle,
-        &(VkRenderPassCreateInfo){ .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                   .subpassCount = 1,
-                                   .pSubpasses = &subpass },
+        &(VkRenderPassCreateInfo){
+            .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO, .subpassCount = 1, .pSubpasses = &subpass },
         d->callbacks, &target->pass);
     if (result != VK_SUCCESS)
         return result;
@@ -112,7 +113,8 @@ static VkResult create_raster(struct backend *backend, struct raster_target *tar
 
 /* ---- Life */
 
-static VkResult create_all(struct backend *backend, struct resources *r, const struct sdfgi_settings *settings)
+static VkResult create_all(struct backend *backend, struct resources *r,
+                           const struct sdfgi_settings *settings)
 {
     VkResult result = create_buffers(backend, r);
     if (result == VK_SUCCESS)
@@ -142,7 +144,8 @@ static void destroy(struct gpu_retired *item, void *user)
     hooks_free(&backend->hooks, r);
 }
 
-_Static_assert(offsetof(struct resources, retired) == 0, "destroy() finds the resources by their first member");
+_Static_assert(offsetof(struct resources, retired) == 0,
+               "destroy() finds the resources by their first member");
 
 static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent)
 {
@@ -238,8 +241,8 @@ VkResult blank_set_init(struct backend *backend, struct blank_set *blank)
 {
     const struct extent none = { 0 };
     const uint64_t bytes = resource_size(RESOURCE_FRAME, &none);
-    VkResult result = gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ,
-                                      "sdfgi blank");
+    VkResult result =
+        gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ, "sdfgi blank");
     if (result == VK_SUCCESS)
         result = gpu_buffer_zero(&backend->device, &blank->buffer);
     if (result == VK_SUCCESS)

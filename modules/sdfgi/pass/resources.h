@@ -32,11 +32,12 @@ enum sdfgi_result resources_create(struct backend *backend, const struct sdfgi_s
                                    struct resources **out);
 /* Destroys them once no frame in flight can use them. NULL is accepted. */
 void resources_retire(struct backend *backend, struct resources *resources);
-/* Exchanges the light lists for empty ones with room for `light_cells` in each cascade, and the descriptor sets
- * with them. Changes nothing and returns false if memory is short. */
+/* Exchanges the light lists for empty ones with room for `light_cells` in each cascade, and the descriptor
+ * sets with them. Changes nothing and returns false if memory is short. */
 bool resources_grow_light_cells(struct backend *backend, struct resources *resources, uint64_t light_cells);
 
-/* The LOOKUP set of a context that has no light to show: every lookup is black. At most 64 KiB, and no command. */
+/* The LOOKUP set of a context that has no light to show: every lookup is black. At most 64 KiB, and no
+ * command. */
 struct blank_set {
     struct gpu_buffer buffer;
     VkDescriptorPool pool;

@@ -60,15 +60,15 @@ enum work_kind {
 struct work {
     enum work_kind kind;
     enum pass pass;
-    const char *reason;      /* static: why the pass runs */
+    const char *reason; /* static: why the pass runs */
     uint32_t cascade;
-    struct cell_box box;     /* DOMAIN_BOX, DOMAIN_INSTANCES */
-    uint32_t first, count;   /* a range of the domain */
-    uint32_t indirect;       /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
-    uint32_t group;          /* neighbours with the same number run side by side and share one time; 0: alone */
-    uint64_t units;          /* what the report counts as work */
+    struct cell_box box;   /* DOMAIN_BOX, DOMAIN_INSTANCES */
+    uint32_t first, count; /* a range of the domain */
+    uint32_t indirect;     /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
+    uint32_t group;        /* neighbours with the same number run side by side and share one time; 0: alone */
+    uint64_t units;        /* what the report counts as work */
     union work_args args;
-    enum resource resource;  /* WORK_CLEAR: bytes [offset, offset + bytes) of this */
+    enum resource resource; /* WORK_CLEAR: bytes [offset, offset + bytes) of this */
     uint64_t offset, bytes;
 };
 
@@ -87,8 +87,9 @@ struct work_groups {
     uint32_t x, y, z;
 };
 
-/* Workgroups of an item that is neither indirect nor of DOMAIN_INSTANCES. `blocks_per_group` is how many light
- * blocks a workgroup marks. */
-struct work_groups work_groups(const struct work *work, const struct extent *extent, uint32_t blocks_per_group);
+/* Workgroups of an item that is neither indirect nor of DOMAIN_INSTANCES. `blocks_per_group` is how many
+ * light blocks a workgroup marks. */
+struct work_groups work_groups(const struct work *work, const struct extent *extent,
+                               uint32_t blocks_per_group);
 
 #endif

@@ -8,8 +8,8 @@
 enum { JOURNAL_BOXES = 64 };
 
 enum journal_note {
-    JOURNAL_LIGHTS = 1,     /* lights were made, changed or destroyed */
-    JOURNAL_MATERIALS = 2,  /* constants of materials */
+    JOURNAL_LIGHTS = 1,    /* lights were made, changed or destroyed */
+    JOURNAL_MATERIALS = 2, /* constants of materials */
     JOURNAL_SKY = 4,
     JOURNAL_EVERYTHING = 8, /* all that was voxelised is out of date */
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Meshes, materials, instances and what follows from them. Every value is checked here, at the edge; the stages
- * trust it. */
+ * Meshes, materials, instances and what follows from them. Every value is checked here, at the edge; the
+ * stages trust it. */
 #include "scene.h"
 #include "scene_check.h"
 #include "scene_sets.h"
@@ -135,8 +135,9 @@ enum sdfgi_result scene_material_destroy(struct scene *scene, sdfgi_material han
     for (uint32_t i = 0; i < scene->instances.end; i++) {
         const struct instance *instance = pool_at(&scene->instances, i);
         if (instance && instance->desc.material.id == handle.id)
-            return message_invalid(&scene->backend->hooks, "sdfgi_material_destroy: instance %u still uses material %u",
-                           pool_id(&scene->instances, i), handle.id);
+            return message_invalid(&scene->backend->hooks,
+                                   "sdfgi_material_destroy: instance %u still uses material %u",
+                                   pool_id(&scene->instances, i), handle.id);
     }
     scene_sets_retire(scene, material->set);
     pool_remove(&scene->materials, handle.id);
@@ -241,7 +242,8 @@ enum sdfgi_result scene_instance_create(struct scene *scene, const struct sdfgi_
     if (!transform_finite(&desc->transform))
         return message_invalid(&scene->backend->hooks, "sdfgi_instance_create: transform is not finite");
     if (desc->mobility != SDFGI_STATIC && desc->mobility != SDFGI_EXCLUDED)
-        return message_invalid(&scene->backend->hooks, "sdfgi_instance_create: unknown mobility %d", (int)desc->mobility);
+        return message_invalid(&scene->backend->hooks, "sdfgi_instance_create: unknown mobility %d",
+                               (int)desc->mobility);
     uint32_t id;
     struct instance *instance = pool_add(&scene->instances, &scene->backend->hooks, &id);
     if (!instance)
@@ -261,7 +263,8 @@ enum sdfgi_result scene_instance_set_transform(struct scene *scene, sdfgi_instan
     if (!instance)
         return check_unknown_handle(scene, "sdfgi_instance_set_transform", handle.id);
     if (!transform_finite(transform))
-        return message_invalid(&scene->backend->hooks, "sdfgi_instance_set_transform: transform is not finite");
+        return message_invalid(&scene->backend->hooks,
+                               "sdfgi_instance_set_transform: transform is not finite");
     const bool in_volumes = instance->desc.mobility == SDFGI_STATIC;
     if (in_volumes)
         journal_add_box(scene->journals, &instance->bounds);
@@ -290,7 +293,8 @@ enum sdfgi_result scene_invalidate_box(struct scene *scene, const double box_min
     memcpy(box.max, box_max, sizeof box.max);
     for (int i = 0; i < 3; i++)
         if (!(box.min[i] <= box.max[i]))
-            return message_invalid(&scene->backend->hooks, "sdfgi_invalidate_box: box_min exceeds box_max, or one is not a number");
+            return message_invalid(&scene->backend->hooks,
+                                   "sdfgi_invalidate_box: box_min exceeds box_max, or one is not a number");
     journal_add_box(scene->journals, &box);
     return SDFGI_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the host registered: meshes, materials, instances, lights, sky; and a journal of what changed. The scene
- * knows no cascades: each volume reads a journal of its own. */
+ * What the host registered: meshes, materials, instances, lights, sky; and a journal of what changed. The
+ * scene knows no cascades: each volume reads a journal of its own. */
 #ifndef SDFGI_SCENE_H
 #define SDFGI_SCENE_H
 
@@ -8,8 +8,8 @@
 #include "journal.h"
 #include "pass/backend.h"
 
-/* A descriptor set of an object, NULL if it has none. Lies in memory of its own, because frames in flight may use
- * it longer than the object lives. */
+/* A descriptor set of an object, NULL if it has none. Lies in memory of its own, because frames in flight may
+ * use it longer than the object lives. */
 struct object_set {
     struct gpu_retired retired;
     VkDescriptorSet set;
@@ -67,8 +67,10 @@ enum sdfgi_result scene_instance_create(struct scene *scene, const struct sdfgi_
 enum sdfgi_result scene_instance_set_transform(struct scene *scene, sdfgi_instance instance,
                                                const struct sdfgi_transform *transform);
 enum sdfgi_result scene_instance_destroy(struct scene *scene, sdfgi_instance instance);
-enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc, sdfgi_light *out);
-enum sdfgi_result scene_light_update(struct scene *scene, sdfgi_light light, const struct sdfgi_light_desc *desc);
+enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
+                                     sdfgi_light *out);
+enum sdfgi_result scene_light_update(struct scene *scene, sdfgi_light light,
+                                     const struct sdfgi_light_desc *desc);
 enum sdfgi_result scene_light_destroy(struct scene *scene, sdfgi_light light);
 enum sdfgi_result scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky);
 enum sdfgi_result scene_invalidate_box(struct scene *scene, const double box_min[static 3],

@@ -29,8 +29,8 @@ bool check_non_negative(const float *v, int count)
 
 enum sdfgi_result check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit)
 {
-    message(&scene->backend->hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "%s: out of host memory, or more than %u of them", what,
-            limit);
+    message(&scene->backend->hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY,
+            "%s: out of host memory, or more than %u of them", what, limit);
     return SDFGI_ERROR_OUT_OF_MEMORY;
 }
 

@@ -29,7 +29,8 @@ static void lights_changed(struct scene *scene)
     journal_note(scene->journals, JOURNAL_LIGHTS);
 }
 
-enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc, sdfgi_light *out)
+enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
+                                     sdfgi_light *out)
 {
     const char *problem = light_problem(desc);
     if (problem)
@@ -44,7 +45,8 @@ enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_lig
     return SDFGI_OK;
 }
 
-enum sdfgi_result scene_light_update(struct scene *scene, sdfgi_light handle, const struct sdfgi_light_desc *desc)
+enum sdfgi_result scene_light_update(struct scene *scene, sdfgi_light handle,
+                                     const struct sdfgi_light_desc *desc)
 {
     struct light *light = pool_get(&scene->lights, handle.id);
     if (!light)
@@ -68,7 +70,8 @@ enum sdfgi_result scene_light_destroy(struct scene *scene, sdfgi_light handle)
 
 enum sdfgi_result scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky)
 {
-    if (!check_non_negative(sky->zenith, 3) || !check_non_negative(sky->horizon, 3) || !check_non_negative(sky->ground, 3))
+    if (!check_non_negative(sky->zenith, 3) || !check_non_negative(sky->horizon, 3) ||
+        !check_non_negative(sky->ground, 3))
         return message_invalid(&scene->backend->hooks, "sdfgi_set_sky: a radiance is negative or not finite");
     if (memcmp(&scene->sky, sky, sizeof *sky) == 0)
         return SDFGI_OK;

@@ -104,12 +104,12 @@ void view_write_set(const struct backend *backend, const struct view *view, cons
 
 struct work view_gather_work(const struct sdfgi_gather_desc *d)
 {
-    struct work work = { .pass = PASS_GATHER,
-                         .indirect = WORK_DIRECT,
-                         .units = (uint64_t)d->width * d->height,
-                         .args.gather = { .width = d->width,
-                                          .height = d->height,
-                                          .background_depth = d->background_depth } };
+    struct work work = {
+        .pass = PASS_GATHER,
+        .indirect = WORK_DIRECT,
+        .units = (uint64_t)d->width * d->height,
+        .args.gather = { .width = d->width, .height = d->height, .background_depth = d->background_depth }
+    };
     memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,
            sizeof work.args.gather.inverse_view_projection);
     return work;

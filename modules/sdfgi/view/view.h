@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Views: what belongs to one picture. A view holds the descriptor sets of its gather, one for each frame in flight. */
+ * Views: what belongs to one picture. A view holds the descriptor sets of its gather, one for each frame in
+ * flight. */
 #ifndef SDFGI_VIEW_H
 #define SDFGI_VIEW_H
 
@@ -24,7 +25,8 @@ struct view *views_next(struct backend *backend, struct views *views, VkResult *
 /* NULL, or what is wrong with the description. */
 const char *view_gather_problem(const struct sdfgi_gather_desc *desc);
 /* Writes the pictures of a gather into the view's set of this frame. */
-void view_write_set(const struct backend *backend, const struct view *view, const struct sdfgi_gather_desc *desc);
+void view_write_set(const struct backend *backend, const struct view *view,
+                    const struct sdfgi_gather_desc *desc);
 /* The gather as an item of work. */
 struct work view_gather_work(const struct sdfgi_gather_desc *desc);
 

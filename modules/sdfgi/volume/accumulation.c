@@ -4,8 +4,8 @@
 #include <assert.h>
 #include <math.h>
 
-/* Stored light is rounded, and rounding can go round in a circle. Below this change, so many cycles without one that
- * changed clearly less than all before are an end too. */
+/* Stored light is rounded, and rounding can go round in a circle. Below this change, so many cycles without
+ * one that changed clearly less than all before are an end too. */
 #define CIRCLING_CHANGE (1.0f / 256.0f)
 #define CIRCLING_CYCLES 8
 #define CLEARLY_LESS    0.9f

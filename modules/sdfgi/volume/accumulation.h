@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Sample cycles, what has been shown of their light, and when it has converged. Plain data: the only place that
- * changes these states. */
+ * Sample cycles, what has been shown of their light, and when it has converged. Plain data: the only place
+ * that changes these states. */
 #ifndef SDFGI_ACCUMULATION_H
 #define SDFGI_ACCUMULATION_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The largest relative change of a probe texel, from one cycle to the next, of light that has converged. With a loop
- * gain g the light still missing is at most g / (1 - g) times as much: 0.4 % of a white room of albedo 0.8. */
+/* The largest relative change of a probe texel, from one cycle to the next, of light that has converged. With
+ * a loop gain g the light still missing is at most g / (1 - g) times as much: 0.4 % of a white room of albedo
+ * 0.8. */
 #define ACCUMULATION_CONVERGED_CHANGE (1.0f / 1024.0f)
 
 enum lighting_phase {
@@ -20,7 +21,7 @@ enum lighting_phase {
 
 /* Of the cycles since light was last invalidated. */
 struct convergence {
-    float change, least;          /* of the newest cycle, and of all */
+    float change, least; /* of the newest cycle, and of all */
     uint32_t cycles_without_fall;
 };
 
@@ -52,7 +53,8 @@ void accumulation_go_dark(struct accumulation *a);
 void accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest);
 /* Probes were given the light of this frame. */
 void accumulation_show(struct accumulation *a, bool cycle_ends);
-/* Goes on to the next frame of the cycle. `rests`: no other work is left, so that light may count as converged. */
+/* Goes on to the next frame of the cycle. `rests`: no other work is left, so that light may count as
+ * converged. */
 void accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests);
 
 bool accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames);

@@ -3,18 +3,19 @@
 
 #include <math.h>
 
-/* Borders move hardly faster than the camera: by these fractions of its way when they advance, and in addition to it
- * when they leave cells free. They move by so many cells a frame at least, because they have to arrive. In a box of
- * 5 m whose light cascades see differently, 0.05 cells change light by 1.1 %. */
+/* Borders move hardly faster than the camera: by these fractions of its way when they advance, and in
+ * addition to it when they leave cells free. They move by so many cells a frame at least, because they have
+ * to arrive. In a box of 5 m whose light cascades see differently, 0.05 cells change light by 1.1 %. */
 #define ADVANCE    1.25
 #define LEAVE_FREE 0.25
 #define LEAST      0.03
-/* A border that lacks more than so many cells belongs to a cascade that was left behind: it makes up for the rest of
- * them in so many frames at its present speed. */
+/* A border that lacks more than so many cells belongs to a cascade that was left behind: it makes up for the
+ * rest of them in so many frames at its present speed. */
 #define FAR        (1.5 * SDFGI_PROBE_SPACING)
 #define FAR_FRAMES 32
-/* Fraction of the camera's pace along an axis from which on it leaves a side, and the part of a cascade's width that
- * is left free there: half a spacing at most, which is enough for all axes to scroll with the fastest. */
+/* Fraction of the camera's pace along an axis from which on it leaves a side, and the part of a cascade's
+ * width that is left free there: half a spacing at most, which is enough for all axes to scroll with the
+ * fastest. */
 #define LEAVING   0.125
 #define FREE_PART 32.0
 
@@ -63,7 +64,8 @@ static bool move(struct cascade *cascade, const struct scroll *scroll, uint32_t 
                      high = fmin(cascade->valid.high[i], at + half + fmin(cascade->spare[i], 0));
         cascade->blend_low[i] = border_moved(cascade->blend_low[i], low, -1, most);
         cascade->blend_high[i] = border_moved(cascade->blend_high[i], high, 1, most);
-        moves = moves || cascade->spare[i] != 0 || cascade->blend_low[i] != low || cascade->blend_high[i] != high;
+        moves =
+            moves || cascade->spare[i] != 0 || cascade->blend_low[i] != low || cascade->blend_high[i] != high;
     }
     return moves;
 }

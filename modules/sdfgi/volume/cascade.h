@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Cascades: where they are, which of their cells may be read, and what is being changed in them. Plain data and
- * arithmetic, no Vulkan. */
+ * Cascades: where they are, which of their cells may be read, and what is being changed in them. Plain data
+ * and arithmetic, no Vulkan. */
 #ifndef SDFGI_CASCADE_H
 #define SDFGI_CASCADE_H
 
@@ -32,8 +32,8 @@ enum change_stage {
 struct change {
     enum change_cause cause;
     enum change_stage stage;
-    /* Boxes inside the cascade are voxelised. Cached rays that cross any box are invalidated; a scroll names those
-     * that left the cascade, too. */
+    /* Boxes inside the cascade are voxelised. Cached rays that cross any box are invalidated; a scroll names
+     * those that left the cascade, too. */
     struct cell_box boxes[SDFGI_MAX_CHANGES];
     uint32_t count;
     struct cell_box kept; /* complete all the while */
@@ -67,7 +67,7 @@ struct cascade {
     struct change change;
     struct cell_box valid;              /* valid region: complete cells, which shaders may read */
     double blend_low[3], blend_high[3]; /* blend region: the part of it that lookups sample, see blend.h */
-    double spare[3];                    /* cells left free on the side that the camera leaves: the low one if positive */
+    double spare[3]; /* cells left free on the side that the camera leaves: the low one if positive */
     struct box edits[SDFGI_MAX_CHANGES]; /* world: geometry changed there since the last change began */
     uint32_t edit_count;
 };
@@ -80,10 +80,10 @@ struct cascades {
 /* Cascades of these settings that hold nothing yet. */
 void cascades_init(struct cascades *cascades, const struct sdfgi_settings *settings);
 
-/* Places a cascade around a camera: at first centred to within half a probe. Afterwards a cascade moves in steps of one probe
- * spacing, when the camera is more than one spacing from its centre on some axis; other axes move in the same step
- * if `spare` has reserved room for it. A camera that oscillates around a point causes one step at most. Returns
- * true if it moved. */
+/* Places a cascade around a camera: at first centred to within half a probe. Afterwards a cascade moves in
+ * steps of one probe spacing, when the camera is more than one spacing from its centre on some axis; other
+ * axes move in the same step if `spare` has reserved room for it. A camera that oscillates around a point
+ * causes one step at most. Returns true if it moved. */
 bool cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[static 3]);
 struct box cascade_box(const struct cascade *cascade, uint32_t resolution);
 /* Cells that a box in the world touches, widened to whole probe spacings, clipped to the cascade. */

@@ -7,7 +7,8 @@
 
 /* Rebuilds all of a cascade. Its blend region grows out from the camera. */
 void change_begin_rebuild(struct cascade *cascade, uint32_t resolution, const double camera[static 3]);
-/* Moves a cascade to `origin` and keeps what both places share; rebuilds it if that is nothing, or out of date. */
+/* Moves a cascade to `origin` and keeps what both places share; rebuilds it if that is nothing, or out of
+ * date. */
 void change_begin_scroll(struct cascade *cascade, uint32_t resolution, const int64_t origin[static 3],
                          const double camera[static 3]);
 /* Makes the boxes again in which geometry changed; does nothing if they hold no cell. */
@@ -23,8 +24,9 @@ struct cell_box change_box(const struct change *change, uint32_t i, uint32_t res
 /* The next box with cells in the cascade, from change->box on; change->count if there is none. */
 uint32_t change_next_box(const struct change *change, uint32_t resolution);
 
-/* Axis across which the boxes around removed and added sub-voxels lie in strips (shaders/sdfgi/dirty_bounds.glsl):
- * scrolls are cut across. -1: nothing is kept, so nobody asks for the boxes. */
+/* Axis across which the boxes around removed and added sub-voxels lie in strips
+ * (shaders/sdfgi/dirty_bounds.glsl): scrolls are cut across. -1: nothing is kept, so nobody asks for the
+ * boxes. */
 int32_t change_bounds_axis(const struct change *change);
 
 #endif

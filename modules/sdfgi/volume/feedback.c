@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What comes back from the GPU, frames_in_flight frames late: counters, times, how far light is from converged. */
+ * What comes back from the GPU, frames_in_flight frames late: counters, times, how far light is from
+ * converged. */
 #include "volume.h"
 
 #include <string.h>
@@ -28,8 +29,7 @@ static void read_counters(struct volume *volume, const struct feedback_slot *slo
 static void read_times(struct volume *volume, uint32_t index)
 {
     struct gpu_timer_span spans[GPU_TIMER_SPANS];
-    const uint32_t count =
-        gpu_timer_read(&volume->backend->device, &volume->resources->timer, index, spans);
+    const uint32_t count = gpu_timer_read(&volume->backend->device, &volume->resources->timer, index, spans);
     for (uint32_t i = 0; i < count; i++) {
         struct feedback_time *time = &volume->feedback.times[spans[i].tag];
         time->ns = spans[i].ns + (time->is_new ? time->ns : 0);

@@ -94,7 +94,8 @@ static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_setti
 
 /* The rays of this frame. Once light has converged nobody reads these: they stay, and are no reason to upload
  * anything. */
-static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *state, const struct sdfgi_settings *s)
+static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *state,
+                       const struct sdfgi_settings *s)
 {
     const struct accumulation *a = &state->accumulation;
     const bool keep = a->phase == LIGHTING_CONVERGED;
@@ -107,7 +108,8 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->brightest_texel = keep ? old->brightest_texel : a->known_brightest;
 }
 
-void params_fill(struct sdfgi_frame_params *p, const struct volume_state *state, const struct params_input *input)
+void params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,
+                 const struct params_input *input)
 {
     memset(p, 0, sizeof *p);
     for (uint32_t c = 0; c < state->cascades.count; c++)
@@ -153,7 +155,8 @@ static void uv_rows(const float m[6], vec4 rows[2])
     rows[1] = (vec4){ use[3], use[4], use[5], 0 };
 }
 
-struct sdfgi_material_params params_of_material(const struct scene *scene, const struct sdfgi_material_desc *m)
+struct sdfgi_material_params params_of_material(const struct scene *scene,
+                                                const struct sdfgi_material_desc *m)
 {
     struct sdfgi_material_params p = {
         .albedo = { m->albedo[0], m->albedo[1], m->albedo[2] },

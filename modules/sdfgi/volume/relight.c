@@ -48,8 +48,8 @@ static uint32_t cascades_in_shadow(const struct light_lists *lists, const enum r
     return count;
 }
 
-/* Where a list changes while a pass over it is under way, the pass goes on at the same entry until it has come round
- * once more: it may have passed by cells that have moved to entries before it. */
+/* Where a list changes while a pass over it is under way, the pass goes on at the same entry until it has
+ * come round once more: it may have passed by cells that have moved to entries before it. */
 void relight_note(struct relight *relight, const struct light_lists *lists,
                   const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway)
 {
@@ -69,7 +69,8 @@ void relight_note(struct relight *relight, const struct light_lists *lists,
 }
 
 /* Goes on with a cascade, at most to the end of its list. */
-static struct relight_range take(struct relight *relight, const struct light_lists *lists, uint32_t c, uint32_t most)
+static struct relight_range take(struct relight *relight, const struct light_lists *lists, uint32_t c,
+                                 uint32_t most)
 {
     struct relight_cursor *cursor = &relight->at[c];
     struct relight_range range = { .cascade = c, .first = cursor->next };

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Which direct light is to be made again.
  *
- * A light cell that is listed as dirty is lit in the same frame. The others keep their direct light; but surfaces that
- * were added or removed may throw shadows on them, or throw them no more. They are lit again over the following
- * frames, so many a frame: a cursor goes through the light list of each cascade. Plain data. */
+ * A light cell that is listed as dirty is lit in the same frame. The others keep their direct light; but
+ * surfaces that were added or removed may throw shadows on them, or throw them no more. They are lit again
+ * over the following frames, so many a frame: a cursor goes through the light list of each cascade. Plain
+ * data. */
 #ifndef SDFGI_RELIGHT_H
 #define SDFGI_RELIGHT_H
 
@@ -28,7 +29,7 @@ struct relight {
 
 /* The light lists, as far as the host knows them. */
 struct light_lists {
-    uint32_t cascades, room;             /* entries that a list has room for */
+    uint32_t cascades, room;              /* entries that a list has room for */
     uint32_t counted[SDFGI_MAX_CASCADES]; /* entries of the newest list that came back */
     uint64_t frame;
     uint32_t frames_in_flight;
@@ -46,10 +47,11 @@ struct relight_range {
 };
 
 void relight_init(struct relight *relight);
-/* Entries of a list: as counted, once the count of this list has come back; until then all that it has room for. */
+/* Entries of a list: as counted, once the count of this list has come back; until then all that it has room
+ * for. */
 uint32_t light_list_entries(const struct relight *relight, const struct light_lists *lists, uint32_t cascade);
-/* Notes which lists are written in this frame, and what has to be lit again because of it: nothing if all cells are lit in
- * this frame anyway, or if there is no light. */
+/* Notes which lists are written in this frame, and what has to be lit again because of it: nothing if all
+ * cells are lit in this frame anyway, or if there is no light. */
 void relight_note(struct relight *relight, const struct light_lists *lists,
                   const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway);
 /* Takes this frame's part; returns how many ranges it filled in. `busy`: the frame has enough to do. */

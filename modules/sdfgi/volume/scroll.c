@@ -8,16 +8,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Weight of a new direction in the running mean, and of a slower pace in that of the pace: a path that winds keeps
- * the pace of its fastest parts. */
+/* Weight of a new direction in the running mean, and of a slower pace in that of the pace: a path that winds
+ * keeps the pace of its fastest parts. */
 #define HEADING_WEIGHT 0.125
 #define PACE_WEIGHT    0.015625
 /* How much more is done than the camera's pace calls for. */
 #define HEADROOM 1.15
 /* Scrolls per frame from which on one frame may complete several. */
 #define BUSY_SCROLLS 0.5
-/* Probe spacings that a valid region may lack on a side before its cascade falls behind: one that is not due yet,
- * one that is being made, one more. */
+/* Probe spacings that a valid region may lack on a side before its cascade falls behind: one that is not due
+ * yet, one that is being made, one more. */
 #define LAG 3.0
 /* Fraction of the budget that cascades may claim before finer ones wait. */
 #define CLAIM_FRACTION 0.9
@@ -48,8 +48,9 @@ static uint64_t distance_cells(const struct cascades *cascades)
 
 /* ---- The camera */
 
-/* The pace is that along the fastest axis, because the other axes scroll with it. It goes up at once, so that work
- * does not fall behind, and down slowly. A jump is no pace: of two frames in a row, the shorter way counts. */
+/* The pace is that along the fastest axis, because the other axes scroll with it. It goes up at once, so that
+ * work does not fall behind, and down slowly. A jump is no pace: of two frames in a row, the shorter way
+ * counts. */
 static void follow_camera(struct scroll *s, const struct cascade *first, const double camera[static 3])
 {
     double moved[3], longest = 0;
@@ -118,8 +119,8 @@ static void begin_all(struct run *run)
     for (uint32_t c = all->count; c-- > 0;) {
         struct cascade *cascade = &all->at[c];
         claimed += cells_per_scroll(all) * scrolls_per_frame(run->scroll, c);
-        const bool waits = cascade->place != CASCADE_UNPLACED && claimed > budget * CLAIM_FRACTION &&
-                           c + 1 < all->count;
+        const bool waits =
+            cascade->place != CASCADE_UNPLACED && claimed > budget * CLAIM_FRACTION && c + 1 < all->count;
         if (!waits)
             cascade->pace = CASCADE_KEEPS_UP;
         else if (cascade->pace == CASCADE_KEEPS_UP)
@@ -222,8 +223,8 @@ static double scrolls_of_all(const struct run *run)
     return scrolls;
 }
 
-/* To complete a cascade is work of its own. Some frames lie between one and the next, as many as the pace leaves time
- * for, unless they hurry. */
+/* To complete a cascade is work of its own. Some frames lie between one and the next, as many as the pace
+ * leaves time for, unless they hurry. */
 static bool may_complete(const struct run *run)
 {
     const double scrolls = scrolls_of_all(run);
@@ -251,9 +252,9 @@ static void advance(struct run *run, uint32_t c, uint64_t *budget)
         change_enter(change, CHANGE_COMPLETES);
 }
 
-/* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so that one
- * frame costs as much as the next; a slice at least, and never more than the setting allows, unless there is
- * nothing to show. */
+/* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so
+ * that one frame costs as much as the next; a slice at least, and never more than the setting allows, unless
+ * there is nothing to show. */
 static uint64_t frame_budget(const struct run *run)
 {
     const double limit = (double)run->limits->max_cells, layer = (double)layer_cells(run->cascades);

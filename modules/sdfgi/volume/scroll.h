@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * Which part of what cascades need is done in this frame.
  *
- * A cascade that scrolls keeps serving the cells that its old and its new place share. All volumes are toroidal, so
- * the cells that enter take the storage of those that leave, and nothing is held twice. The work of a change is cut
- * into whole slices and layers: voxels, then distances, then, in one frame, probes, light cells and light. With
- * that the valid region opens.
+ * A cascade that scrolls keeps serving the cells that its old and its new place share. All volumes are
+ * toroidal, so the cells that enter take the storage of those that leave, and nothing is held twice. The work
+ * of a change is cut into whole slices and layers: voxels, then distances, then, in one frame, probes, light
+ * cells and light. With that the valid region opens.
  *
- * Each frame does as much as keeps all cascades just ahead of the camera, near ones first, so that work is even
- * from frame to frame. The budget is a hard limit: where the camera is faster, fine cascades wait and coarser ones
- * answer. */
+ * Each frame does as much as keeps all cascades just ahead of the camera, near ones first, so that work is
+ * even from frame to frame. The budget is a hard limit: where the camera is faster, fine cascades wait and
+ * coarser ones answer. */
 #ifndef SDFGI_SCROLL_H
 #define SDFGI_SCROLL_H
 
@@ -55,8 +55,8 @@ struct scroll_limits {
 };
 
 void scroll_init(struct scroll *scroll);
-/* Begins what cascades need and decides how much of it this frame does. `blend_jumps`: no light has been shown yet, so
- * that blend regions need not move smoothly. */
+/* Begins what cascades need and decides how much of it this frame does. `blend_jumps`: no light has been
+ * shown yet, so that blend regions need not move smoothly. */
 void scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
                  const double camera[static 3], bool blend_jumps, struct scroll_plan *plan);
 /* After the frame: what completed is finished. */

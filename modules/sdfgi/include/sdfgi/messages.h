@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: MIT
- * Everything the library has to say: one row per message, id, level and hint. Tests assert ids, never text. */
+ * Everything the library has to say: one row per message, id, level and hint. Tests assert ids, never text.
+ */
 #ifndef SDFGI_MESSAGES_H
 #define SDFGI_MESSAGES_H
 
 /* X(id, level, hint): the hint says what to do about it. */
-#define SDFGI_MESSAGES(X)                                                                                       \
-    X(INVALID_ARGUMENT, ERROR, "a call broke a documented rule; the message names the field")                  \
-    X(INVALID_HANDLE, ERROR, "the object was destroyed or never created")                                      \
-    X(INVALID_SETTING, ERROR, "see `sdfgi properties` for names and ranges")                                   \
-    X(UNSUPPORTED_DEVICE, ERROR, "see sdfgi_get_requirements")                                                 \
-    X(OUT_OF_HOST_MEMORY, ERROR, "the host allocator returned NULL")                                           \
-    X(OUT_OF_DEVICE_MEMORY, ERROR, "fewer cascades or a lower resolution need less; see sdfgi_estimate_memory") \
-    X(DEVICE_LOST, ERROR, "destroy the context and create it on a new device")                                 \
-    X(VULKAN_FAILURE, ERROR, "a Vulkan call failed in a way that is none of the above")                        \
-    X(NO_GEOMETRY, WARNING, "no instance touches any cascade")                                                 \
-    X(NO_LIGHTS, WARNING, "no light, no emission and no sky: everything is black")                             \
-    X(LIGHT_CELLS_OVERFLOW, WARNING, "more surface cells than the light list may grow to: larger cells, or fewer surfaces")      \
-    X(TRIANGLES_SKIPPED, WARNING, "triangles with non-finite or out-of-range vertices were skipped")           \
-    X(VALUE_CLAMPED, WARNING, "radiance beyond the range of the stored format: give an exposure")              \
-    X(BOUNCE_CLAMPED, WARNING, "albedo times feedback reached 0.95 and was clamped to stay contractive")       \
-    X(TRACE_CAP_REACHED, WARNING, "rays ran out of steps and were counted as hits")                            \
+#define SDFGI_MESSAGES(X)                                                                                    \
+    X(INVALID_ARGUMENT, ERROR, "a call broke a documented rule; the message names the field")                \
+    X(INVALID_HANDLE, ERROR, "the object was destroyed or never created")                                    \
+    X(INVALID_SETTING, ERROR, "see `sdfgi properties` for names and ranges")                                 \
+    X(UNSUPPORTED_DEVICE, ERROR, "see sdfgi_get_requirements")                                               \
+    X(OUT_OF_HOST_MEMORY, ERROR, "the host allocator returned NULL")                                         \
+    X(OUT_OF_DEVICE_MEMORY, ERROR,                                                                           \
+      "fewer cascades or a lower resolution need less; see sdfgi_estimate_memory")                           \
+    X(DEVICE_LOST, ERROR, "destroy the context and create it on a new device")                               \
+    X(VULKAN_FAILURE, ERROR, "a Vulkan call failed in a way that is none of the above")                      \
+    X(NO_GEOMETRY, WARNING, "no instance touches any cascade")                                               \
+    X(NO_LIGHTS, WARNING, "no light, no emission and no sky: everything is black")                           \
+    X(LIGHT_CELLS_OVERFLOW, WARNING,                                                                         \
+      "more surface cells than the light list may grow to: larger cells, or fewer surfaces")                 \
+    X(TRIANGLES_SKIPPED, WARNING, "triangles with non-finite or out-of-range vertices were skipped")         \
+    X(VALUE_CLAMPED, WARNING, "radiance beyond the range of the stored format: give an exposure")            \
+    X(BOUNCE_CLAMPED, WARNING, "albedo times feedback reached 0.95 and was clamped to stay contractive")     \
+    X(TRACE_CAP_REACHED, WARNING, "rays ran out of steps and were counted as hits")                          \
     X(UNLIT_HITS, WARNING, "rays hit surfaces with no light cell nearby")
 
 enum sdfgi_message {

@@ -13,7 +13,7 @@
  *
  * STEP BY STEP
  *   1. sdfgi_get_requirements: ask whether a physical device will do and which features to switch on.
- *   2. sdfgi_create with the host's device; GI starts disabled and holds no device memory.
+ *   2. sdfgi_create with the host's device; GI starts disabled and holds at most 64 KiB of device memory.
  *   3. sdfgi_material_create, sdfgi_mesh_create, sdfgi_instance_create, sdfgi_light_create, sdfgi_set_sky.
  *   4. sdfgi_set_settings with `enabled` set: the one switch.
  *   5. Every frame: sdfgi_update(cmd), then draw with the set from sdfgi_get_descriptor_set, or sdfgi_gather.
@@ -99,11 +99,11 @@ SDFGI_API enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysic
                                                    struct sdfgi_requirements *requirements);
 
 enum sdfgi_memory_category {
-    SDFGI_MEMORY_VOLUMES,   /* solid bits, distance, albedo, emission, light */
-    SDFGI_MEMORY_PROBES,    /* irradiance, occlusion, running sums, ray cache */
-    SDFGI_MEMORY_SCRATCH,   /* flood pointers, accumulators, occupancy: shared by all cascades */
-    SDFGI_MEMORY_LISTS,     /* light cells, instances, lights, indirect arguments */
-    SDFGI_MEMORY_READBACK,  /* counters and timestamps, host visible */
+    SDFGI_MEMORY_VOLUMES,  /* solid bits, distance, albedo, emission, light */
+    SDFGI_MEMORY_PROBES,   /* irradiance, occlusion, running sums, ray cache */
+    SDFGI_MEMORY_SCRATCH,  /* flood pointers, accumulators, occupancy: shared by all cascades */
+    SDFGI_MEMORY_LISTS,    /* light cells, lights, materials, counters, indirect arguments */
+    SDFGI_MEMORY_READBACK, /* counters and timestamps, host visible */
     SDFGI_MEMORY_CATEGORY_COUNT,
 };
 
@@ -149,8 +149,9 @@ struct sdfgi_desc {
 
 typedef struct sdfgi sdfgi;
 
-/* Creates a context. Allocates no device memory while settings->enabled is false.
- * Thread-safety: see THREADING above, for all functions that take a context. */
+/* Creates a context. While settings->enabled is false it holds at most 64 KiB of device memory, for lookups
+ * that answer black; estimate and report do not count these. Thread-safety: see THREADING above, for all
+ * functions that take a context. */
 SDFGI_API enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out);
 
 /* Destroys the context, and every object made from it. The device must not be using any of them any more. */
@@ -167,25 +168,33 @@ SDFGI_API void sdfgi_get_settings(const sdfgi *gi, struct sdfgi_settings *settin
 /* ---- Scene ------------------------------------------------------------------------------------------ */
 
 /* Handles: 0 is never valid. A stale handle is refused with SDFGI_ERROR_INVALID_ARGUMENT. */
-typedef struct { uint32_t id; } sdfgi_mesh;
-typedef struct { uint32_t id; } sdfgi_material;
-typedef struct { uint32_t id; } sdfgi_instance;
-typedef struct { uint32_t id; } sdfgi_light;
+typedef struct {
+    uint32_t id;
+} sdfgi_mesh;
+typedef struct {
+    uint32_t id;
+} sdfgi_material;
+typedef struct {
+    uint32_t id;
+} sdfgi_instance;
+typedef struct {
+    uint32_t id;
+} sdfgi_light;
 
 /* A texture as the voxeliser samples it. view == VK_NULL_HANDLE: none, the factor alone counts.
  * The image must be in `layout` whenever a command buffer from sdfgi_update executes. */
 struct sdfgi_texture {
-    VkImageView view;     /* 2D; an sRGB format where the content is sRGB */
+    VkImageView view; /* 2D; an sRGB format where the content is sRGB */
     VkSampler sampler;
-    VkImageLayout layout; /* VK_IMAGE_LAYOUT_UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
+    VkImageLayout layout;  /* VK_IMAGE_LAYOUT_UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
     float uv_transform[6]; /* row-major 2x3, uv' = M * (u, v, 1); all zero: identity */
 };
 
 struct sdfgi_material_desc {
-    float albedo[3];       /* linear diffuse reflectance factor, [0, 1] */
-    float alpha;           /* [0, 1], multiplied by the texture's alpha; only used for alpha_cutoff */
-    float emission[3];     /* radiance, W/(m^2 sr), >= 0 */
-    float alpha_cutoff;    /* > 0: samples with alpha below it are holes */
+    float albedo[3];            /* linear diffuse reflectance factor, [0, 1] */
+    float alpha;                /* [0, 1], multiplied by the texture's alpha; only used for alpha_cutoff */
+    float emission[3];          /* radiance, W/(m^2 sr), >= 0 */
+    float alpha_cutoff;         /* > 0: samples with alpha below it are holes */
     bool double_sided_emission; /* false: emits from the front (counter-clockwise) side only */
     struct sdfgi_texture albedo_texture;   /* RGB times albedo, A times alpha */
     struct sdfgi_texture emission_texture; /* RGB times emission */
@@ -198,13 +207,13 @@ SDFGI_API enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material mat
 /* Triangles in buffers of the host's, which must have VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Offsets and strides
  * are multiples of 4 bytes. Triangles with a non-finite or out-of-range vertex are skipped and counted. */
 struct sdfgi_mesh_desc {
-    VkBuffer position_buffer;  /* 3 floats per vertex */
+    VkBuffer position_buffer; /* 3 floats per vertex */
     VkDeviceSize position_offset;
-    uint32_t position_stride;  /* bytes; 0: 12 */
-    VkBuffer uv_buffer;        /* 2 floats per vertex; VK_NULL_HANDLE: (0, 0) */
+    uint32_t position_stride; /* bytes; 0: 12 */
+    VkBuffer uv_buffer;       /* 2 floats per vertex; VK_NULL_HANDLE: (0, 0) */
     VkDeviceSize uv_offset;
-    uint32_t uv_stride;        /* bytes; 0: 8 */
-    VkBuffer color_buffer;     /* 4 floats per vertex, multiplied into the albedo; VK_NULL_HANDLE: white */
+    uint32_t uv_stride;    /* bytes; 0: 8 */
+    VkBuffer color_buffer; /* 4 floats per vertex, multiplied into the albedo; VK_NULL_HANDLE: white */
     VkDeviceSize color_offset;
     uint32_t color_stride;     /* bytes; 0: 16 */
     VkBuffer index_buffer;     /* VK_NULL_HANDLE: vertices 0, 1, 2, ... */
@@ -254,12 +263,15 @@ struct sdfgi_light_desc {
     float range_m;         /* point, spot: no light beyond; 0: unlimited */
     float inner_angle_rad; /* spot: half angles, 0 <= inner < outer <= pi/2; falloff */
     float outer_angle_rad; /*   saturate((cos t - cos outer) / (cos inner - cos outer))^2 */
-    float indirect_energy; /* factor on what this light contributes to GI, >= 0: 1 is physical, 0 switches it off there */
+    float indirect_energy; /* factor on what this light contributes to GI, >= 0: 1 is physical, 0 switches it
+                              off there */
     bool casts_shadow;     /* false: reaches every surface that faces it */
 };
 
-SDFGI_API enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_light_desc *desc, sdfgi_light *out);
-SDFGI_API enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light, const struct sdfgi_light_desc *desc);
+SDFGI_API enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_light_desc *desc,
+                                               sdfgi_light *out);
+SDFGI_API enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light,
+                                               const struct sdfgi_light_desc *desc);
 SDFGI_API enum sdfgi_result sdfgi_light_destroy(sdfgi *gi, sdfgi_light light);
 
 /* Sky radiance in direction d (unit, +Y up): lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|).
@@ -278,26 +290,27 @@ SDFGI_API enum sdfgi_result sdfgi_invalidate_box(sdfgi *gi, const double box_min
 
 struct sdfgi_frame_desc {
     double camera_position[3]; /* cascades are centred on it */
-    double origin[3];          /* world position of (0, 0, 0) in the host's shaders; for worlds of more than a few
-                                  kilometres use a point near the camera */
-    uint64_t frame_index;      /* of the host's; the random sequence depends on it and on seed alone */
-    uint32_t seed;
-    float exposure;            /* > 0: factor that brings scene radiance near 1, so that small formats keep
-                                  their precision; 0: 1. Changing it restarts convergence */
+    double origin[3]; /* world position of (0, 0, 0) in the host's shaders; for worlds of more than a few
+                         kilometres use a point near the camera */
+    uint32_t seed;    /* of the random sequence. Changing it rebuilds everything */
+    float exposure;   /* > 0: factor that brings scene radiance near 1, so that small formats keep
+                         their precision; 0: 1. Changing it restarts convergence */
 };
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
  * Afterwards the descriptor set may be used by graphics and compute work later in the same queue: the
- * barriers are recorded. Records nothing at all while GI is disabled. Where surfaces outgrow the list of light cells,
- * allocates a longer one. */
+ * barriers are recorded. Records nothing at all while GI is disabled. Where surfaces outgrow the list of
+ * light cells, allocates a longer one. */
 SDFGI_API enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc);
 
 /* True when lookups give light: GI is enabled and at least one update has been recorded. */
 SDFGI_API bool sdfgi_is_active(const sdfgi *gi);
 
-/* Layout and set for shaders/include/sdfgi.glsl. The layout lives as long as the context. The set is
- * VK_NULL_HANDLE while GI is disabled, and may change with settings and with sdfgi_update: fetch it every frame, after
- * the update. The set before stays valid for the frames in flight. */
+/* Layout and set for shaders/include/sdfgi.glsl. Both are always valid. The layout lives as long as the
+ * context. While GI is off, and before the first update, the set is one whose lookups answer black at next to
+ * no cost: a host needs one shader and one pipeline per material, whatever the switch. The set may change
+ * with settings and with sdfgi_update: fetch it every frame, after the update. The set before stays valid for
+ * the frames in flight. */
 SDFGI_API VkDescriptorSetLayout sdfgi_get_descriptor_set_layout(const sdfgi *gi);
 SDFGI_API VkDescriptorSet sdfgi_get_descriptor_set(const sdfgi *gi);
 
@@ -310,61 +323,63 @@ SDFGI_API VkDescriptorSet sdfgi_get_descriptor_set(const sdfgi *gi);
  */
 struct sdfgi_gather_desc {
     VkImageView depth, normal, output;
-    VkImageLayout input_layout;    /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
-    uint32_t width, height;        /* pixels of all three */
-    float inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin */
-    float background_depth;        /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
+    VkImageLayout input_layout; /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
+    uint32_t width, height;     /* pixels of all three */
+    float
+        inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin */
+    float background_depth;          /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
 };
 
-/* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must be
- * made visible to compute shader reads by the host; the output is made visible to later compute and fragment
- * reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its pipeline, as the first
- * material with a texture makes one: better before the first frame than in one. */
-SDFGI_API enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc);
+/* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must
+ * be made visible to compute shader reads by the host; the output is made visible to later compute and
+ * fragment reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its
+ * pipeline, as the first material with a texture makes one: better before the first frame than in one. */
+SDFGI_API enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd,
+                                         const struct sdfgi_gather_desc *desc);
 
 /* ---- Report ----------------------------------------------------------------------------------------- */
 
 enum { SDFGI_MAX_PASSES = 40 };
 
 struct sdfgi_pass_report {
-    const char *name;            /* static; shader, label and timer have the same */
-    bool ran;                    /* in the last recorded frame */
-    const char *reason;          /* static: the condition of the scene that called for it, or why it was skipped */
-    uint32_t dispatches;         /* recorded in the last frame */
-    uint64_t work;               /* units of the pass's domain processed (cells, probes, rays, ...) in the last frame
-                                    known; for passes with indirect size this is read back, frames_in_flight late */
-    const char *work_unit;       /* static */
-    uint64_t gpu_ns;             /* of the last frame read back in which it ran; 0: not known. Passes that run side by
-                                    side have one time, that of the first of them */
-    bool gpu_ns_valid;           /* a new timing arrived with the last update */
+    const char *name;    /* static; shader, label and timer have the same */
+    bool ran;            /* in the last recorded frame */
+    const char *reason;  /* static: the condition of the scene that called for it, or why it was skipped */
+    uint32_t dispatches; /* recorded in the last frame */
+    uint64_t work;       /* units of the pass's domain processed (cells, probes, rays, ...) in the last frame
+                            known; for passes with indirect size this is read back, frames_in_flight late */
+    const char *work_unit; /* static */
+    uint64_t gpu_ns;   /* of the last frame read back in which it ran; 0: not known. Passes that run side by
+                          side have one time, that of the first of them */
+    bool gpu_ns_valid; /* a new timing arrived with the last update */
 };
 
 struct sdfgi_health {
     enum sdfgi_message code;
     uint64_t count;
-    const char *hint;            /* static */
+    const char *hint; /* static */
 };
 
-/* How cascades keep up with the camera and with geometry that changes. Cells count once when they are voxelised and
- * once when they are given a distance. */
+/* How cascades keep up with the camera and with geometry that changes. Cells count once when they are
+ * voxelised and once when they are given a distance. */
 struct sdfgi_scroll_report {
-    uint64_t steps_begun;      /* times that a cascade moved, since it was switched on */
-    uint64_t cells;            /* done in the last sdfgi_update */
-    uint64_t budget_cells;     /* sdfgi_max_scroll_cells_per_frame */
-    uint64_t pending_cells;    /* begun and not done yet */
-    uint32_t cascades_changing; /* of which the latter are */
-    uint32_t cascades_waiting; /* too slow for the camera within the budget: coarser ones answer */
+    uint64_t steps_begun;       /* times that a cascade moved, since it was switched on */
+    uint64_t cells;             /* done in the last sdfgi_update */
+    uint64_t budget_cells;      /* sdfgi_max_scroll_cells_per_frame */
+    uint64_t pending_cells;     /* begun and not done yet */
+    uint32_t cascades_changing; /* cascades that still have pending cells or wait to be completed */
+    uint32_t cascades_waiting;  /* too slow for the camera within the budget: coarser ones answer */
 };
 
 struct sdfgi_report {
-    uint64_t update_count;       /* frames recorded so far while enabled */
+    uint64_t update_count; /* frames recorded so far while enabled */
     bool active;
-    bool converged;              /* nothing more will change unless the scene does; no GI work is recorded */
-    float converged_fraction;    /* [0, 1]: estimated share of the way */
+    bool converged;           /* nothing more will change unless the scene does; no GI work is recorded */
+    float converged_fraction; /* [0, 1]: estimated share of the way */
     uint32_t pass_count;
     struct sdfgi_pass_report passes[SDFGI_MAX_PASSES];
-    uint32_t command_count;      /* Vulkan commands the library recorded in the last sdfgi_update */
-    struct sdfgi_memory memory;  /* device bytes held now */
+    uint32_t command_count;     /* Vulkan commands the library recorded in the last sdfgi_update */
+    struct sdfgi_memory memory; /* device bytes held now */
     uint32_t health_count;
     struct sdfgi_health health[SDFGI_MESSAGE_COUNT];
     struct sdfgi_scroll_report scroll;

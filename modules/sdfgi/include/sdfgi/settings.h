@@ -17,43 +17,53 @@ extern "C" {
 #endif
 
 enum sdfgi_y_scale { SDFGI_Y_SCALE_50 = 0, SDFGI_Y_SCALE_75 = 1, SDFGI_Y_SCALE_100 = 2 };
-enum sdfgi_visibility { SDFGI_VISIBILITY_CELL_MASK = 0, SDFGI_VISIBILITY_PROBE_DEPTH = 1, SDFGI_VISIBILITY_TRACED = 2 };
+enum sdfgi_visibility {
+    SDFGI_VISIBILITY_CELL_MASK = 0,
+    SDFGI_VISIBILITY_PROBE_DEPTH = 1,
+    SDFGI_VISIBILITY_TRACED = 2
+};
 enum sdfgi_sdf_method { SDFGI_SDF_EXACT = 0, SDFGI_SDF_FLOOD = 1 };
 enum sdfgi_voxelizer { SDFGI_VOXELIZER_COMPUTE = 0, SDFGI_VOXELIZER_RASTER = 1 };
 
 /* Every field is a row of the table: `sdfgi properties` prints range, unit, cost and benefit of each. */
 struct sdfgi_settings {
-    bool enabled;                  /* sdfgi_enabled */
-    bool use_occlusion;            /* sdfgi_use_occlusion */
-    bool read_sky_light;           /* sdfgi_read_sky_light */
-    float bounce_feedback;         /* sdfgi_bounce_feedback, [0, 1.99] */
-    uint32_t cascades;             /* sdfgi_cascades, [1, 8] */
-    float min_cell_size_m;         /* sdfgi_min_cell_size, [0.01, 64] */
-    enum sdfgi_y_scale y_scale;    /* sdfgi_y_scale */
-    float energy;                  /* sdfgi_energy, [0, 100] */
-    float normal_bias_cells;       /* sdfgi_normal_bias */
-    float probe_bias_cells;        /* sdfgi_probe_bias */
-    uint32_t ray_count;            /* sdfgi_ray_count, rays per probe and frame, [1, 128] */
-    uint32_t frames_to_converge;   /* sdfgi_frames_to_converge, [1, 64] */
+    bool enabled;                     /* sdfgi_enabled */
+    bool use_occlusion;               /* sdfgi_use_occlusion */
+    bool read_sky_light;              /* sdfgi_read_sky_light */
+    float bounce_feedback;            /* sdfgi_bounce_feedback, [0, 1.99] */
+    uint32_t cascades;                /* sdfgi_cascades, [1, 8] */
+    float min_cell_size_m;            /* sdfgi_min_cell_size, [0.01, 64] */
+    enum sdfgi_y_scale y_scale;       /* sdfgi_y_scale */
+    float energy;                     /* sdfgi_energy, [0, 100] */
+    float normal_bias_cells;          /* sdfgi_normal_bias */
+    float probe_bias_cells;           /* sdfgi_probe_bias */
+    uint32_t ray_count;               /* sdfgi_ray_count, rays per probe and frame, [1, 128] */
+    uint32_t frames_to_converge;      /* sdfgi_frames_to_converge, [1, 64] */
     uint32_t frames_to_update_lights; /* sdfgi_frames_to_update_lights, [1, 16] */
-    uint32_t resolution;           /* sdfgi_resolution, cells along a side: 32, 64, 128 or 256 */
+    uint32_t resolution;              /* sdfgi_resolution, cells along a side: 32, 64, 128 or 256 */
     enum sdfgi_visibility visibility; /* sdfgi_visibility */
     enum sdfgi_sdf_method sdf_method; /* sdfgi_sdf_method */
     enum sdfgi_voxelizer voxelizer;   /* sdfgi_voxelizer */
     uint32_t max_scroll_cells;        /* sdfgi_max_scroll_cells_per_frame, [524288, 134217728] */
 };
 
-enum sdfgi_property_type { SDFGI_PROPERTY_BOOL, SDFGI_PROPERTY_INT, SDFGI_PROPERTY_FLOAT, SDFGI_PROPERTY_ENUM };
+enum sdfgi_property_type {
+    SDFGI_PROPERTY_BOOL,
+    SDFGI_PROPERTY_INT,
+    SDFGI_PROPERTY_FLOAT,
+    SDFGI_PROPERTY_ENUM
+};
 
 struct sdfgi_property_info {
     const char *name;
     enum sdfgi_property_type type;
     double default_value, minimum, maximum;
-    const char *unit;          /* "" for none */
-    const char *choices;       /* allowed values separated by commas, of enums in order of value; "" if any in range */
-    const char *buys, *costs;  /* what more of it buys and what it costs */
-    bool recreates;            /* true: a change rebuilds everything; false: live */
-    bool derived;              /* computed from others; setting it changes those */
+    const char *unit; /* "" for none */
+    const char
+        *choices; /* allowed values separated by commas, of enums in order of value; "" if any in range */
+    const char *buys, *costs; /* what more of it buys and what it costs */
+    bool recreates;           /* true: a change rebuilds everything; false: live */
+    bool derived;             /* computed from others; setting it changes those */
     const char *description;
 };
 
@@ -63,10 +73,10 @@ SDFGI_API void sdfgi_settings_default(struct sdfgi_settings *settings);
 /* Rows of the table in a fixed order; NULL past the end. */
 SDFGI_API const struct sdfgi_property_info *sdfgi_property_get_info(uint32_t index);
 
-/* Sets the property `name` from text ("true", "0.2", "75%" or a choice's name). On failure returns false, leaves
- * `settings` as they were, and writes one line into `error` (may be NULL) of `error_size` bytes. */
-SDFGI_API bool sdfgi_settings_set(struct sdfgi_settings *settings, const char *name, const char *value, char *error,
-                                  size_t error_size);
+/* Sets the property `name` from text ("true", "0.2", "75%" or a choice's name). On failure returns false,
+ * leaves `settings` as they were, and writes one line into `error` (may be NULL) of `error_size` bytes. */
+SDFGI_API bool sdfgi_settings_set(struct sdfgi_settings *settings, const char *name, const char *value,
+                                  char *error, size_t error_size);
 
 /* Value of a property as a number; NaN if there is no such property. Derived properties included. */
 SDFGI_API double sdfgi_settings_get(const struct sdfgi_settings *settings, const char *name);
