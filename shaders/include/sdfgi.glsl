@@ -19,6 +19,9 @@
  * there is no viewer, a short vector along the normal will do. */
 vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
 {
+    /* GI is off, or there has been no update. */
+    if (sdfgi_frame.cascade_count == 0u)
+        return vec3(0.0);
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
     return sdfgi_lookup_irradiance(sdfgi_first_from_position(position), normal, to_eye) * to_watts;
 }
