@@ -60,7 +60,7 @@ if [ "$full" = false ] && [ "${#suites[@]}" -eq 0 ]; then
 fi
 
 install_packages
-configure_and_build build -Dtests=enabled
+configure_and_build build -Dtests=enabled -Db_ndebug=false
 choose_lavapipe
 export CMOCKA_MESSAGE_OUTPUT=TAP SDFGI_VALIDATION=1
 unset CMOCKA_XML_FILE

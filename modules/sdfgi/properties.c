@@ -93,7 +93,7 @@ static const struct row rows[] = {
         "Rays that each probe sends in a frame while it has not converged."),
     RECREATE(frames_to_converge, "sdfgi_frames_to_converge", INT, 20, 1, 64, "frames", "",
         "accuracy: more directions per probe", "frames until light has settled, and memory for the ray cache",
-        "Length of the ring of ray directions that is averaged. A static scene repeats after one round per "
+        "Length of the sample cycle: light is averaged over it. A static scene repeats after one cycle per "
         "bounce, and then stops costing anything."),
     LIVE(frames_to_update_lights, "sdfgi_frames_to_update_lights", INT, 1, 1, 16, "frames", "",
         "less time per frame", "frames until bounced light is seen",
