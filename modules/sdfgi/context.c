@@ -22,10 +22,10 @@ static enum sdfgi_result check_device(struct hooks *hooks, const struct sdfgi_vu
     const enum sdfgi_result result = sdfgi_get_requirements(vulkan->instance, vulkan->physical_device,
                                                             vulkan->get_instance_proc_addr, &requirements);
     if (result != SDFGI_OK)
-        return message_invalid(hooks, "sdfgi_create: the instance lacks core functions");
+        return sdfgi_message_invalid(hooks, "sdfgi_create: the instance lacks core functions");
     if (requirements.supported)
         return SDFGI_OK;
-    message(hooks, SDFGI_MESSAGE_UNSUPPORTED_DEVICE, "sdfgi_create: %s", requirements.reasons[0]);
+    sdfgi_message_log(hooks, SDFGI_MESSAGE_UNSUPPORTED_DEVICE, "sdfgi_create: %s", requirements.reasons[0]);
     return SDFGI_ERROR_UNSUPPORTED;
 }
 
@@ -46,13 +46,13 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     struct hooks *hooks = &gi->backend.hooks;
     enum sdfgi_result result = check_device(hooks, &desc->vulkan);
     if (result == SDFGI_OK)
-        result =
-            message_vulkan(hooks, import_device(&gi->backend, desc), "sdfgi_create: importing the device");
+        result = sdfgi_message_vulkan(hooks, import_device(&gi->backend, desc),
+                                      "sdfgi_create: importing the device");
     if (result == SDFGI_OK)
-        result = message_vulkan(hooks, pipelines_init(&gi->backend), "sdfgi_create: pipelines");
+        result = sdfgi_message_vulkan(hooks, sdfgi_pipelines_init(&gi->backend), "sdfgi_create: pipelines");
     if (result == SDFGI_OK)
-        result =
-            message_vulkan(hooks, blank_set_init(&gi->backend, &gi->blank), "sdfgi_create: the blank set");
+        result = sdfgi_message_vulkan(hooks, sdfgi_blank_set_init(&gi->backend, &gi->blank),
+                                      "sdfgi_create: the blank set");
     if (result == SDFGI_OK && desc->settings)
         result = sdfgi_set_settings(gi, desc->settings);
     return result;
@@ -63,18 +63,18 @@ enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out)
     const struct hooks hooks = { .log = desc->log, .allocator = desc->allocator };
     const char *problem = desc_problem(desc);
     if (problem)
-        return message_invalid(&hooks, "sdfgi_create: %s", problem);
-    struct sdfgi *gi = hooks_alloc_zeroed(&hooks, sizeof *gi);
+        return sdfgi_message_invalid(&hooks, "sdfgi_create: %s", problem);
+    struct sdfgi *gi = sdfgi_hooks_alloc_zeroed(&hooks, sizeof *gi);
     if (!gi) {
-        message(&hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "sdfgi_create: out of host memory");
+        sdfgi_message_log(&hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "sdfgi_create: out of host memory");
         return SDFGI_ERROR_OUT_OF_MEMORY;
     }
     gi->backend.hooks = hooks;
     gi->backend.retired.frames_in_flight = desc->frames_in_flight ? desc->frames_in_flight : 2;
     sdfgi_settings_default(&gi->settings);
-    scene_init(&gi->scene, &gi->backend);
-    volume_init(&gi->volume, &gi->backend, &gi->scene);
-    volume_reset(&gi->volume, NULL, &gi->settings);
+    sdfgi_scene_init(&gi->scene, &gi->backend);
+    sdfgi_volume_init(&gi->volume, &gi->backend, &gi->scene);
+    sdfgi_volume_reset(&gi->volume, NULL, &gi->settings);
     const enum sdfgi_result result = init(gi, desc);
     if (result != SDFGI_OK) {
         sdfgi_destroy(gi);
@@ -91,15 +91,15 @@ void sdfgi_destroy(sdfgi *gi)
     struct backend *backend = &gi->backend;
     /* Without a device nothing was made from it. */
     if (backend->device.handle) {
-        volume_finish(&gi->volume);
+        sdfgi_volume_finish(&gi->volume);
         gpu_retire_all(&backend->retired);
-        views_finish(backend, &gi->views);
-        scene_finish(&gi->scene);
-        blank_set_finish(backend, &gi->blank);
-        pipelines_finish(backend);
+        sdfgi_views_finish(backend, &gi->views);
+        sdfgi_scene_finish(&gi->scene);
+        sdfgi_blank_set_finish(backend, &gi->blank);
+        sdfgi_pipelines_finish(backend);
     }
     const struct hooks hooks = backend->hooks;
-    hooks_free(&hooks, gi);
+    sdfgi_hooks_free(&hooks, gi);
 }
 
 /* ---- Settings */
@@ -108,7 +108,7 @@ static enum sdfgi_result check_settings(struct sdfgi *gi, const struct sdfgi_set
 {
     char error[160];
     if (!sdfgi_settings_validate(settings, error, sizeof error)) {
-        message(&gi->backend.hooks, SDFGI_MESSAGE_INVALID_SETTING, "sdfgi_set_settings: %s", error);
+        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_INVALID_SETTING, "sdfgi_set_settings: %s", error);
         return SDFGI_ERROR_INVALID_ARGUMENT;
     }
     return SDFGI_OK;
@@ -118,11 +118,11 @@ static enum sdfgi_result replace_resources(struct sdfgi *gi, const struct sdfgi_
 {
     struct resources *created = NULL;
     if (settings->enabled) {
-        const enum sdfgi_result result = resources_create(&gi->backend, settings, &created);
+        const enum sdfgi_result result = sdfgi_resources_create(&gi->backend, settings, &created);
         if (result != SDFGI_OK)
             return result;
     }
-    volume_reset(&gi->volume, created, settings);
+    sdfgi_volume_reset(&gi->volume, created, settings);
     memset(gi->passes, 0, sizeof gi->passes);
     return SDFGI_OK;
 }
@@ -135,12 +135,12 @@ enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *set
     if (result != SDFGI_OK)
         return result;
     const bool held = gi->volume.resources != NULL;
-    if (settings->enabled != held || (held && settings_recreate(settings, &gi->settings)))
+    if (settings->enabled != held || (held && sdfgi_settings_recreate(settings, &gi->settings)))
         result = replace_resources(gi, settings);
     if (result != SDFGI_OK)
         return result;
     if (memcmp(settings, &gi->settings, sizeof *settings) != 0)
-        accumulation_invalidate(&gi->volume.state.accumulation);
+        sdfgi_accumulation_invalidate(&gi->volume.state.accumulation);
     gi->settings = *settings;
     return SDFGI_OK;
 }

@@ -8,19 +8,19 @@ static void record(struct sdfgi *gi, VkCommandBuffer cmd, const struct view *vie
                    const struct sdfgi_gather_desc *desc)
 {
     struct pass_recorder *rec = &gi->recorder;
-    const struct work work = view_gather_work(desc);
-    pass_recorder_begin(rec, &gi->backend, gi->volume.resources, cmd);
-    pass_bind_resources(rec, VK_PIPELINE_BIND_POINT_COMPUTE);
+    const struct work work = sdfgi_view_gather_work(desc);
+    sdfgi_pass_recorder_begin(rec, &gi->backend, gi->volume.resources, cmd);
+    sdfgi_pass_bind_resources(rec, VK_PIPELINE_BIND_POINT_COMPUTE);
     gpu_bind_set(&rec->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, gi->backend.pipelines.layouts[PASS_SET_VIEW],
-                 SDFGI_SET_VIEW, view->sets[backend_slot(&gi->backend)]);
-    pass_record(rec, &work);
-    pass_recorder_end(rec);
+                 SDFGI_SET_VIEW, view->sets[sdfgi_backend_slot(&gi->backend)]);
+    sdfgi_pass_record(rec, &work);
+    sdfgi_pass_recorder_end(rec);
 }
 
 static void report(struct sdfgi *gi)
 {
     struct pass_report *pass = &gi->passes[PASS_GATHER];
-    pass->reason = need_reason(NEED_GATHER);
+    pass->reason = sdfgi_need_reason(NEED_GATHER);
     pass->tally.dispatches += gi->recorder.tally[PASS_GATHER].dispatches;
     pass->tally.units += gi->recorder.tally[PASS_GATHER].units;
 }
@@ -29,14 +29,14 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 {
     if (!sdfgi_is_active(gi))
         return SDFGI_OK;
-    const char *problem = view_gather_problem(desc);
+    const char *problem = sdfgi_view_gather_problem(desc);
     if (problem)
-        return message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
-    VkResult result = pipelines_require(&gi->backend, PASS_GATHER, 0);
-    struct view *view = result == VK_SUCCESS ? views_next(&gi->backend, &gi->views, &result) : NULL;
+        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
+    VkResult result = sdfgi_pipelines_require(&gi->backend, PASS_GATHER, 0);
+    struct view *view = result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
     if (!view)
-        return message_vulkan(&gi->backend.hooks, result, "sdfgi_gather");
-    view_write_set(&gi->backend, view, desc);
+        return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_gather");
+    sdfgi_view_write_set(&gi->backend, view, desc);
     record(gi, cmd, view, desc);
     report(gi);
     return SDFGI_OK;

@@ -22,11 +22,11 @@ enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t cascade,
                                             struct sdfgi_inspect_cascade *out)
 {
     if (!sdfgi_is_active(gi))
-        return message_invalid(&gi->backend.hooks,
-                               "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
+        return sdfgi_message_invalid(&gi->backend.hooks,
+                                     "sdfgi_inspect_get_cascade: nothing has been voxelised yet");
     if (cascade >= gi->settings.cascades)
-        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: cascade %u of %u", cascade,
-                               gi->settings.cascades);
+        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_inspect_get_cascade: cascade %u of %u",
+                                     cascade, gi->settings.cascades);
     const struct cascade *from = &gi->volume.state.cascades.at[cascade];
     for (int i = 0; i < 3; i++) {
         out->origin_cells[i] = from->origin[i];
@@ -43,7 +43,7 @@ uint64_t sdfgi_inspect_volume_size(const sdfgi *gi, enum sdfgi_volume volume)
     if (!gi->volume.resources || !volume_is_known(volume))
         return 0;
     const struct extent *extent = &gi->volume.resources->extent;
-    return resource_size(volume_resources[volume], extent) / extent->cascades;
+    return sdfgi_resource_size(volume_resources[volume], extent) / extent->cascades;
 }
 
 static const char *copy_problem(const struct sdfgi *gi, uint32_t cascade, enum sdfgi_volume volume,
@@ -65,7 +65,7 @@ enum sdfgi_result sdfgi_inspect_copy(sdfgi *gi, VkCommandBuffer cmd, uint32_t ca
 {
     const char *problem = copy_problem(gi, cascade, volume, buffer, offset);
     if (problem)
-        return message_invalid(&gi->backend.hooks, "sdfgi_inspect_copy: %s", problem);
+        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_inspect_copy: %s", problem);
     const enum resource resource = volume_resources[volume];
     const struct gpu_buffer to = { .handle = buffer };
     const uint64_t bytes = sdfgi_inspect_volume_size(gi, volume);

@@ -24,11 +24,12 @@ enum sdfgi_result sdfgi_estimate_memory(const struct sdfgi_settings *settings, u
         resolved = *settings;
     if (!sdfgi_settings_validate(&resolved, NULL, 0) || frames_in_flight > SDFGI_MAX_FRAMES_IN_FLIGHT)
         return SDFGI_ERROR_INVALID_ARGUMENT;
-    const struct extent extent = extent_from_settings(&resolved);
+    const struct extent extent = sdfgi_extent_from_settings(&resolved);
     memset(memory, 0, sizeof *memory);
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        memory->bytes[resource_row((enum resource)i)->category] += resource_size((enum resource)i, &extent);
-    memory->bytes[SDFGI_MEMORY_READBACK] = readback_size(frames_in_flight ? frames_in_flight : 2);
+        memory->bytes[sdfgi_resource_row((enum resource)i)->category] +=
+            sdfgi_resource_size((enum resource)i, &extent);
+    memory->bytes[SDFGI_MEMORY_READBACK] = sdfgi_readback_size(frames_in_flight ? frames_in_flight : 2);
     for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
         memory->total_bytes += memory->bytes[i];
     return SDFGI_OK;

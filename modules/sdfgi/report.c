@@ -14,12 +14,12 @@ static void report_passes(const struct sdfgi *gi, struct sdfgi_report *report)
         const struct pass_report *pass = &gi->passes[i];
         const struct feedback_time *time = &gi->volume.feedback.times[i];
         report->passes[i] = (struct sdfgi_pass_report){
-            .name = pass_row((enum pass)i)->name,
+            .name = sdfgi_pass_row((enum pass)i)->name,
             .ran = pass->tally.dispatches > 0,
             .reason = pass->reason ? pass->reason : "no frame has been recorded",
             .dispatches = pass->tally.dispatches,
             .work = pass->tally.units,
-            .work_unit = pass_unit_name(pass_row((enum pass)i)->unit),
+            .work_unit = sdfgi_pass_unit_name(sdfgi_pass_row((enum pass)i)->unit),
             .gpu_ns = time->ns,
             .gpu_ns_valid = time->is_new,
         };
@@ -31,7 +31,8 @@ static void report_passes(const struct sdfgi *gi, struct sdfgi_report *report)
 static void add_health(struct sdfgi_report *report, enum sdfgi_message code, uint64_t count)
 {
     if (count > 0)
-        report->health[report->health_count++] = (struct sdfgi_health){ code, count, message_hint(code) };
+        report->health[report->health_count++] =
+            (struct sdfgi_health){ code, count, sdfgi_message_hint(code) };
 }
 
 enum { SDFGI_MESSAGE_NONE = SDFGI_MESSAGE_COUNT };
@@ -63,7 +64,8 @@ static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
         overflow += count > room ? count - room : 0;
     }
     add_health(report, SDFGI_MESSAGE_NO_GEOMETRY, volume->state.accumulation.known_cycle > 0 && cells == 0);
-    add_health(report, SDFGI_MESSAGE_NO_LIGHTS, !scene_has_light(&gi->scene, gi->settings.read_sky_light));
+    add_health(report, SDFGI_MESSAGE_NO_LIGHTS,
+               !sdfgi_scene_has_light(&gi->scene, gi->settings.read_sky_light));
     add_health(report, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW, overflow);
     report_counters(counters, report);
 }
@@ -75,7 +77,7 @@ static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
 static float converged_fraction(const struct volume *volume)
 {
     const struct accumulation *a = &volume->state.accumulation;
-    if (volume_has_converged(volume))
+    if (sdfgi_volume_has_converged(volume))
         return volume->state.scroll.blends_moving == 0 ? 1.0f : 0.99f;
     if (a->known_cycle <= a->invalid_cycle || a->known_change >= 1.0f)
         return 0.0f;
@@ -103,7 +105,7 @@ void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
     report->update_count = gi->volume.state.updates;
     report->active = active;
     report->converged =
-        active && volume_has_converged(&gi->volume) && gi->volume.state.scroll.blends_moving == 0;
+        active && sdfgi_volume_has_converged(&gi->volume) && gi->volume.state.scroll.blends_moving == 0;
     report->converged_fraction = active ? converged_fraction(&gi->volume) : 0.0f;
     report->command_count = gi->command_count;
     report->memory = gi->backend.held;

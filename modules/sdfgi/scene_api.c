@@ -5,62 +5,62 @@
 enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_material_desc *desc,
                                         sdfgi_material *out)
 {
-    return scene_material_create(&gi->scene, desc, out);
+    return sdfgi_scene_material_create(&gi->scene, desc, out);
 }
 
 enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material material)
 {
-    return scene_material_destroy(&gi->scene, material);
+    return sdfgi_scene_material_destroy(&gi->scene, material);
 }
 
 enum sdfgi_result sdfgi_mesh_create(sdfgi *gi, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out)
 {
-    return scene_mesh_create(&gi->scene, desc, out);
+    return sdfgi_scene_mesh_create(&gi->scene, desc, out);
 }
 
 enum sdfgi_result sdfgi_mesh_destroy(sdfgi *gi, sdfgi_mesh mesh)
 {
-    return scene_mesh_destroy(&gi->scene, mesh);
+    return sdfgi_scene_mesh_destroy(&gi->scene, mesh);
 }
 
 enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_desc *desc,
                                         sdfgi_instance *out)
 {
-    return scene_instance_create(&gi->scene, desc, out);
+    return sdfgi_scene_instance_create(&gi->scene, desc, out);
 }
 
 enum sdfgi_result sdfgi_instance_set_transform(sdfgi *gi, sdfgi_instance instance,
                                                const struct sdfgi_transform *transform)
 {
-    return scene_instance_set_transform(&gi->scene, instance, transform);
+    return sdfgi_scene_instance_set_transform(&gi->scene, instance, transform);
 }
 
 enum sdfgi_result sdfgi_instance_destroy(sdfgi *gi, sdfgi_instance instance)
 {
-    return scene_instance_destroy(&gi->scene, instance);
+    return sdfgi_scene_instance_destroy(&gi->scene, instance);
 }
 
 enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_light_desc *desc, sdfgi_light *out)
 {
-    return scene_light_create(&gi->scene, desc, out);
+    return sdfgi_scene_light_create(&gi->scene, desc, out);
 }
 
 enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light, const struct sdfgi_light_desc *desc)
 {
-    return scene_light_update(&gi->scene, light, desc);
+    return sdfgi_scene_light_update(&gi->scene, light, desc);
 }
 
 enum sdfgi_result sdfgi_light_destroy(sdfgi *gi, sdfgi_light light)
 {
-    return scene_light_destroy(&gi->scene, light);
+    return sdfgi_scene_light_destroy(&gi->scene, light);
 }
 
 enum sdfgi_result sdfgi_set_sky(sdfgi *gi, const struct sdfgi_sky *sky)
 {
-    return scene_set_sky(&gi->scene, sky);
+    return sdfgi_scene_set_sky(&gi->scene, sky);
 }
 
 enum sdfgi_result sdfgi_invalidate_box(sdfgi *gi, const double box_min[3], const double box_max[3])
 {
-    return scene_invalidate_box(&gi->scene, box_min, box_max);
+    return sdfgi_scene_invalidate_box(&gi->scene, box_min, box_max);
 }

@@ -31,7 +31,7 @@ static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi
                                  .journal = &gi->volume.journal,
                                  .extent = gi->volume.resources->extent,
                                  .counters = gi->volume.feedback.counters,
-                                 .lists = volume_light_lists(&gi->volume),
+                                 .lists = sdfgi_volume_light_lists(&gi->volume),
                                  .list_grew = list_grew,
                                  .threads_per_ray = threads_per_ray(&gi->backend.device) };
 }
@@ -55,7 +55,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 {
     const char *problem = frame_problem(desc);
     if (problem)
-        return message_invalid(&gi->backend.hooks, "sdfgi_update: %s", problem);
+        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_update: %s", problem);
     if (gi->backend.hooks.device_lost)
         return SDFGI_ERROR_DEVICE_LOST;
 
@@ -69,22 +69,22 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     }
 
     /* Take in what an earlier frame found out. */
-    const uint32_t slot = backend_slot(&gi->backend);
-    volume_read_back(&gi->volume, slot);
-    const bool list_grew = volume_make_room(&gi->volume);
+    const uint32_t slot = sdfgi_backend_slot(&gi->backend);
+    sdfgi_volume_read_back(&gi->volume, slot);
+    const bool list_grew = sdfgi_volume_make_room(&gi->volume);
 
     /* Decide what this frame does. */
     const struct frame_input input = frame_input(gi, desc, list_grew);
-    frame_plan(&gi->frame, &input);
+    sdfgi_frame_plan(&gi->frame, &input);
 
     /* Record it. */
-    pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd);
+    sdfgi_pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd);
     gpu_timer_begin_frame(&gi->volume.resources->timer, slot);
-    frame_record(&gi->frame, &gi->scene, &gi->recorder, slot);
-    pass_recorder_end(&gi->recorder);
+    sdfgi_frame_record(&gi->frame, &gi->scene, &gi->recorder, slot);
+    sdfgi_pass_recorder_end(&gi->recorder);
 
     /* Take it over as done. */
-    frame_commit(&gi->frame, &gi->settings, &gi->volume);
+    sdfgi_frame_commit(&gi->frame, &gi->settings, &gi->volume);
     report_frame(gi);
     return SDFGI_OK;
 }

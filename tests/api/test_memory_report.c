@@ -74,12 +74,12 @@ static void longest_lists_need_at_most_64_mib_a_cascade(void **state)
     struct sdfgi_settings settings;
     sdfgi_settings_default(&settings);
     REQUIRE_CMP((int)sdfgi_estimate_memory(NULL, 0, &memory), ==, (int)SDFGI_OK);
-    const struct extent extent = extent_from_settings(&settings);
+    const struct extent extent = sdfgi_extent_from_settings(&settings);
     struct extent grown = extent;
     grown.light_cells = extent.light_cells_max;
     REQUIRE_CMP(grown.light_cells, >, extent.light_cells);
-    const uint64_t total = memory.total_bytes + resource_size(RESOURCE_LIGHT_CELLS, &grown) -
-                           resource_size(RESOURCE_LIGHT_CELLS, &extent);
+    const uint64_t total = memory.total_bytes + sdfgi_resource_size(RESOURCE_LIGHT_CELLS, &grown) -
+                           sdfgi_resource_size(RESOURCE_LIGHT_CELLS, &extent);
     printf("with the longest lists: %.3f MiB\n", (double)total / (1 << 20));
     REQUIRE_CMP(total, <=, settings.cascades * (UINT64_C(64) << 20));
 }

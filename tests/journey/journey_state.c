@@ -22,6 +22,6 @@ void journey_state_find(const struct gi_test *t, struct journey_state *state)
         return;
     state->count = RESOURCE_COUNT;
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        state->buffers[i] = (struct journey_buffer){ short_name(resource_row((enum resource)i)->name),
+        state->buffers[i] = (struct journey_buffer){ short_name(sdfgi_resource_row((enum resource)i)->name),
                                                      r->buffers[i].handle, r->buffers[i].size };
 }

@@ -3,66 +3,20 @@
 
 #include "require.h"
 
-#include "cell_mask.comp.h"
-#include "distance_exact.comp.h"
-#include "distance_plane.comp.h"
-#include "distance_prepare.comp.h"
-#include "flood_distance.comp.h"
-#include "flood_seed.comp.h"
-#include "flood_step.comp.h"
-#include "gather.comp.h"
-#include "light_bounce.comp.h"
-#include "light_direct.comp.h"
-#include "light_list.comp.h"
-#include "light_mark.comp.h"
-#include "occlusion_trace.comp.h"
-#include "probe_blend.comp.h"
-#include "probe_place.comp.h"
-#include "probe_seed.comp.h"
-#include "probe_sum.comp.h"
-#include "probe_trace.comp.h"
-#include "ray_invalidate.comp.h"
-#include "ray_list.comp.h"
-#include "region_clear.comp.h"
-#include "voxel_resolve.comp.h"
-#include "voxelize.comp.h"
-#include "voxelize_raster.frag.h"
-#include "voxelize_raster.vert.h"
-#include "voxelize_raster_textured.frag.h"
-#include "voxelize_textured.comp.h"
+#include "sdfgi_shaders.h"
 
-#define MODULE(pass, words)                                                                                  \
-    {                                                                                                        \
-        PASS_##pass, #words, words, sizeof words, NULL                                                       \
-    }
+/* All shaders of a row of the pass table. */
+#define MODULE(id, words)                { PASS_##id, #words, words, sizeof words, NULL },
+#define MODULES_COMPUTE(id, file)          MODULE(id, sdfgi_##file##_comp)
+#define MODULES_COMPUTE_TEXTURED(id, file) MODULES_COMPUTE(id, file) MODULE(id, sdfgi_##file##_textured_comp)
+#define MODULES_RASTER_TEXTURED(id, file) \
+    MODULE(id, sdfgi_##file##_vert) MODULE(id, sdfgi_##file##_frag) MODULE(id, sdfgi_##file##_textured_frag)
+
 struct module modules[] = {
-    MODULE(CELL_MASK, cell_mask_comp),
-    MODULE(DISTANCE_EXACT, distance_exact_comp),
-    MODULE(DISTANCE_PLANE, distance_plane_comp),
-    MODULE(DISTANCE_PREPARE, distance_prepare_comp),
-    MODULE(FLOOD_DISTANCE, flood_distance_comp),
-    MODULE(FLOOD_SEED, flood_seed_comp),
-    MODULE(FLOOD_STEP, flood_step_comp),
-    MODULE(GATHER, gather_comp),
-    MODULE(LIGHT_BOUNCE, light_bounce_comp),
-    MODULE(LIGHT_DIRECT, light_direct_comp),
-    MODULE(LIGHT_LIST, light_list_comp),
-    MODULE(LIGHT_MARK, light_mark_comp),
-    MODULE(OCCLUSION_TRACE, occlusion_trace_comp),
-    MODULE(PROBE_BLEND, probe_blend_comp),
-    MODULE(PROBE_PLACE, probe_place_comp),
-    MODULE(PROBE_SEED, probe_seed_comp),
-    MODULE(PROBE_SUM, probe_sum_comp),
-    MODULE(PROBE_TRACE, probe_trace_comp),
-    MODULE(RAY_INVALIDATE, ray_invalidate_comp),
-    MODULE(RAY_LIST, ray_list_comp),
-    MODULE(REGION_CLEAR, region_clear_comp),
-    MODULE(VOXEL_RESOLVE, voxel_resolve_comp),
-    MODULE(VOXELIZE, voxelize_comp),
-    MODULE(VOXELIZE, voxelize_textured_comp),
-    MODULE(VOXELIZE_RASTER, voxelize_raster_vert),
-    MODULE(VOXELIZE_RASTER, voxelize_raster_frag),
-    MODULE(VOXELIZE_RASTER, voxelize_raster_textured_frag),
+#define ROW(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)              \
+    MODULES_##kind(id, shader)
+    SDFGI_PASSES(ROW)
+#undef ROW
 };
 const size_t module_count = sizeof modules / sizeof *modules;
 

@@ -270,7 +270,7 @@ SDFGI_BUFFERS(SAME_BINDING)
 /* Block of a buffer of the resource table, sdfgi_<id>_buffer; the table's names are "sdfgi <ID>". */
 static void block_name(int resource, char name[static 64])
 {
-    snprintf(name, 64, "%s_buffer", resource_row((enum resource)resource)->name);
+    snprintf(name, 64, "%s_buffer", sdfgi_resource_row((enum resource)resource)->name);
     for (char *c = name; *c; c++)
         *c = *c == ' ' ? '_' : (char)tolower((unsigned char)*c);
 }

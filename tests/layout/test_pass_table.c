@@ -38,7 +38,7 @@ static void touch(struct touches *touches, const struct module *module,
     /* Only its length is asked for, or access.c lacks an instruction. */
     if (!access)
         require_fail(__FILE__, __LINE__, "%s: %s: named, but neither read nor written", module->name,
-                     resource_row((enum resource)id)->name);
+                     sdfgi_resource_row((enum resource)id)->name);
     touches->access[id] |= access;
 }
 
@@ -76,7 +76,7 @@ static int compare(const struct module *module, const struct touches *touches)
         if (agree(row, shader))
             continue;
         print_error("%s (%s): %s: by the table the pass %s, the shader %s\n", rows[module->pass].name,
-                    module->name, resource_row((enum resource)i)->name, verbs[row], verbs[shader]);
+                    module->name, sdfgi_resource_row((enum resource)i)->name, verbs[row], verbs[shader]);
         wrong++;
     }
     return wrong;

@@ -43,7 +43,7 @@ static uint64_t hash_at(int64_t x, int64_t y, int64_t z, uint64_t seed)
 static uint64_t random_cell(int64_t x, int64_t y, int64_t z, uint32_t seed)
 {
     const uint64_t kind =
-        hash_at(floor_div(x, 16), floor_div(y, 16), floor_div(z, 16), seed + UINT64_C(1000)) % 8;
+        hash_at(sdfgi_floor_div(x, 16), sdfgi_floor_div(y, 16), sdfgi_floor_div(z, 16), seed + UINT64_C(1000)) % 8;
     const uint64_t cell = hash_at(x, y, z, seed), bits = hash(cell);
     if (kind < 4)
         return 0;
@@ -97,8 +97,8 @@ static void fill_buffer(struct gi_test *t, enum resource resource, uint8_t value
 static void write_window(struct gi_test *t, const struct world *w)
 {
     ivec3 *wrap = &t->gi->volume.state.params.cascades[0].wrap;
-    *wrap = (ivec3){ (int32_t)floor_mod(w->origin[0], N), (int32_t)floor_mod(w->origin[1], N),
-                     (int32_t)floor_mod(w->origin[2], N) };
+    *wrap = (ivec3){ (int32_t)sdfgi_floor_mod(w->origin[0], N), (int32_t)sdfgi_floor_mod(w->origin[1], N),
+                     (int32_t)sdfgi_floor_mod(w->origin[2], N) };
     write_buffer(t, RESOURCE_FRAME, &t->gi->volume.state.params, sizeof t->gi->volume.state.params);
     uint64_t *bits = test_array_alloc(CELLS, sizeof *bits);
     for (uint32_t z = 0; z < N; z++)
@@ -114,7 +114,7 @@ static void write_content(struct gi_test *t, const struct cell_box *changed, uin
 {
     uint32_t words[SDFGI_BOUNDS_BYTES / 4] = { 0 };
     for (uint32_t b = 0; b < count; b++)
-        for (uint32_t i = 0; i < 3 && !cell_box_empty(&changed[b]); i++) {
+        for (uint32_t i = 0; i < 3 && !sdfgi_cell_box_empty(&changed[b]); i++) {
             words[SDFGI_BOUNDS_STRIDE * b + i] = (uint32_t)(SDFGI_BOUNDS_ORIGIN - changed[b].low[i]);
             words[SDFGI_BOUNDS_STRIDE * b + 3 + i] = (uint32_t)(SDFGI_BOUNDS_ORIGIN + changed[b].high[i]);
         }

@@ -109,7 +109,7 @@ static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
     struct frame frame = { .gi = t->gi, .slot = 0 };
     gpu_recorder_begin(&frame.rec, &t->gi->backend.device, cmd);
     gpu_timer_begin_frame(&t->gi->volume.resources->timer, 0);
-    work_has(&t->gi->frame.work, PASS_LIGHT_BOUNCE) = false;
+    sdfgi_work_has(&t->gi->frame.work, PASS_LIGHT_BOUNCE) = false;
     light_cache_clear_record(&frame);
     light_cache_mark_record(&frame, 0);
     light_cache_list_record(&frame, 0);

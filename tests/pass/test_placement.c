@@ -11,7 +11,7 @@ static struct cascade cascade_of(double cell_size)
 
 static bool place(struct cascade *cascade, double x, double y, double z)
 {
-    return cascade_place(cascade, 64, (double[]){ x, y, z });
+    return sdfgi_cascade_place(cascade, 64, (double[]){ x, y, z });
 }
 
 static void division_rounds_down_on_both_sides_of_zero(void **state)
@@ -21,12 +21,12 @@ static void division_rounds_down_on_both_sides_of_zero(void **state)
                                        { -8, 8, -1, 0 },   { -9, 8, -2, 7 },   { 0, 8, 0, 0 },
                                        { -17, 17, -1, 0 }, { -18, 17, -2, 16 } };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        REQUIRE_CMP(floor_div(rows[i][0], rows[i][1]), ==, rows[i][2]);
-        REQUIRE_CMP(floor_mod(rows[i][0], rows[i][1]), ==, rows[i][3]);
+        REQUIRE_CMP(sdfgi_floor_div(rows[i][0], rows[i][1]), ==, rows[i][2]);
+        REQUIRE_CMP(sdfgi_floor_mod(rows[i][0], rows[i][1]), ==, rows[i][3]);
     }
     for (int64_t a = -INT64_C(5000000000); a < INT64_C(5000000000); a += 77777777) {
-        REQUIRE_CMP(floor_div(a, 17) * 17 + floor_mod(a, 17), ==, a);
-        REQUIRE_TRUE(floor_mod(a, 17) >= 0 && floor_mod(a, 17) < 17);
+        REQUIRE_CMP(sdfgi_floor_div(a, 17) * 17 + sdfgi_floor_mod(a, 17), ==, a);
+        REQUIRE_TRUE(sdfgi_floor_mod(a, 17) >= 0 && sdfgi_floor_mod(a, 17) < 17);
     }
 }
 
@@ -35,7 +35,7 @@ static void division_rounds_down_on_both_sides_of_zero(void **state)
 static void require_centred(const struct cascade *c, const double camera[3], bool moved)
 {
     for (int i = 0; i < 3; i++) {
-        REQUIRE_CMP(floor_mod(c->origin[i], SDFGI_PROBE_SPACING), ==, 0);
+        REQUIRE_CMP(sdfgi_floor_mod(c->origin[i], SDFGI_PROBE_SPACING), ==, 0);
         const double off = camera[i] / c->cell_size[i] - (double)(c->origin[i] + 32);
         REQUIRE_TRUE(off >= -8 && off < 9);
         if (moved)
@@ -54,9 +54,9 @@ static void a_new_cascade_is_centred_anywhere(void **state)
         double camera[3];
         for (int k = 0; k < 3; k++)
             camera[k] = test_random_real(&random, -reach, reach);
-        REQUIRE_TRUE(cascade_place(&c, 64, camera));
+        REQUIRE_TRUE(sdfgi_cascade_place(&c, 64, camera));
         require_centred(&c, camera, true);
-        REQUIRE_TRUE(!cascade_place(&c, 64, camera));
+        REQUIRE_TRUE(!sdfgi_cascade_place(&c, 64, camera));
     }
 }
 
@@ -71,7 +71,7 @@ static void a_walk_stays_centred(void **state)
     for (int frame = 0; frame < 5000; frame++) {
         for (int k = 0; k < 3; k++)
             camera[k] += test_random_real(&random, -0.5, 0.5);
-        moves += cascade_place(&c, 64, camera);
+        moves += sdfgi_cascade_place(&c, 64, camera);
         require_centred(&c, camera, false);
     }
     REQUIRE_CMP(moves, >, 10);
@@ -158,9 +158,9 @@ static void hard_22_a_jump_of_any_length_is_one_move(void **state)
         struct cascade c = cascade_of(0.25);
         place(&c, 0, 0, 0);
         const double camera[3] = { 0.25 * cells, -0.25 * cells, 0.125 };
-        REQUIRE_TRUE(cascade_place(&c, 64, camera));
+        REQUIRE_TRUE(sdfgi_cascade_place(&c, 64, camera));
         require_centred(&c, camera, false);
-        REQUIRE_TRUE(!cascade_place(&c, 64, camera));
+        REQUIRE_TRUE(!sdfgi_cascade_place(&c, 64, camera));
         REQUIRE_TRUE(place(&c, 0, 0, 0));
         REQUIRE_CMP(c.origin[0], ==, -32);
     }
@@ -172,7 +172,7 @@ static void cameras_beyond_all_cells_do_not_overflow(void **state)
     struct cascade c = cascade_of(0.01);
     REQUIRE_TRUE(place(&c, 1e300, -1e300, 1e18));
     for (int i = 0; i < 3; i++)
-        REQUIRE_CMP(floor_mod(c.origin[i], SDFGI_PROBE_SPACING), ==, 0);
+        REQUIRE_CMP(sdfgi_floor_mod(c.origin[i], SDFGI_PROBE_SPACING), ==, 0);
     REQUIRE_TRUE(!place(&c, 1e300, -1e300, 1e18));
     REQUIRE_TRUE(place(&c, 0, 0, 0));
     require_centred(&c, (double[]){ 0, 0, 0 }, true);
@@ -197,14 +197,14 @@ static void boxes_cover_their_cells(void **state)
     struct cascade c = cascade_of(0.25);
     c.cell_size[1] = 0.125;
     place(&c, 0, 0, 0);
-    const struct box box = cascade_box(&c, 64);
+    const struct box box = sdfgi_cascade_box(&c, 64);
     REQUIRE_CMP(box.min[0], ==, -8.0);
     REQUIRE_CMP(box.max[0], ==, 8.0);
     REQUIRE_CMP(box.min[1], ==, -4.0);
     REQUIRE_CMP(box.max[1], ==, 4.0);
     const struct box touching = { { 8, -1, -1 }, { 9, 1, 1 } }, apart = { { -1, 4.001, -1 }, { 1, 5, 1 } };
-    REQUIRE_TRUE(box_overlaps(&box, &touching) && box_overlaps(&touching, &box));
-    REQUIRE_TRUE(!box_overlaps(&box, &apart) && !box_overlaps(&apart, &box));
+    REQUIRE_TRUE(sdfgi_box_overlaps(&box, &touching) && sdfgi_box_overlaps(&touching, &box));
+    REQUIRE_TRUE(!sdfgi_box_overlaps(&box, &apart) && !sdfgi_box_overlaps(&apart, &box));
 }
 
 int main(void)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void scene_init(struct built_scene *s)
+void sdfgi_scene_init(struct built_scene *s)
 {
     memset(s, 0, sizeof *s);
     s->gltf.images = s->images;
@@ -16,7 +16,7 @@ void scene_init(struct built_scene *s)
     s->gltf.lights = s->lights;
 }
 
-void scene_finish(struct built_scene *s)
+void sdfgi_scene_finish(struct built_scene *s)
 {
     for (uint32_t i = 0; i < s->gltf.primitive_count; i++) {
         struct gltf_primitive *p = &s->primitives[i];

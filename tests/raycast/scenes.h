@@ -26,8 +26,8 @@ struct built_scene {
     struct gltf_light lights[SCENE_CAPACITY];
 };
 
-void scene_init(struct built_scene *s);
-void scene_finish(struct built_scene *s);
+void sdfgi_scene_init(struct built_scene *s);
+void sdfgi_scene_finish(struct built_scene *s);
 
 /* A rough dielectric of grey `albedo`, opaque and single-sided; change it before the scene is traced. */
 struct gltf_material *scene_add_material(struct built_scene *s, float albedo);

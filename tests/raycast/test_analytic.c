@@ -12,7 +12,7 @@ static const double from_above[3] = { 0, 2, 0 }, origin[3] = { 0, 0, 0 };
 static double furnace(float albedo, uint32_t max_bounces)
 {
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct gltf_material *m = scene_add_material(&s, albedo);
     for (int k = 0; k < 3; k++)
         m->emissive[k] = 1;
@@ -20,7 +20,7 @@ static double furnace(float albedo, uint32_t max_bounces)
     struct raycast_view v = view_make((double[]){ 0.3, 0.2, 0.5 }, (double[]){ 1, -1, -2 }, 70);
     v.materials = RAYCAST_MATERIALS_LAMBERT;
     const double mean = trace_mean(&s, &v, 32, 32, 128, max_bounces, RAYCAST_AOV_RADIANCE);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
     return mean;
 }
 
@@ -43,7 +43,7 @@ static void bounces_end_where_told(void **state)
 
 static void floor_init(struct built_scene *s, float albedo)
 {
-    scene_init(s);
+    sdfgi_scene_init(s);
     scene_add_material(s, albedo);
     scene_add_floor(s, 0, 1000, true);
 }
@@ -64,7 +64,7 @@ static void sun_on_a_plane(void **state)
     assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_DIRECT), expected, tolerance);
     v.sun.angle_deg = 0.53f;
     assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_DIRECT), expected, tolerance);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void point_light_over_a_plane(void **state)
@@ -86,7 +86,7 @@ static void point_light_over_a_plane(void **state)
     assert_true(gather_up(&s, &v, 0, 0, 0, 16).direct[0] == 0);
     light.range_m = 3.1f;
     assert_ratio(gather_up(&s, &v, 0, 0, 0, 20000).direct[0], expected, tolerance);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void spot_light_falls_off_as_measured(void **state)
@@ -113,7 +113,7 @@ static void spot_light_falls_off_as_measured(void **state)
         else
             assert_ratio(e, 5 * falloff * c / (d * d), 1e-3);
     }
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void white_plane_under_a_uniform_sky(void **state)
@@ -128,7 +128,7 @@ static void white_plane_under_a_uniform_sky(void **state)
     assert_ratio(trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_IRRADIANCE), pi * 2, tolerance);
     assert_true(trace_mean(&s, &v, 8, 8, 4, 0, RAYCAST_AOV_DIRECT) == 0);
     assert_ratio(gather_up(&s, &v, 0, 1, 0, 50000).indirect[0], pi * 2, tolerance);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* lerp(horizon, zenith, y) over a cosine-weighted hemisphere, whose mean of y is 2/3. */
@@ -144,7 +144,7 @@ static void sky_gradient_on_a_plane(void **state)
         v.sky.ground[k] = 100; /* below the plane: must not count */
     }
     assert_ratio(gather_up(&s, &v, 0, 0, 0, 50000).indirect[1], pi * (1 + 3 * 2.0 / 3), tolerance);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void right_angle_with_a_black_wall_halves_the_sky(void **state)
@@ -159,7 +159,7 @@ static void right_angle_with_a_black_wall_halves_the_sky(void **state)
     view_set_sky(&v, 1);
     assert_ratio(gather_up(&s, &v, 0.01, 0, 0, 100000).indirect[2], pi / 2, tolerance);
     assert_ratio(trace_mean(&s, &v, 16, 16, 512, 0, RAYCAST_AOV_RADIANCE), 0.5, tolerance);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* A point under the middle of a level square: the form factor of four quarters, each seen from its corner. */
@@ -176,7 +176,7 @@ static void emissive_square_matches_its_form_factor(void **state)
     const double x = 0.5 / 1.5, root = sqrt(1 + x * x);
     const double form_factor = 4 / pi * (x / root) * atan(x / root);
     assert_ratio(gather_up(&s, &v, 0, 0, 0, 50000).indirect[0], pi * 6 * form_factor, tolerance);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 int main(void)

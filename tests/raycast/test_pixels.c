@@ -132,7 +132,7 @@ static void floor_agrees(const struct built_scene *s, struct raycast_view v, flo
 
 static void floor_init(struct built_scene *s, float albedo)
 {
-    scene_init(s);
+    sdfgi_scene_init(s);
     scene_add_material(s, albedo);
     scene_add_floor(s, 0, 10000, true);
 }
@@ -155,7 +155,7 @@ static void point_light_is_right_in_every_pixel(void **state)
     v.lights = &light;
     v.light_count = 1;
     floor_agrees(&s, v, under_lamp, samples / 4, 1.01f);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static const double wall_m = 3, wall_x = -3; /* out of sight */
@@ -178,7 +178,7 @@ static void black_wall_is_right_in_every_pixel(void **state)
     struct raycast_view v = view_make(camera_position, camera_target, camera_yfov_deg);
     view_set_sky(&v, 1);
     floor_agrees(&s, v, before_wall, 2 * samples, 1.1f);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* The form factor of a rectangle with one corner right above a level point (Siegel and Howell, "Thermal
@@ -215,7 +215,7 @@ static void emissive_square_is_right_in_every_pixel(void **state)
     scene_add_floor(&s, (float)square_y_m, (float)square_half_m, false);
     struct raycast_view v = view_make(camera_position, camera_target, camera_yfov_deg);
     floor_agrees(&s, v, under_square, samples, 1.05f);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* ---- The test itself, and what takes longer ----------------------------------------------------------- */
@@ -235,7 +235,7 @@ static void furnaces_within_a_thousandth(void **state)
     static const float albedos[] = { 0.5f, 0.8f, 0.95f };
     for (size_t i = 0; i < sizeof albedos / sizeof albedos[0]; i++) {
         struct built_scene s;
-        scene_init(&s);
+        sdfgi_scene_init(&s);
         struct gltf_material *m = scene_add_material(&s, albedos[i]);
         for (int k = 0; k < 3; k++)
             m->emissive[k] = 1 - albedos[i];
@@ -243,7 +243,7 @@ static void furnaces_within_a_thousandth(void **state)
         struct raycast_view v = view_make((double[]){ 0.3, 0.2, 0.5 }, (double[]){ 1, -1, -2 }, 70);
         v.materials = RAYCAST_MATERIALS_LAMBERT;
         assert_ratio(trace_mean(&s, &v, 160, 90, 256, 2000, RAYCAST_AOV_RADIANCE), 1, 0.001);
-        scene_finish(&s);
+        sdfgi_scene_finish(&s);
     }
 }
 

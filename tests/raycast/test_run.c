@@ -21,7 +21,7 @@ static const char *state_path(void)
 /* A room corner with a lamp, blended glass and an emitter, away from the origin by `shift` metres. */
 static struct raycast_view scene_make(struct built_scene *s, double shift)
 {
-    scene_init(s);
+    sdfgi_scene_init(s);
     scene_add_material(s, 0.7f);
     scene_add_floor(s, 0, 3, true);
     scene_add_quad(s, (float[]){ -3, 0, -3 }, (float[]){ 6, 0, 0 }, (float[]){ 0, 3, 0 });
@@ -56,7 +56,7 @@ static void render_whole(double shift, struct raycast_settings settings, uint32_
     struct raycast *rc = tracer_create(&s, &v, &settings);
     render(rc, samples, out);
     raycast_destroy(rc);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void threads_do_not_change_a_bit(void **state)
@@ -114,7 +114,7 @@ static void interrupted_run_resumes_to_the_same_bits(void **state)
     assert_memory_equal(variance[0], variance[1], sizeof variance[0]);
     raycast_destroy(a);
     raycast_destroy(c);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void refuses(const struct raycast_view *v, const struct built_scene *s,
@@ -174,7 +174,7 @@ static void states_of_other_pictures_are_refused(void **state)
     refuses(&v, &s, small);
     assert_int_equal(truncate(state_path(), 0), 0);
     refuses(&v, &s, small);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void unwritable_states_are_reported(void **state)
@@ -188,7 +188,7 @@ static void unwritable_states_are_reported(void **state)
     assert_non_null(strstr(error, "/nonexistent/a.state"));
     assert_false(raycast_state_load(rc, "/nonexistent/a.state", error, sizeof error));
     raycast_destroy(rc);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void runs_stop_at_their_limits(void **state)
@@ -205,7 +205,7 @@ static void runs_stop_at_their_limits(void **state)
     assert_true(p.samples > before && p.seconds >= 0.2 && p.seconds < 3);
     assert_true(p.rays >= (uint64_t)(p.samples - before) * WIDTH * HEIGHT);
     raycast_destroy(rc);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* The standard error that one run estimates against the spread of many runs. */
@@ -234,7 +234,7 @@ static void variance_predicts_the_spread_of_seeds(void **state)
     for (int i = 0; i < VALUES; i++)
         observed += (squares[i] - sum[i] * sum[i] / RUNS) / (RUNS - 1);
     assert_ratio(predicted / RUNS, observed, 0.1);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void refused(const struct built_scene *s, struct raycast_view v, struct raycast_settings settings,
@@ -280,18 +280,18 @@ static void wrong_views_are_refused_by_name(void **state)
     struct raycast_settings settings = small;
     settings.width = 1u << 20;
     refused(&s, good, settings, "size");
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void an_empty_scene_is_its_sky(void **state)
 {
     (void)state;
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct raycast_view v = view_make((double[]){ 0, 0, 0 }, (double[]){ 0, 0, -1 }, 60);
     view_set_sky(&v, 0.25f);
     assert_ratio(trace_mean(&s, &v, 8, 8, 2, 0, RAYCAST_AOV_RADIANCE), 0.25, 1e-6);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 int main(void)

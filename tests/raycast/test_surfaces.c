@@ -41,7 +41,7 @@ static void white_metal_reflects_what_its_lobe_says(void **state)
     static const double cosines[] = { 0.9, 0.3 };
     static const float roughnesses[] = { 0.3f, 0.7f, 1.0f };
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct gltf_material *m = scene_add_material(&s, 1);
     m->metallic = 1;
     m->name = "metal"; /* nameless and rough it would be the default material */
@@ -56,7 +56,7 @@ static void white_metal_reflects_what_its_lobe_says(void **state)
         /* Measuring irradiance changes what is sampled, not what comes out. */
         assert_ratio(trace_mean(&s, &v, 16, 16, 2048, 0, RAYCAST_AOV_IRRADIANCE), pi, 0.005);
     }
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* An almost perfect mirror shows an emitter at its own radiance, in the reflection. */
@@ -64,7 +64,7 @@ static void smooth_metal_mirrors(void **state)
 {
     (void)state;
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct gltf_material *m = scene_add_material(&s, 1);
     m->metallic = 1;
     m->roughness = 0;
@@ -74,7 +74,7 @@ static void smooth_metal_mirrors(void **state)
     scene_add_floor(&s, 6, 100, false);
     const struct raycast_view v = tilted_view(0.6);
     assert_ratio(trace_mean(&s, &v, 8, 8, 64, 0, RAYCAST_AOV_REFLECTION), 3, 0.005);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* The interface takes 0.04 from the Lambertian part at normal incidence, and the sun's highlight adds F0 * D
@@ -83,7 +83,7 @@ static void dielectric_splits_light_between_its_parts(void **state)
 {
     (void)state;
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     scene_add_material(&s, 0.5f);
     scene_add_floor(&s, 0, 1000, true);
     struct raycast_view v = tilted_view(1);
@@ -92,13 +92,13 @@ static void dielectric_splits_light_between_its_parts(void **state)
     v.sun = (struct raycast_sun){ .direction = { 0, -1, 0 }, .irradiance = { 2, 2, 2 } };
     const double expected = 2 * (0.5 * 0.96 / pi + 0.04 / (4 * pi));
     assert_ratio(trace_mean(&s, &v, 4, 4, 4, 0, RAYCAST_AOV_DIRECT), expected, 1e-3);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static double lit_from_ceiling(bool front_down, bool double_sided)
 {
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     scene_add_material(&s, 0);
     scene_add_floor(&s, 0, 100, true);
     struct gltf_material *m = scene_add_material(&s, 0);
@@ -107,7 +107,7 @@ static double lit_from_ceiling(bool front_down, bool double_sided)
     scene_add_floor(&s, 1, 1, !front_down);
     const struct raycast_view v = view_make((double[]){ 3, 3, 3 }, origin, 40);
     const double e = gather_up(&s, &v, 0, 0, 0, 20000).indirect[0];
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
     return e;
 }
 
@@ -129,7 +129,7 @@ static void textured_emission_keeps_its_mean(void **state)
     double e[2];
     for (int textured = 0; textured < 2; textured++) {
         struct built_scene s;
-        scene_init(&s);
+        sdfgi_scene_init(&s);
         struct gltf_material *m = scene_add_material(&s, 0);
         m->emissive[0] = m->emissive[1] = m->emissive[2] = 500;
         if (textured)
@@ -137,7 +137,7 @@ static void textured_emission_keeps_its_mean(void **state)
         scene_add_floor(&s, 50, 1, false);
         const struct raycast_view v = view_make((double[]){ 3, 3, 3 }, origin, 40);
         e[textured] = gather_up(&s, &v, 0, 0, 0, 50000).indirect[0];
-        scene_finish(&s);
+        sdfgi_scene_finish(&s);
     }
     assert_ratio(e[1], e[0] / 2, 0.01);
 }
@@ -147,7 +147,7 @@ static double let_through(enum gltf_alpha_mode mode, float alpha, bool textured)
 {
     static const uint8_t half_cut[8] = { 255, 255, 255, 255, 255, 255, 255, 0 };
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     scene_add_material(&s, 0.5f);
     scene_add_floor(&s, 0, 1, true);
     struct gltf_material *m = scene_add_material(&s, 0);
@@ -161,7 +161,7 @@ static double let_through(enum gltf_alpha_mode mode, float alpha, bool textured)
     v.materials = RAYCAST_MATERIALS_LAMBERT;
     const double open = 0.5 / pi;
     const double share = trace_mean(&s, &v, 32, 32, 64, 0, RAYCAST_AOV_DIRECT) / open;
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
     return share;
 }
 
@@ -179,7 +179,7 @@ static void backs_are_seen_unless_culled(void **state)
 {
     (void)state;
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct gltf_material *m = scene_add_material(&s, 0.5f);
     scene_add_floor(&s, 0, 10, false);
     struct raycast_view v = view_make((double[]){ 0, 2, 0 }, origin, 40);
@@ -198,13 +198,13 @@ static void backs_are_seen_unless_culled(void **state)
             raycast_destroy(rc);
         }
     }
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* Every kind of light and both kinds of material in one room. */
 static void rich_scene(struct built_scene *s, struct raycast_view *v, struct raycast_light *light)
 {
-    scene_init(s);
+    sdfgi_scene_init(s);
     struct gltf_material *m = scene_add_material(s, 0.7f);
     m->roughness = 0.4f;
     m->metallic = 0.5f;
@@ -246,14 +246,14 @@ static void parts_add_up_to_the_picture(void **state)
     for (int i = 0; i < VALUES; i++)
         assert_float_equal(sum[i], radiance[i], 1e-5 * (1 + radiance[i]));
     raycast_destroy(rc);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void plain_materials_follow_the_view(void **state)
 {
     (void)state;
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct gltf_material *m = scene_add_material(&s, 1);
     m->metallic = 1; /* glTF's default material, as the importer appends it */
     scene_add_floor(&s, 0, 100, true);
@@ -264,7 +264,7 @@ static void plain_materials_follow_the_view(void **state)
     assert_true(trace_mean(&s, &v, 4, 4, 1, 0, RAYCAST_AOV_ALBEDO) == 0);
     m->unlit = true;
     assert_ratio(trace_mean(&s, &v, 4, 4, 1, 0, RAYCAST_AOV_RADIANCE), 1, 1e-5);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 int main(void)

@@ -34,7 +34,7 @@ static void assert_albedo(const struct built_scene *s, double u, double v, doubl
 static struct gltf_material *textured_floor(struct built_scene *s, enum gltf_filter filter,
                                             enum gltf_wrap wrap)
 {
-    scene_init(s);
+    sdfgi_scene_init(s);
     struct gltf_material *m = scene_add_material(s, 1);
     m->base_color_texture.texture = scene_add_texture(s, 4, 1, greys);
     s->textures[0].mag_filter = filter;
@@ -51,12 +51,12 @@ static void texels_are_decoded_then_filtered(void **state)
     assert_albedo(&s, 0.10, 0.3, 0);
     assert_albedo(&s, 0.26, 0.3, grey);
     assert_albedo(&s, 0.60, 0.3, 1);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
     textured_floor(&s, GLTF_FILTER_LINEAR, GLTF_WRAP_REPEAT);
     assert_albedo(&s, 0.375, 0.3, grey);
     assert_albedo(&s, 0.25, 0.3, grey / 2);
     assert_albedo(&s, 0.50, 0.3, (grey + 1) / 2);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* Beyond the edge: texel 0 is black, texel 3 white. The transform moves u by `shift`. */
@@ -67,7 +67,7 @@ static double albedo_beyond(enum gltf_wrap wrap, float shift)
     m->base_color_texture.uv_transform[2] = shift;
     float albedo[3];
     look_at_uv(&s, 0.1, 0.3, RAYCAST_AOV_ALBEDO, albedo);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
     return albedo[0];
 }
 
@@ -92,7 +92,7 @@ static void uv_transforms_turn(void **state)
         m->base_color_texture.uv_transform[k] = swapped[k];
     assert_albedo(&s, 0.9, 0.1, 0);
     assert_albedo(&s, 0.1, 0.9, 1);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void vertex_colours_multiply(void **state)
@@ -100,12 +100,12 @@ static void vertex_colours_multiply(void **state)
     (void)state;
     static float colors[16] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1 };
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     scene_add_material(&s, 0.5f);
     scene_add_floor(&s, 0, 1, true);
     s.primitives[0].colors = colors;
     assert_albedo(&s, 0.3, 0.6, 0.15);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* A map that tilts by atan(0.5) along +u: `mirrored` turns the square over along x, which turns u with it. */
@@ -113,14 +113,14 @@ static void tilted_normal(bool mirrored, bool flipped, float out[3])
 {
     static const uint8_t tilt[4] = { 184, 128, 242, 255 }; /* (0.443, 0.004, 0.898) */
     struct built_scene s;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     struct gltf_material *m = scene_add_material(&s, 0.5f);
     m->normal_texture.texture = scene_add_texture(&s, 1, 1, tilt);
     scene_add_floor(&s, 0, 1, !flipped);
     if (mirrored)
         s.instances[0].transform[0] = -1;
     look_at_uv(&s, 0.4, 0.4, RAYCAST_AOV_NORMAL, out);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void normal_maps_tilt_along_u(void **state)
@@ -146,7 +146,7 @@ static void mirrored_emitters_keep_their_front(void **state)
     (void)state;
     for (int up = 0; up < 2; up++) {
         struct built_scene s;
-        scene_init(&s);
+        sdfgi_scene_init(&s);
         struct gltf_material *m = scene_add_material(&s, 0);
         m->emissive[0] = m->emissive[1] = m->emissive[2] = 1;
         scene_add_floor(&s, 1, 1, up != 0);
@@ -154,7 +154,7 @@ static void mirrored_emitters_keep_their_front(void **state)
         const struct raycast_view v = view_make((double[]){ 3, 3, 3 }, (double[]){ 0, 0, 0 }, 40);
         const float e = gather_up(&s, &v, 0, 0, 0, 500).indirect[0];
         assert_true(up ? e == 0 : e > 0.5f);
-        scene_finish(&s);
+        sdfgi_scene_finish(&s);
     }
 }
 

@@ -81,14 +81,14 @@ static double furnace(float albedo, const double rotation[9], double cell_m, dou
 {
     struct built_scene s;
     struct voxel_scene v;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     add_emissive_material(&s, albedo, 1);
     scene_add_mesh(&s, test_mesh_room(origin, (double[]){ 1.1, 1, 1.15 }, 0.3, rotation));
     voxel_scene_init(&v, &s, cell_m, y_scale, cascades);
     const struct raycast_view view = lambert_view(1, -1, -2);
     render(&s, &v.voxels, &view, RAYCAST_AOV_RADIANCE, 16, picture);
     voxel_scene_finish(&v);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
     /* Albedo is stored in 1/255. */
     const double stored = lrintf(255 * albedo) / 255.0;
     const double ratio = mean(picture) / (1 + (double)albedo / (1 - stored));
@@ -132,7 +132,7 @@ static void leaning_plane_sees_its_whole_sky(void **state)
         const float c = (float)cos(degrees * pi / 180), n = (float)sin(degrees * pi / 180);
         struct built_scene s;
         struct voxel_scene v;
-        scene_init(&s);
+        sdfgi_scene_init(&s);
         scene_add_material(&s, 1);
         scene_add_quad(&s, (float[]){ -1.5f * c, -1.5f * n, 1.5f }, (float[]){ 3 * c, 3 * n, 0 },
                        (float[]){ 0, 0, -3 });
@@ -146,7 +146,7 @@ static void leaning_plane_sees_its_whole_sky(void **state)
         printf("plane at %d degrees: %.5f of the sky\n", degrees, mean(picture) / 2);
         assert_ratio(mean(picture), 2, 2e-3);
         voxel_scene_finish(&v);
-        scene_finish(&s);
+        sdfgi_scene_finish(&s);
     }
 }
 
@@ -166,7 +166,7 @@ static void sunlit_plane_lights_what_faces_it(void **state)
         const float c = (float)cos(degrees * pi / 180), n = (float)sin(degrees * pi / 180);
         struct built_scene s;
         struct voxel_scene v;
-        scene_init(&s);
+        sdfgi_scene_init(&s);
         scene_add_material(&s, 0.6f);
         scene_add_quad(&s, (float[]){ -1.2f * c, -1.2f * n, 1.2f }, (float[]){ 2.4f * c, 2.4f * n, 0 },
                        (float[]){ 0, 0, -2.4f });
@@ -179,7 +179,7 @@ static void sunlit_plane_lights_what_faces_it(void **state)
         /* The middle of a layer of voxels lies up to half a sub-voxel, 0.016 m, off the plane. */
         assert_ratio(gather(&s, &v, &view, &q), expected, degrees == 0 ? 0.02 : 0.04);
         voxel_scene_finish(&v);
-        scene_finish(&s);
+        sdfgi_scene_finish(&s);
     }
 }
 
@@ -189,7 +189,7 @@ static void emissive_voxels_match_their_form_factor(void **state)
     (void)state;
     struct built_scene s;
     struct voxel_scene v;
-    scene_init(&s);
+    sdfgi_scene_init(&s);
     add_emissive_material(&s, 0, 6);
     scene_add_floor(&s, 1.52f, 0.5f, false);
     voxel_scene_init(&v, &s, 0.125, 1, 1);
@@ -197,7 +197,7 @@ static void emissive_voxels_match_their_form_factor(void **state)
     const struct query q = { { 0, 0, 0 }, { 0, 1, 0 }, 50000 };
     assert_ratio(gather(&s, &v, &view, &q), pi * 6 * form_factor(0.5, 1.5), tolerance);
     voxel_scene_finish(&v);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 /* ---- Walls ------------------------------------------------------------------------------------------ */
@@ -210,7 +210,7 @@ static void sealed_room_stays_dark(void **state)
         struct built_scene s;
         struct voxel_scene v;
         test_rotation((double[]){ i % 3, 1, i / 3 }, i * 0.26, rotation);
-        scene_init(&s);
+        sdfgi_scene_init(&s);
         scene_add_material(&s, 0.8f);
         /* The two sides of a wall fall into the same or neighbouring sub-voxels. */
         scene_add_mesh(&s, test_mesh_room(origin, (double[]){ 1.1, 1, 1.2 }, 0.01, rotation));
@@ -223,7 +223,7 @@ static void sealed_room_stays_dark(void **state)
         if (mean(picture) != 0)
             fail_msg("rotation %d: %g of light outside comes in", i, mean(picture));
         voxel_scene_finish(&v);
-        scene_finish(&s);
+        sdfgi_scene_finish(&s);
     }
 }
 
@@ -232,7 +232,7 @@ static void sealed_room_stays_dark(void **state)
 static void room_build(struct built_scene *s)
 {
     double rotation[9];
-    scene_init(s);
+    sdfgi_scene_init(s);
     scene_add_material(s, 0.7f);
     scene_add_room(s, 1.4f);
     scene_add_material(s, 0.5f);
@@ -260,7 +260,7 @@ static void room_agrees_with_triangles(void **state)
     render(&s, &v.voxels, &view, RAYCAST_AOV_NORMAL, 4, picture);
     assert_ratio(mean(picture), mean(other), 0.02);
     voxel_scene_finish(&v);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void volumes_are_part_of_a_picture(void **state)
@@ -283,7 +283,7 @@ static void volumes_are_part_of_a_picture(void **state)
     assert_false(raycast_state_load(b, files_path("picture.state"), error, sizeof error));
     raycast_destroy(b);
     voxel_scene_finish(&v);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 static void volumes_off_the_lattice_are_refused(void **state)
@@ -303,7 +303,7 @@ static void volumes_off_the_lattice_are_refused(void **state)
     assert_null(raycast_create(&s.gltf, &view, &settings, error, sizeof error));
     assert_non_null(strstr(error, "9 cascades"));
     voxel_scene_finish(&v);
-    scene_finish(&s);
+    sdfgi_scene_finish(&s);
 }
 
 int main(void)

@@ -32,7 +32,7 @@ static uint64_t step_cells(const struct sdfgi *gi)
     uint64_t cells = 0;
     for (uint32_t i = 0; i < gi->schedule.step_count; i++) {
         const struct step *step = &gi->schedule.steps[i];
-        cells += step->kind == STEP_VOXELS ? cell_box_cells(&step->box) : 0;
+        cells += step->kind == STEP_VOXELS ? sdfgi_cell_box_cells(&step->box) : 0;
         cells += step->kind == STEP_DISTANCE ? step->count * n * n * 4 : 0;
     }
     return cells;

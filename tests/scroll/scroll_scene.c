@@ -103,7 +103,7 @@ uint32_t scroll_settle(struct gi_test *t)
 {
     for (uint32_t frames = 1; frames <= 400; frames++) {
         gi_test_update(t, 1);
-        if (cascades_rest(&t->gi->volume.state.cascades) && !relight_is_due(&t->gi->volume.state.relight))
+        if (sdfgi_cascades_rest(&t->gi->volume.state.cascades) && !sdfgi_relight_is_due(&t->gi->volume.state.relight))
             return frames;
     }
     require_fail(__FILE__, __LINE__, "cascades are still at work after 400 frames");
@@ -122,7 +122,7 @@ static void require_same_bytes(struct gi_test *a, struct gi_test *b, enum resour
         }
     if (differ)
         require_fail(__FILE__, __LINE__, "%s: %s: %llu of %llu bytes differ, first at %llu: %#x and %#x",
-                     what, resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)size,
+                     what, sdfgi_resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)size,
                      (unsigned long long)first, x[first], y[first]);
     free(x);
     free(y);
@@ -141,7 +141,7 @@ static void require_same_words(struct gi_test *a, struct gi_test *b, enum resour
         }
     if (differ)
         require_fail(__FILE__, __LINE__, "%s: %s: %llu elements differ, first %llu: %#x and %#x", what,
-                     resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)first,
+                     sdfgi_resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)first,
                      x[first * stride + word], y[first * stride + word]);
     free(x);
     free(y);

@@ -72,7 +72,7 @@ static void require_same(struct gi_test *a, struct gi_test *b, enum resource res
     uint64_t size;
     uint8_t *x = gi_test_read(a, resource, &size), *y = gi_test_read(b, resource, NULL);
     if (memcmp(x, y, size) != 0)
-        require_fail(__FILE__, __LINE__, "%s differs %g m away", resource_row(resource)->name, shift);
+        require_fail(__FILE__, __LINE__, "%s differs %g m away", sdfgi_resource_row(resource)->name, shift);
     free(x);
     free(y);
 }

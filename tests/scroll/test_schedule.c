@@ -114,7 +114,7 @@ static void a_lost_cascade_comes_back_on_the_way(void **state)
                 camera[0] += 1.0 / 60;
                 REQUIRE_CMP(schedule_drive_frame(gi, camera), <=, (uint64_t)budget);
             }
-            REQUIRE_TRUE(!cell_box_empty(&gi->volume.state.cascades.at[0].valid));
+            REQUIRE_TRUE(!sdfgi_cell_box_empty(&gi->volume.state.cascades.at[0].valid));
             REQUIRE_TRUE(schedule_drive_covers(&gi->volume.state.cascades.at[0], camera, 2));
         }
 }
@@ -228,19 +228,19 @@ static void boxes_are_cut_without_overlap(void **state)
     (void)state;
     struct test_random random = { 9 };
     for (int trial = 0; trial < 200; trial++) {
-        const struct cell_box whole = cell_box_whole(32);
+        const struct cell_box whole = sdfgi_cell_box_whole(32);
         int32_t shift[3];
         for (int i = 0; i < 3; i++)
             shift[i] = 8 * ((int32_t)(test_random_uint(&random) % 5) - 2);
-        const struct cell_box moved = cell_box_shifted(&whole, shift), kept = cell_box_common(&whole, &moved);
+        const struct cell_box moved = sdfgi_cell_box_shifted(&whole, shift), kept = sdfgi_cell_box_common(&whole, &moved);
         struct cell_box parts[3];
-        const uint32_t count = cell_box_difference(&whole, &kept, parts);
-        uint64_t cells = cell_box_cells(&kept);
+        const uint32_t count = sdfgi_cell_box_difference(&whole, &kept, parts);
+        uint64_t cells = sdfgi_cell_box_cells(&kept);
         for (uint32_t i = 0; i < count; i++) {
-            cells += cell_box_cells(&parts[i]);
+            cells += sdfgi_cell_box_cells(&parts[i]);
             for (uint32_t k = 0; k < i; k++) {
-                const struct cell_box both = cell_box_common(&parts[i], &parts[k]);
-                REQUIRE_TRUE(cell_box_empty(&both));
+                const struct cell_box both = sdfgi_cell_box_common(&parts[i], &parts[k]);
+                REQUIRE_TRUE(sdfgi_cell_box_empty(&both));
             }
         }
         REQUIRE_CMP(cells, ==, 32u * 32 * 32);

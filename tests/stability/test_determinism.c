@@ -93,7 +93,7 @@ static void require_same(struct snapshot *a, struct snapshot *b)
     for (int i = 0; i < COMPARED; i++) {
         REQUIRE_CMP(a->sizes[i], ==, b->sizes[i]);
         if (memcmp(a->buffers[i], b->buffers[i], a->sizes[i]) != 0)
-            printf("%s differs\n", resource_row(compared[i])->name);
+            printf("%s differs\n", sdfgi_resource_row(compared[i])->name);
     }
     for (int i = 0; i < COMPARED; i++)
         REQUIRE_BYTES(a->buffers[i], b->buffers[i], a->sizes[i]);

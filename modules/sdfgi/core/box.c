@@ -4,7 +4,7 @@
 #include <assert.h>
 #include <math.h>
 
-bool box_overlaps(const struct box *a, const struct box *b)
+bool sdfgi_box_overlaps(const struct box *a, const struct box *b)
 {
     for (int i = 0; i < 3; i++)
         if (a->max[i] < b->min[i] || a->min[i] > b->max[i])
@@ -12,7 +12,7 @@ bool box_overlaps(const struct box *a, const struct box *b)
     return true;
 }
 
-struct box box_around(const struct box *a, const struct box *b)
+struct box sdfgi_box_around(const struct box *a, const struct box *b)
 {
     struct box box;
     for (int i = 0; i < 3; i++) {
@@ -22,19 +22,19 @@ struct box box_around(const struct box *a, const struct box *b)
     return box;
 }
 
-double box_volume(const struct box *box)
+double sdfgi_box_volume(const struct box *box)
 {
     return (box->max[0] - box->min[0]) * (box->max[1] - box->min[1]) * (box->max[2] - box->min[2]);
 }
 
-void box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
+void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
 {
     assert(*count <= room && room > 0);
     uint32_t best = 0;
     double least = INFINITY;
     for (uint32_t i = 0; i < *count; i++) {
-        const struct box both = box_around(&list[i], box);
-        const double growth = box_volume(&both) - box_volume(&list[i]);
+        const struct box both = sdfgi_box_around(&list[i], box);
+        const double growth = sdfgi_box_volume(&both) - sdfgi_box_volume(&list[i]);
         if (growth <= 0)
             return;
         if (growth < least) {
@@ -45,16 +45,16 @@ void box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct
     if (*count < room)
         list[(*count)++] = *box;
     else
-        list[best] = box_around(&list[best], box);
+        list[best] = sdfgi_box_around(&list[best], box);
 }
 
-struct cell_box cell_box_whole(uint32_t resolution)
+struct cell_box sdfgi_cell_box_whole(uint32_t resolution)
 {
     const int32_t n = (int32_t)resolution;
     return (struct cell_box){ { 0, 0, 0 }, { n, n, n } };
 }
 
-struct cell_box cell_box_shifted(const struct cell_box *box, const int32_t by[static 3])
+struct cell_box sdfgi_cell_box_shifted(const struct cell_box *box, const int32_t by[static 3])
 {
     struct cell_box shifted;
     for (int i = 0; i < 3; i++) {
@@ -64,17 +64,17 @@ struct cell_box cell_box_shifted(const struct cell_box *box, const int32_t by[st
     return shifted;
 }
 
-struct cell_box cell_box_common(const struct cell_box *a, const struct cell_box *b)
+struct cell_box sdfgi_cell_box_common(const struct cell_box *a, const struct cell_box *b)
 {
     struct cell_box common;
     for (int i = 0; i < 3; i++) {
         common.low[i] = a->low[i] > b->low[i] ? a->low[i] : b->low[i];
         common.high[i] = a->high[i] < b->high[i] ? a->high[i] : b->high[i];
     }
-    return cell_box_empty(&common) ? (struct cell_box){ 0 } : common;
+    return sdfgi_cell_box_empty(&common) ? (struct cell_box){ 0 } : common;
 }
 
-struct cell_box cell_box_widened(const struct cell_box *box, int32_t by)
+struct cell_box sdfgi_cell_box_widened(const struct cell_box *box, int32_t by)
 {
     struct cell_box wide;
     for (int i = 0; i < 3; i++) {
@@ -84,7 +84,7 @@ struct cell_box cell_box_widened(const struct cell_box *box, int32_t by)
     return wide;
 }
 
-bool cell_box_empty(const struct cell_box *box)
+bool sdfgi_cell_box_empty(const struct cell_box *box)
 {
     for (int i = 0; i < 3; i++)
         if (box->low[i] >= box->high[i])
@@ -92,7 +92,7 @@ bool cell_box_empty(const struct cell_box *box)
     return false;
 }
 
-uint64_t cell_box_cells(const struct cell_box *box)
+uint64_t sdfgi_cell_box_cells(const struct cell_box *box)
 {
     uint64_t cells = 1;
     for (int i = 0; i < 3; i++)
@@ -100,7 +100,7 @@ uint64_t cell_box_cells(const struct cell_box *box)
     return cells;
 }
 
-int cell_box_longest_axis(const struct cell_box *box)
+int sdfgi_cell_box_longest_axis(const struct cell_box *box)
 {
     int axis = 2;
     for (int i = 1; i >= 0; i--)
@@ -109,25 +109,25 @@ int cell_box_longest_axis(const struct cell_box *box)
     return axis;
 }
 
-bool cell_box_contains(const struct cell_box *box, const struct cell_box *other)
+bool sdfgi_cell_box_contains(const struct cell_box *box, const struct cell_box *other)
 {
-    const struct cell_box common = cell_box_common(box, other);
-    return cell_box_cells(&common) == cell_box_cells(other);
+    const struct cell_box common = sdfgi_cell_box_common(box, other);
+    return sdfgi_cell_box_cells(&common) == sdfgi_cell_box_cells(other);
 }
 
-uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *hole,
-                             struct cell_box out[static 3])
+uint32_t sdfgi_cell_box_difference(const struct cell_box *box, const struct cell_box *hole,
+                                   struct cell_box out[static 3])
 {
-    assert(cell_box_contains(box, hole));
+    assert(sdfgi_cell_box_contains(box, hole));
     uint32_t count = 0;
     struct cell_box rest = *box;
     for (int i = 0; i < 3; i++) {
         struct cell_box below = rest, above = rest;
         below.high[i] = hole->low[i];
         above.low[i] = hole->high[i];
-        if (!cell_box_empty(&below))
+        if (!sdfgi_cell_box_empty(&below))
             out[count++] = below;
-        if (!cell_box_empty(&above) && count < 3)
+        if (!sdfgi_cell_box_empty(&above) && count < 3)
             out[count++] = above;
         rest.low[i] = hole->low[i];
         rest.high[i] = hole->high[i];
@@ -135,12 +135,12 @@ uint32_t cell_box_difference(const struct cell_box *box, const struct cell_box *
     return count;
 }
 
-int64_t floor_div(int64_t a, int64_t b)
+int64_t sdfgi_floor_div(int64_t a, int64_t b)
 {
     return a / b - (a % b != 0 && (a % b < 0) != (b < 0));
 }
 
-int64_t floor_mod(int64_t a, int64_t b)
+int64_t sdfgi_floor_mod(int64_t a, int64_t b)
 {
-    return a - floor_div(a, b) * b;
+    return a - sdfgi_floor_div(a, b) * b;
 }

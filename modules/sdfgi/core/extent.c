@@ -12,7 +12,7 @@
  * cascade then takes just under 64 MiB, scratch included. */
 #define LIGHT_CELL_SHARE (37.0 / 256)
 
-double settings_y_scale(const struct sdfgi_settings *settings)
+double sdfgi_settings_y_scale(const struct sdfgi_settings *settings)
 {
     static const double factors[] = {
         [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1.0
@@ -20,18 +20,18 @@ double settings_y_scale(const struct sdfgi_settings *settings)
     return factors[settings->y_scale];
 }
 
-uint32_t settings_cycle_samples(const struct sdfgi_settings *settings)
+uint32_t sdfgi_settings_cycle_samples(const struct sdfgi_settings *settings)
 {
     const uint32_t rays = settings->ray_count * settings->frames_to_converge;
     return (rays + SDFGI_IRRADIANCE_COUNT - 1) / SDFGI_IRRADIANCE_COUNT * SDFGI_IRRADIANCE_COUNT;
 }
 
-uint32_t settings_cycle_frames(const struct sdfgi_settings *settings)
+uint32_t sdfgi_settings_cycle_frames(const struct sdfgi_settings *settings)
 {
-    return (settings_cycle_samples(settings) + settings->ray_count - 1) / settings->ray_count;
+    return (sdfgi_settings_cycle_samples(settings) + settings->ray_count - 1) / settings->ray_count;
 }
 
-uint32_t settings_shader_visibility(const struct sdfgi_settings *settings)
+uint32_t sdfgi_settings_shader_visibility(const struct sdfgi_settings *settings)
 {
     static const uint32_t methods[] = {
         [SDFGI_VISIBILITY_CELL_MASK] = SDFGI_SHADER_VISIBILITY_CELL_MASK,
@@ -41,7 +41,7 @@ uint32_t settings_shader_visibility(const struct sdfgi_settings *settings)
     return settings->use_occlusion ? methods[settings->visibility] : SDFGI_SHADER_VISIBILITY_NONE;
 }
 
-uint32_t log2_of(uint64_t power)
+uint32_t sdfgi_log2(uint64_t power)
 {
     uint32_t bits = 0;
     while (power >> (bits + 1))
@@ -59,7 +59,7 @@ static uint64_t light_cells_max(uint64_t cells)
 /* Bytes that the largest tenant of the scratch buffer needs: shared/scratch.h. */
 static uint64_t scratch_size(const struct extent *e, uint32_t rays_per_frame)
 {
-    const uint32_t bits = log2_of(e->cells) / 3;
+    const uint32_t bits = sdfgi_log2(e->cells) / 3;
     const uint64_t tenants[] = {
         sdfgi_scratch_accumulators_end(bits),
         sdfgi_scratch_distance_end(bits),
@@ -73,7 +73,7 @@ static uint64_t scratch_size(const struct extent *e, uint32_t rays_per_frame)
     return 4 * most;
 }
 
-struct extent extent_from_settings(const struct sdfgi_settings *settings)
+struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
 {
     const uint64_t n = settings->resolution, side = n / SDFGI_PROBE_SPACING + 1;
     struct extent e = {
@@ -84,7 +84,7 @@ struct extent extent_from_settings(const struct sdfgi_settings *settings)
         .light_cells = LIGHT_CELL_LAYERS * n * n,
         .light_cells_max = light_cells_max(n * n * n),
         .cascades = settings->cascades,
-        .cycle_samples = settings_cycle_samples(settings),
+        .cycle_samples = sdfgi_settings_cycle_samples(settings),
         .occlusion = 1,
     };
     e.scratch = scratch_size(&e, settings->ray_count);

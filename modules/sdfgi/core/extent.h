@@ -15,21 +15,21 @@ struct extent {
         light_cells_max; /* room in the light list of a cascade, and how much it may become */
 };
 
-struct extent extent_from_settings(const struct sdfgi_settings *settings);
+struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings);
 
 /* Height of a cell over its width. */
-double settings_y_scale(const struct sdfgi_settings *settings);
+double sdfgi_settings_y_scale(const struct sdfgi_settings *settings);
 /* Samples in the cycle of a probe: all 25 texels get the same number. */
-uint32_t settings_cycle_samples(const struct sdfgi_settings *settings);
+uint32_t sdfgi_settings_cycle_samples(const struct sdfgi_settings *settings);
 /* Frames over which a cycle is spread. */
-uint32_t settings_cycle_frames(const struct sdfgi_settings *settings);
+uint32_t sdfgi_settings_cycle_frames(const struct sdfgi_settings *settings);
 /* The method by which lookups weigh probes: SDFGI_SHADER_VISIBILITY_*. */
-uint32_t settings_shader_visibility(const struct sdfgi_settings *settings);
+uint32_t sdfgi_settings_shader_visibility(const struct sdfgi_settings *settings);
 
 /* True if two settings cannot share device objects: they differ in a property that is marked so
  * (properties.c). */
-bool settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
+bool sdfgi_settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
 
-uint32_t log2_of(uint64_t power);
+uint32_t sdfgi_log2(uint64_t power);
 
 #endif

@@ -15,7 +15,7 @@ static const struct {
 #undef ROW
 };
 
-const char *message_hint(enum sdfgi_message id)
+const char *sdfgi_message_hint(enum sdfgi_message id)
 {
     return rows[id].hint;
 }
@@ -29,7 +29,7 @@ static void send(const struct hooks *hooks, enum sdfgi_message id, const char *f
     hooks->log.fn(hooks->log.user, rows[id].level, id, text);
 }
 
-void message(const struct hooks *hooks, enum sdfgi_message id, const char *format, ...)
+void sdfgi_message_log(const struct hooks *hooks, enum sdfgi_message id, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -37,7 +37,7 @@ void message(const struct hooks *hooks, enum sdfgi_message id, const char *forma
     va_end(arguments);
 }
 
-enum sdfgi_result message_invalid(const struct hooks *hooks, const char *format, ...)
+enum sdfgi_result sdfgi_message_invalid(const struct hooks *hooks, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -46,42 +46,42 @@ enum sdfgi_result message_invalid(const struct hooks *hooks, const char *format,
     return SDFGI_ERROR_INVALID_ARGUMENT;
 }
 
-enum sdfgi_result message_vulkan(struct hooks *hooks, VkResult result, const char *what)
+enum sdfgi_result sdfgi_message_vulkan(struct hooks *hooks, VkResult result, const char *what)
 {
     switch (result) {
     case VK_SUCCESS:
         return SDFGI_OK;
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-        message(hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "%s: out of host memory", what);
+        sdfgi_message_log(hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "%s: out of host memory", what);
         return SDFGI_ERROR_OUT_OF_MEMORY;
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_FRAGMENTED_POOL:
-        message(hooks, SDFGI_MESSAGE_OUT_OF_DEVICE_MEMORY, "%s: out of device memory", what);
+        sdfgi_message_log(hooks, SDFGI_MESSAGE_OUT_OF_DEVICE_MEMORY, "%s: out of device memory", what);
         return SDFGI_ERROR_OUT_OF_MEMORY;
     case VK_ERROR_DEVICE_LOST:
         hooks->device_lost = true;
-        message(hooks, SDFGI_MESSAGE_DEVICE_LOST, "%s: the device was lost", what);
+        sdfgi_message_log(hooks, SDFGI_MESSAGE_DEVICE_LOST, "%s: the device was lost", what);
         return SDFGI_ERROR_DEVICE_LOST;
     default:
-        message(hooks, SDFGI_MESSAGE_VULKAN_FAILURE, "%s: VkResult %d", what, (int)result);
+        sdfgi_message_log(hooks, SDFGI_MESSAGE_VULKAN_FAILURE, "%s: VkResult %d", what, (int)result);
         return SDFGI_ERROR_UNSUPPORTED;
     }
 }
 
-void *hooks_alloc(const struct hooks *hooks, size_t size)
+void *sdfgi_hooks_alloc(const struct hooks *hooks, size_t size)
 {
     const struct sdfgi_allocator *a = &hooks->allocator;
     return a->alloc ? a->alloc(a->user, size) : malloc(size);
 }
 
-void *hooks_alloc_zeroed(const struct hooks *hooks, size_t size)
+void *sdfgi_hooks_alloc_zeroed(const struct hooks *hooks, size_t size)
 {
-    void *memory = hooks_alloc(hooks, size);
+    void *memory = sdfgi_hooks_alloc(hooks, size);
     return memory ? memset(memory, 0, size) : NULL;
 }
 
-void hooks_free(const struct hooks *hooks, void *memory)
+void sdfgi_hooks_free(const struct hooks *hooks, void *memory)
 {
     const struct sdfgi_allocator *a = &hooks->allocator;
     if (!memory)

@@ -11,20 +11,20 @@ struct hooks {
     bool device_lost;
 };
 
-void message(const struct hooks *hooks, enum sdfgi_message id, const char *format, ...)
+void sdfgi_message_log(const struct hooks *hooks, enum sdfgi_message id, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-const char *message_hint(enum sdfgi_message id);
+const char *sdfgi_message_hint(enum sdfgi_message id);
 /* Reports a failed Vulkan call and turns it into a result. Notes that the device was lost. */
-enum sdfgi_result message_vulkan(struct hooks *hooks, VkResult result, const char *what);
+enum sdfgi_result sdfgi_message_vulkan(struct hooks *hooks, VkResult result, const char *what);
 /* Reports that a call broke a documented rule. */
-enum sdfgi_result message_invalid(const struct hooks *hooks, const char *format, ...)
+enum sdfgi_result sdfgi_message_invalid(const struct hooks *hooks, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* NULL if memory is short. */
-void *hooks_alloc(const struct hooks *hooks, size_t size);
+void *sdfgi_hooks_alloc(const struct hooks *hooks, size_t size);
 /* The same, filled with zeros. */
-void *hooks_alloc_zeroed(const struct hooks *hooks, size_t size);
+void *sdfgi_hooks_alloc_zeroed(const struct hooks *hooks, size_t size);
 /* NULL is accepted. */
-void hooks_free(const struct hooks *hooks, void *memory);
+void sdfgi_hooks_free(const struct hooks *hooks, void *memory);
 
 #endif

@@ -7,17 +7,17 @@
 
 enum { SLOT_BITS = 20, GENERATION_MASK = 0xfff, FIRST_CAPACITY = 64 };
 
-void pool_init(struct pool *pool, size_t item_size, uint32_t limit)
+void sdfgi_pool_init(struct pool *pool, size_t item_size, uint32_t limit)
 {
     *pool = (struct pool){ .item_size = item_size, .limit = limit };
 }
 
-void pool_finish(struct pool *pool, const struct hooks *hooks)
+void sdfgi_pool_finish(struct pool *pool, const struct hooks *hooks)
 {
-    hooks_free(hooks, pool->items);
-    hooks_free(hooks, pool->generations);
-    hooks_free(hooks, pool->live);
-    pool_init(pool, pool->item_size, pool->limit);
+    sdfgi_hooks_free(hooks, pool->items);
+    sdfgi_hooks_free(hooks, pool->generations);
+    sdfgi_hooks_free(hooks, pool->live);
+    sdfgi_pool_init(pool, pool->item_size, pool->limit);
 }
 
 static bool grow(struct pool *pool, const struct hooks *hooks)
@@ -28,11 +28,11 @@ static bool grow(struct pool *pool, const struct hooks *hooks)
         return false;
     struct pool bigger = *pool;
     bigger.capacity = capacity;
-    bigger.items = hooks_alloc(hooks, capacity * pool->item_size);
-    bigger.generations = hooks_alloc(hooks, capacity * sizeof *bigger.generations);
-    bigger.live = hooks_alloc(hooks, capacity * sizeof *bigger.live);
+    bigger.items = sdfgi_hooks_alloc(hooks, capacity * pool->item_size);
+    bigger.generations = sdfgi_hooks_alloc(hooks, capacity * sizeof *bigger.generations);
+    bigger.live = sdfgi_hooks_alloc(hooks, capacity * sizeof *bigger.live);
     if (!bigger.items || !bigger.generations || !bigger.live) {
-        pool_finish(&bigger, hooks);
+        sdfgi_pool_finish(&bigger, hooks);
         return false;
     }
     memset(bigger.generations, 0, capacity * sizeof *bigger.generations);
@@ -42,7 +42,7 @@ static bool grow(struct pool *pool, const struct hooks *hooks)
         memcpy(bigger.generations, pool->generations, pool->end * sizeof *bigger.generations);
         memcpy(bigger.live, pool->live, pool->end * sizeof *bigger.live);
     }
-    pool_finish(pool, hooks);
+    sdfgi_pool_finish(pool, hooks);
     *pool = bigger;
     return true;
 }
@@ -56,17 +56,17 @@ static uint32_t free_slot(const struct pool *pool)
     return pool->end;
 }
 
-uint32_t pool_id(const struct pool *pool, uint32_t index)
+uint32_t sdfgi_pool_id(const struct pool *pool, uint32_t index)
 {
     return (index + 1) | (uint32_t)pool->generations[index] << SLOT_BITS;
 }
 
-uint32_t pool_index(uint32_t id)
+uint32_t sdfgi_pool_index(uint32_t id)
 {
     return (id & ((1u << SLOT_BITS) - 1)) - 1;
 }
 
-void *pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id)
+void *sdfgi_pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id)
 {
     const uint32_t slot = free_slot(pool);
     if (slot >= pool->capacity && !grow(pool, hooks))
@@ -74,27 +74,27 @@ void *pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id)
     pool->live[slot] = true;
     pool->count++;
     pool->end = slot + 1 > pool->end ? slot + 1 : pool->end;
-    *id = pool_id(pool, slot);
+    *id = sdfgi_pool_id(pool, slot);
     return memset(pool->items + slot * pool->item_size, 0, pool->item_size);
 }
 
-void *pool_at(const struct pool *pool, uint32_t index)
+void *sdfgi_pool_at(const struct pool *pool, uint32_t index)
 {
     return index < pool->end && pool->live[index] ? pool->items + index * pool->item_size : NULL;
 }
 
-void *pool_get(const struct pool *pool, uint32_t id)
+void *sdfgi_pool_get(const struct pool *pool, uint32_t id)
 {
-    const uint32_t slot = pool_index(id);
-    if (slot >= pool->end || pool_id(pool, slot) != id)
+    const uint32_t slot = sdfgi_pool_index(id);
+    if (slot >= pool->end || sdfgi_pool_id(pool, slot) != id)
         return NULL;
-    return pool_at(pool, slot);
+    return sdfgi_pool_at(pool, slot);
 }
 
-void pool_remove(struct pool *pool, uint32_t id)
+void sdfgi_pool_remove(struct pool *pool, uint32_t id)
 {
-    const uint32_t slot = pool_index(id);
-    if (!pool_get(pool, id))
+    const uint32_t slot = sdfgi_pool_index(id);
+    if (!sdfgi_pool_get(pool, id))
         return;
     pool->live[slot] = false;
     pool->generations[slot] = (uint16_t)((pool->generations[slot] + 1) & GENERATION_MASK);

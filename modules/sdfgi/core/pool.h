@@ -20,17 +20,17 @@ struct pool {
     bool *live;
 };
 
-void pool_init(struct pool *pool, size_t item_size, uint32_t limit);
-void pool_finish(struct pool *pool, const struct hooks *hooks);
+void sdfgi_pool_init(struct pool *pool, size_t item_size, uint32_t limit);
+void sdfgi_pool_finish(struct pool *pool, const struct hooks *hooks);
 
 /* Takes a zeroed slot. Returns NULL if memory or slots have run out. */
-void *pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id);
+void *sdfgi_pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id);
 /* NULL if `id` is not a live handle. */
-void *pool_get(const struct pool *pool, uint32_t id);
-void pool_remove(struct pool *pool, uint32_t id);
+void *sdfgi_pool_get(const struct pool *pool, uint32_t id);
+void sdfgi_pool_remove(struct pool *pool, uint32_t id);
 /* The item in slot `index` < end, or NULL if it is not live. */
-void *pool_at(const struct pool *pool, uint32_t index);
-uint32_t pool_index(uint32_t id);
-uint32_t pool_id(const struct pool *pool, uint32_t index);
+void *sdfgi_pool_at(const struct pool *pool, uint32_t index);
+uint32_t sdfgi_pool_index(uint32_t id);
+uint32_t sdfgi_pool_id(const struct pool *pool, uint32_t index);
 
 #endif

@@ -41,13 +41,14 @@ struct frame {
 };
 
 /* Fills `frame` from the input alone: the same input gives the same plan. Needs no device. */
-void frame_plan(struct frame *frame, const struct frame_input *input);
+void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input);
 
 /* Records a plan. Changes nothing but the command buffer and what the recorder counts. */
-void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec,
-                  uint32_t slot);
+void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec,
+                        uint32_t slot);
 
 /* Makes a recorded plan the volume's state. */
-void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume);
+void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,
+                        struct volume *volume);
 
 #endif

@@ -124,7 +124,7 @@ static const struct need_row needs[NEED_COUNT] = {
     [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
 };
 
-struct situation_needs frame_needs(const struct situation *situation)
+struct situation_needs sdfgi_frame_needs(const struct situation *situation)
 {
     struct situation_needs result;
     for (int i = 0; i < NEED_COUNT; i++)
@@ -132,12 +132,12 @@ struct situation_needs frame_needs(const struct situation *situation)
     return result;
 }
 
-const char *need_reason(enum need need)
+const char *sdfgi_need_reason(enum need need)
 {
     return needs[need].why;
 }
 
-const char *need_reason_not(enum need need)
+const char *sdfgi_need_reason_not(enum need need)
 {
     return needs[need].why_not;
 }

@@ -27,10 +27,10 @@ struct situation_needs {
     bool holds[NEED_COUNT];
 };
 
-struct situation_needs frame_needs(const struct situation *situation);
+struct situation_needs sdfgi_frame_needs(const struct situation *situation);
 
 /* Static texts for the report: why a pass with this need runs; why it does not although GI is on. */
-const char *need_reason(enum need need);
-const char *need_reason_not(enum need need);
+const char *sdfgi_need_reason(enum need need);
+const char *sdfgi_need_reason_not(enum need need);
 
 #endif

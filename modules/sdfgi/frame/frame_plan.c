@@ -13,14 +13,14 @@ static void take_input(struct frame *frame, const struct frame_input *input)
     struct volume_state *next = &frame->next;
     const float exposure = desc->exposure > 0 ? desc->exposure : 1.0f;
     const bool first = next->updates == 0, exposure_changed = exposure != next->exposure;
-    volume_apply_journal(input->journal, next);
+    sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
     if (exposure_changed)
-        accumulation_invalidate(&next->accumulation);
+        sdfgi_accumulation_invalidate(&next->accumulation);
     next->exposure = exposure;
     if (desc->seed != next->seed)
         for (uint32_t c = 0; c < next->cascades.count; c++)
-            cascade_outdate(&next->cascades.at[c]);
+            sdfgi_cascade_outdate(&next->cascades.at[c]);
     next->seed = desc->seed;
     frame->situation.lights_changed = first || exposure_changed || (input->journal->notes & JOURNAL_LIGHTS);
     if (first || (input->journal->notes & JOURNAL_MATERIALS))
@@ -40,21 +40,21 @@ static void plan_scroll(struct frame *frame, const struct frame_input *input)
     const struct scroll_limits limits = { input->settings->max_scroll_cells,
                                           input->settings->sdf_method == SDFGI_SDF_FLOOD };
     const bool nothing_shown = next->accumulation.phase < LIGHTING_RUNNING;
-    scroll_plan(&next->scroll, &next->cascades, &limits, input->desc->camera_position, nothing_shown,
-                &frame->scroll);
+    sdfgi_scroll_plan(&next->scroll, &next->cascades, &limits, input->desc->camera_position, nothing_shown,
+                      &frame->scroll);
     if (frame->scroll.begins)
-        accumulation_invalidate(&next->accumulation);
+        sdfgi_accumulation_invalidate(&next->accumulation);
     frame->situation.from_nothing = frame->scroll.from_nothing;
-    frame->situation.voxels_due = scroll_plan_has(&frame->scroll, PIECE_VOXELS);
-    frame->situation.distances_due = scroll_plan_has(&frame->scroll, PIECE_DISTANCES);
-    frame->situation.completes = cascades_complete(&next->cascades);
+    frame->situation.voxels_due = sdfgi_scroll_plan_has(&frame->scroll, PIECE_VOXELS);
+    frame->situation.distances_due = sdfgi_scroll_plan_has(&frame->scroll, PIECE_DISTANCES);
+    frame->situation.completes = sdfgi_cascades_complete(&next->cascades);
 }
 
 static bool scroll_completes(const struct frame *frame)
 {
     const struct cascades *cascades = &frame->next.cascades;
     for (uint32_t c = 0; c < cascades->count; c++)
-        if (cascade_completes(&cascades->at[c]) && cascades->at[c].last_turn != CHANGE_EDIT)
+        if (sdfgi_cascade_completes(&cascades->at[c]) && cascades->at[c].last_turn != CHANGE_EDIT)
             return true;
     return false;
 }
@@ -72,13 +72,13 @@ static bool light_waits(const struct frame *frame)
 static void plan_cycle(struct frame *frame, const struct frame_input *input)
 {
     struct accumulation *a = &frame->next.accumulation;
-    const uint32_t cycle_frames = settings_cycle_frames(input->settings);
+    const uint32_t cycle_frames = sdfgi_settings_cycle_frames(input->settings);
     if (restarts(frame))
-        accumulation_restart(a);
+        sdfgi_accumulation_restart(a);
     frame->situation.scroll_completes = scroll_completes(frame);
     frame->situation.light_waits = light_waits(frame);
     if (frame->scroll.from_nothing)
-        accumulation_go_dark(a);
+        sdfgi_accumulation_go_dark(a);
     /* Any change may invalidate cached rays of any sample, so rays are traced for one full cycle afterwards.
      */
     bool changes = restarts(frame);
@@ -86,21 +86,21 @@ static void plan_cycle(struct frame *frame, const struct frame_input *input)
         changes = changes || frame->next.cascades.at[c].change.cause != CHANGE_NONE;
     if (changes)
         a->rays_missing = cycle_frames;
-    frame->cycle_ends = accumulation_cycle_ends(a, cycle_frames);
+    frame->cycle_ends = sdfgi_accumulation_cycle_ends(a, cycle_frames);
     frame->situation.rays_missing = a->rays_missing > 0;
     frame->situation.converged = a->phase == LIGHTING_CONVERGED;
     const bool due = (a->frame + 1) % input->settings->frames_to_update_lights == 0;
     frame->situation.shows = due || frame->cycle_ends || a->phase == LIGHTING_DARK;
 }
 
-enum relist frame_relist(const struct frame *frame, uint32_t c)
+enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t c)
 {
     const struct cascade *cascade = &frame->next.cascades.at[c];
     if (frame->situation.list_grew)
         return RELIST_NEW;
-    if (!cascade_completes(cascade))
+    if (!sdfgi_cascade_completes(cascade))
         return RELIST_NOT;
-    return cell_box_empty(&cascade->change.kept) ? RELIST_NEW : RELIST_DIRTY;
+    return sdfgi_cell_box_empty(&cascade->change.kept) ? RELIST_NEW : RELIST_DIRTY;
 }
 
 /* Decides whose direct light is to be made again. */
@@ -108,11 +108,11 @@ static void plan_relight(struct frame *frame, const struct frame_input *input)
 {
     enum relist relists[SDFGI_MAX_CASCADES] = { RELIST_NOT };
     for (uint32_t c = 0; c < frame->next.cascades.count; c++)
-        relists[c] = frame_relist(frame, c);
+        relists[c] = sdfgi_frame_relist(frame, c);
     frame->situation.has_lights = input->scene->lights.count > 0;
-    relight_note(&frame->next.relight, &input->lists, relists,
-                 frame->situation.lights_changed || !frame->situation.has_lights);
-    frame->situation.relights = relight_is_due(&frame->next.relight);
+    sdfgi_relight_note(&frame->next.relight, &input->lists, relists,
+                       frame->situation.lights_changed || !frame->situation.has_lights);
+    frame->situation.relights = sdfgi_relight_is_due(&frame->next.relight);
 }
 
 static bool geometry_is_due(const struct frame *frame, const struct scene *scene)
@@ -120,8 +120,8 @@ static bool geometry_is_due(const struct frame *frame, const struct scene *scene
     for (uint32_t i = 0; i < frame->scroll.piece_count; i++) {
         const struct scroll_piece *piece = &frame->scroll.pieces[i];
         const struct cascade *cascade = &frame->next.cascades.at[piece->cascade];
-        const struct box box = cascade_world_box(cascade, &piece->box);
-        if (piece->kind == PIECE_VOXELS && scene_touches(scene, &box))
+        const struct box box = sdfgi_cascade_world_box(cascade, &piece->box);
+        if (piece->kind == PIECE_VOXELS && sdfgi_scene_touches(scene, &box))
             return true;
     }
     return false;
@@ -142,7 +142,7 @@ static void plan_uploads(struct frame *frame, const struct frame_input *input,
 {
     const struct params_input params_input = { input->settings, input->scene, input->extent.light_cells };
     struct sdfgi_frame_params params;
-    params_fill(&params, &frame->next, &params_input);
+    sdfgi_params_fill(&params, &frame->next, &params_input);
     if (memcmp(&params, &frame->next.params, sizeof params) != 0)
         frame->uploads |= FRAME_UPLOAD_PARAMS;
     frame->next.params = params;
@@ -155,12 +155,13 @@ static void plan_uploads(struct frame *frame, const struct frame_input *input,
 static void plan_reasons(struct frame *frame)
 {
     for (int i = 0; i < PASS_COUNT; i++) {
-        const enum need need = pass_row((enum pass)i)->need;
-        frame->reasons[i] = work_has(&frame->work, (enum pass)i) ? need_reason(need) : need_reason_not(need);
+        const enum need need = sdfgi_pass_row((enum pass)i)->need;
+        frame->reasons[i] = sdfgi_work_has(&frame->work, (enum pass)i) ? sdfgi_need_reason(need)
+                                                                       : sdfgi_need_reason_not(need);
     }
 }
 
-void frame_plan(struct frame *frame, const struct frame_input *input)
+void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
 {
     memset(frame, 0, sizeof *frame);
     frame->next = *input->state;
@@ -171,28 +172,30 @@ void frame_plan(struct frame *frame, const struct frame_input *input)
     plan_relight(frame, input);
     plan_methods(&frame->situation, input->settings);
     frame->situation.geometry_due = geometry_is_due(frame, input->scene);
-    const struct situation_needs needs = frame_needs(&frame->situation);
+    const struct situation_needs needs = sdfgi_frame_needs(&frame->situation);
     plan_uploads(frame, input, &needs);
     if (!frame->situation.converged)
-        frame_add_work(frame, input, &needs);
+        sdfgi_frame_add_work(frame, input, &needs);
     plan_reasons(frame);
 }
 
-void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume)
+void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,
+                        struct volume *volume)
 {
     struct volume_state *state = &volume->state;
     const struct situation *s = &frame->situation;
-    struct feedback_slot *slot = &volume->feedback.slots[backend_slot(volume->backend)];
+    struct feedback_slot *slot = &volume->feedback.slots[sdfgi_backend_slot(volume->backend)];
     *state = frame->next;
     state->updates++;
     slot->content = s->converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS;
-    if (work_has(&frame->work, PASS_PROBE_BLEND))
-        accumulation_show(&state->accumulation, frame->cycle_ends);
+    if (sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))
+        sdfgi_accumulation_show(&state->accumulation, frame->cycle_ends);
     if (!s->converged && !s->light_waits) {
         slot->ended_cycle = frame->cycle_ends ? state->accumulation.cycle : 0;
-        accumulation_advance(&state->accumulation, settings_cycle_frames(settings),
-                             cascades_rest(&state->cascades) && !relight_is_due(&state->relight));
+        sdfgi_accumulation_advance(&state->accumulation, sdfgi_settings_cycle_frames(settings),
+                                   sdfgi_cascades_rest(&state->cascades) &&
+                                       !sdfgi_relight_is_due(&state->relight));
     }
-    scroll_finish(&state->scroll, &state->cascades);
-    journal_clear(&volume->journal);
+    sdfgi_scroll_finish(&state->scroll, &state->cascades);
+    sdfgi_journal_clear(&volume->journal);
 }

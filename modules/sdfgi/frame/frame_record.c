@@ -20,9 +20,9 @@ static void upload_lights(struct pass_recorder *r, const struct volume_state *st
     uint32_t filled = 0, done = 0;
     gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(LIGHTS));
     for (uint32_t i = 0; i < lights->end; i++) {
-        const struct light *light = pool_at(lights, i);
+        const struct light *light = sdfgi_pool_at(lights, i);
         if (light)
-            batch[filled++] = params_of_light(state, &light->desc);
+            batch[filled++] = sdfgi_params_of_light(state, &light->desc);
         if (filled == BATCH || (i + 1 == lights->end && filled > 0)) {
             upload(r, RESOURCE_LIGHTS, done * sizeof *batch, filled * sizeof *batch, batch);
             done += filled;
@@ -35,10 +35,10 @@ static void upload_materials(struct pass_recorder *r, const struct scene *scene)
 {
     gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(MATERIALS));
     for (uint32_t i = 0; i < scene->materials.end; i++) {
-        const struct material *material = pool_at(&scene->materials, i);
+        const struct material *material = sdfgi_pool_at(&scene->materials, i);
         if (!material)
             continue;
-        const struct sdfgi_material_params p = params_of_material(scene, &material->desc);
+        const struct sdfgi_material_params p = sdfgi_params_of_material(scene, &material->desc);
         upload(r, RESOURCE_MATERIALS, i * sizeof p, sizeof p, &p);
     }
 }
@@ -70,11 +70,11 @@ static void record_uploads(struct pass_recorder *r, const struct frame *frame, c
 static void record_item(struct pass_recorder *r, const struct voxelizer *voxelizer, const struct work *work)
 {
     if (work->kind == WORK_CLEAR)
-        pass_record_clear(r, work);
-    else if (pass_row(work->pass)->domain == DOMAIN_INSTANCES)
-        voxelize_record(voxelizer, work);
+        sdfgi_pass_record_clear(r, work);
+    else if (sdfgi_pass_row(work->pass)->domain == DOMAIN_INSTANCES)
+        sdfgi_voxelize_record(voxelizer, work);
     else
-        pass_record(r, work);
+        sdfgi_pass_record(r, work);
 }
 
 static void record_readback(struct pass_recorder *r, uint32_t slot)
@@ -85,14 +85,14 @@ static void record_readback(struct pass_recorder *r, uint32_t slot)
              bytes);
 }
 
-void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r,
-                  uint32_t slot)
+void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r,
+                        uint32_t slot)
 {
     const struct voxelizer voxelizer = { r, scene, &frame->next.cascades };
     record_uploads(r, frame, scene);
     for (uint32_t i = 0; i < frame->work.count; i++)
         record_item(r, &voxelizer, &frame->work.items[i]);
-    pass_close(r);
+    sdfgi_pass_close(r);
     if (!frame->situation.converged)
         record_readback(r, slot);
 }

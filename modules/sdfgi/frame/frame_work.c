@@ -3,18 +3,20 @@
 
 #include <assert.h>
 
-struct work *stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade)
+struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade)
 {
-    const enum need need = pass_row(pass)->need;
-    return stage->needs->holds[need] ? work_add(&stage->frame->work, pass, cascade, need_reason(need)) : NULL;
+    const enum need need = sdfgi_pass_row(pass)->need;
+    return stage->needs->holds[need]
+               ? sdfgi_work_add(&stage->frame->work, pass, cascade, sdfgi_need_reason(need))
+               : NULL;
 }
 
-uint32_t stage_begin_group(const struct plan_stage *stage)
+uint32_t sdfgi_stage_begin_group(const struct plan_stage *stage)
 {
     return stage->frame->work.count;
 }
 
-void stage_end_group(const struct plan_stage *stage, uint32_t first)
+void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first)
 {
     struct work_list *list = &stage->frame->work;
     assert(first <= list->count);
@@ -44,17 +46,18 @@ static void clear_counters(struct work_list *list, enum cleared when)
             first = counters[i].counter < first ? counters[i].counter : first;
             end = counters[i].counter + 1 > end ? counters[i].counter + 1 : end;
         }
-    work_add_clear(list, RESOURCE_COUNTERS, 4 * first, 4 * (end - first));
+    sdfgi_work_add_clear(list, RESOURCE_COUNTERS, 4 * first, 4 * (end - first));
 }
 
-void frame_add_work(struct frame *frame, const struct frame_input *input, const struct situation_needs *needs)
+void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
+                          const struct situation_needs *needs)
 {
     const struct plan_stage stage = { frame, input, needs };
     if (needs->holds[NEED_GENERATE])
         clear_counters(&frame->work, CLEARED_CHANGE);
     else if (frame->next.accumulation.frame == 0)
         clear_counters(&frame->work, CLEARED_CYCLE);
-    stage_generate(&stage);
-    stage_complete(&stage);
-    stage_light(&stage);
+    sdfgi_stage_generate(&stage);
+    sdfgi_stage_complete(&stage);
+    sdfgi_stage_light(&stage);
 }

@@ -6,8 +6,8 @@
 #include "frame.h"
 
 /* Adds all passes that the needs call for, in the order in which they run. */
-void frame_add_work(struct frame *frame, const struct frame_input *input,
-                    const struct situation_needs *needs);
+void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
+                          const struct situation_needs *needs);
 
 /* What a stage needs to add its items. */
 struct plan_stage {
@@ -23,22 +23,23 @@ struct plan_target {
 };
 
 /* Adds the passes of a phase that the needs call for, in the order of the table. */
-void stage_add_phase(const struct plan_stage *stage, enum pass_phase phase, const struct plan_target *target);
+void sdfgi_stage_add_phase(const struct plan_stage *stage, enum pass_phase phase,
+                           const struct plan_target *target);
 
 /* Adds an item by hand. NULL if nothing calls for the pass in this frame. */
-struct work *stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade);
+struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade);
 /* Items added from here on, until `stage_end_group`, run side by side: they touch nothing in common. */
-uint32_t stage_begin_group(const struct plan_stage *stage);
-void stage_end_group(const struct plan_stage *stage, uint32_t first);
+uint32_t sdfgi_stage_begin_group(const struct plan_stage *stage);
+void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first);
 
 /* Stages 3 and 4: voxels and distances that are due. */
-void stage_generate(const struct plan_stage *stage);
+void sdfgi_stage_generate(const struct plan_stage *stage);
 /* Stages 5 to 7 for cascades whose change completes, or whose light list was lost. */
-void stage_complete(const struct plan_stage *stage);
+void sdfgi_stage_complete(const struct plan_stage *stage);
 /* Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
-void stage_light(const struct plan_stage *stage);
+void sdfgi_stage_light(const struct plan_stage *stage);
 
 /* What happens to the light list of a cascade. */
-enum relist frame_relist(const struct frame *frame, uint32_t cascade);
+enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t cascade);
 
 #endif

@@ -8,21 +8,22 @@
 static void clear_probes(const struct plan_stage *stage, uint32_t c)
 {
     const struct extent *e = &stage->input->extent;
-    const uint64_t rays = resource_size(RESOURCE_RAYS, e) / e->cascades,
-                   sums = resource_size(RESOURCE_SUMS, e) / e->cascades,
-                   previous = resource_size(RESOURCE_PREVIOUS, e) / e->cascades;
+    const uint64_t rays = sdfgi_resource_size(RESOURCE_RAYS, e) / e->cascades,
+                   sums = sdfgi_resource_size(RESOURCE_SUMS, e) / e->cascades,
+                   previous = sdfgi_resource_size(RESOURCE_PREVIOUS, e) / e->cascades;
     struct work_list *list = &stage->frame->work;
-    work_add_clear(list, RESOURCE_RAYS, c * rays, rays);
-    work_add_clear(list, RESOURCE_SUMS, c * sums, sums);
+    sdfgi_work_add_clear(list, RESOURCE_RAYS, c * rays, rays);
+    sdfgi_work_add_clear(list, RESOURCE_SUMS, c * sums, sums);
     if (stage->frame->next.accumulation.phase < LIGHTING_RUNNING)
-        work_add_clear(list, RESOURCE_PREVIOUS, c * previous, previous);
+        sdfgi_work_add_clear(list, RESOURCE_PREVIOUS, c * previous, previous);
 }
 
 /* Blocks and rows of the light list; entries need no clearing. */
 static void clear_list(const struct plan_stage *stage)
 {
-    const uint32_t bits = log2_of(stage->frame->next.cascades.resolution);
-    work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0, 4 * (uint64_t)sdfgi_scratch_light_before(bits));
+    const uint32_t bits = sdfgi_log2(stage->frame->next.cascades.resolution);
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0,
+                         4 * (uint64_t)sdfgi_scratch_light_before(bits));
 }
 
 /* A pass over the light cells in dirty blocks, with the workgroups of a record of indirect arguments. How
@@ -30,7 +31,7 @@ static void clear_list(const struct plan_stage *stage)
 static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c, uint32_t record,
                       const union work_args *args)
 {
-    struct work *work = stage_add(stage, pass, c);
+    struct work *work = sdfgi_stage_add(stage, pass, c);
     if (!work)
         return;
     work->indirect = record + c;
@@ -63,13 +64,13 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
     const struct cascades *cascades = &stage->frame->next.cascades;
     uint32_t finest = SDFGI_MAX_CASCADES, count = 0;
     for (uint32_t i = cascades->count; i-- > 0;)
-        if (cascade_completes(&cascades->at[i])) {
+        if (sdfgi_cascade_completes(&cascades->at[i])) {
             finest = i;
             count = count > i + 1 ? count : i + 1;
         }
     if (c != finest || stage->frame->situation.from_nothing || stage->frame->situation.list_grew)
         return;
-    struct work *work = stage_add(stage, PASS_RAY_INVALIDATE, 0);
+    struct work *work = sdfgi_stage_add(stage, PASS_RAY_INVALIDATE, 0);
     work->count = count;
     work->units = stage->input->extent.probes * stage->input->extent.cycle_samples * count;
 }
@@ -78,32 +79,32 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
  * no barrier comes between them. */
 static void complete_cascade(const struct plan_stage *stage, uint32_t c)
 {
-    const bool completes = cascade_completes(&stage->frame->next.cascades.at[c]);
+    const bool completes = sdfgi_cascade_completes(&stage->frame->next.cascades.at[c]);
     const struct plan_target target = { .cascade = c };
     const union work_args mask = { .cascade = { c } };
     clear_list(stage);
 
-    const uint32_t first = stage_begin_group(stage);
-    stage_add_phase(stage, PHASE_MARK, &target);
+    const uint32_t first = sdfgi_stage_begin_group(stage);
+    sdfgi_stage_add_phase(stage, PHASE_MARK, &target);
     if (completes)
-        stage_add_phase(stage, PHASE_PLACE, &target);
-    stage_end_group(stage, first);
+        sdfgi_stage_add_phase(stage, PHASE_PLACE, &target);
+    sdfgi_stage_end_group(stage, first);
 
-    stage_add_phase(stage, PHASE_LIST, &target);
+    sdfgi_stage_add_phase(stage, PHASE_LIST, &target);
 
-    const uint32_t second = stage_begin_group(stage);
+    const uint32_t second = sdfgi_stage_begin_group(stage);
     add_direct(stage, c);
     add_dirty(stage, PASS_CELL_MASK, c, SDFGI_INDIRECT_MASKS, &mask);
     if (completes)
-        stage_add_phase(stage, PHASE_SEED, &target);
+        sdfgi_stage_add_phase(stage, PHASE_SEED, &target);
     add_ray_invalidate(stage, c);
-    stage_end_group(stage, second);
+    sdfgi_stage_end_group(stage, second);
 
     add_bounce(stage, c);
 }
 
 /* Coarse cascades first, from which new probes of finer ones take their start. */
-void stage_complete(const struct plan_stage *stage)
+void sdfgi_stage_complete(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
     if (!stage->needs->holds[NEED_LIST])
@@ -111,7 +112,7 @@ void stage_complete(const struct plan_stage *stage)
     for (uint32_t c = frame->next.cascades.count; c-- > 0;) {
         if (frame->situation.from_nothing || frame->situation.list_grew)
             clear_probes(stage, c);
-        if (frame_relist(frame, c) != RELIST_NOT)
+        if (sdfgi_frame_relist(frame, c) != RELIST_NOT)
             complete_cascade(stage, c);
     }
 }

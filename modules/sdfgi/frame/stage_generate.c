@@ -9,7 +9,7 @@
 static void add_flood_pass(const struct plan_stage *stage, enum pass pass,
                            const struct sdfgi_flood_args *args)
 {
-    struct work *work = stage_add(stage, pass, args->cascade);
+    struct work *work = sdfgi_stage_add(stage, pass, args->cascade);
     work->args.flood = *args;
     work->units = stage->input->extent.cells;
 }
@@ -39,21 +39,21 @@ static void add_flood(const struct plan_stage *stage, uint32_t c)
 static void add_voxels(const struct plan_stage *stage, const struct scroll_piece *piece)
 {
     const struct change *change = &stage->frame->next.cascades.at[piece->cascade].change;
-    if (piece->begins && change_bounds_axis(change) >= 0)
-        work_add_clear(&stage->frame->work, RESOURCE_BOUNDS, (uint64_t)piece->cascade * SDFGI_BOUNDS_BYTES,
-                       SDFGI_BOUNDS_BYTES);
-    stage_add_phase(stage, PHASE_VOXELS, &(struct plan_target){ piece->cascade, piece });
+    if (piece->begins && sdfgi_change_bounds_axis(change) >= 0)
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_BOUNDS,
+                             (uint64_t)piece->cascade * SDFGI_BOUNDS_BYTES, SDFGI_BOUNDS_BYTES);
+    sdfgi_stage_add_phase(stage, PHASE_VOXELS, &(struct plan_target){ piece->cascade, piece });
 }
 
 static void add_distances(const struct plan_stage *stage, const struct scroll_piece *piece)
 {
     if (!stage->needs->holds[NEED_FLOOD])
-        stage_add_phase(stage, PHASE_DISTANCES, &(struct plan_target){ piece->cascade, piece });
+        sdfgi_stage_add_phase(stage, PHASE_DISTANCES, &(struct plan_target){ piece->cascade, piece });
     else if (piece->first == 0)
         add_flood(stage, piece->cascade);
 }
 
-void stage_generate(const struct plan_stage *stage)
+void sdfgi_stage_generate(const struct plan_stage *stage)
 {
     for (uint32_t i = 0; i < stage->frame->scroll.piece_count; i++) {
         const struct scroll_piece *piece = &stage->frame->scroll.pieces[i];

@@ -18,15 +18,15 @@ static const struct change *change_of(const struct plan_stage *stage, const stru
  * it. */
 static uint64_t dirty_cells(const struct plan_stage *stage, const struct plan_target *target)
 {
-    if (frame_relist(stage->frame, target->cascade) == RELIST_NEW)
+    if (sdfgi_frame_relist(stage->frame, target->cascade) == RELIST_NEW)
         return stage->input->extent.cells;
     const struct change *change = change_of(stage, target);
-    const struct cell_box whole = cell_box_whole(stage->frame->next.cascades.resolution);
+    const struct cell_box whole = sdfgi_cell_box_whole(stage->frame->next.cascades.resolution);
     uint64_t cells = 0;
     for (uint32_t i = 0; i < change->count; i++) {
-        const struct cell_box wide = cell_box_widened(&change->boxes[i], SDFGI_PROBE_SPACING);
-        const struct cell_box inside = cell_box_common(&wide, &whole);
-        cells += cell_box_cells(&inside);
+        const struct cell_box wide = sdfgi_cell_box_widened(&change->boxes[i], SDFGI_PROBE_SPACING);
+        const struct cell_box inside = sdfgi_cell_box_common(&wide, &whole);
+        cells += sdfgi_cell_box_cells(&inside);
     }
     return cells;
 }
@@ -48,7 +48,7 @@ static uint64_t layer_cells(uint32_t layers, uint64_t resolution)
 
 static void fill_domain(const struct plan_stage *stage, const struct plan_target *target, struct work *work)
 {
-    const struct pass_row *row = pass_row(work->pass);
+    const struct pass_row *row = sdfgi_pass_row(work->pass);
     const struct extent *e = &stage->input->extent;
     const uint32_t n = stage->frame->next.cascades.resolution;
     if (target->piece) {
@@ -58,7 +58,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
     }
     switch (row->domain) {
     case DOMAIN_BOX: /* threads take several cells each */
-        work->units = cell_box_cells(&work->box) * SDFGI_GROUP_LINEAR / row->group;
+        work->units = sdfgi_cell_box_cells(&work->box) * SDFGI_GROUP_LINEAR / row->group;
         break;
     case DOMAIN_DISTANCE_ROWS:
         work->units = layer_cells(n / 4 + work->count, n);
@@ -121,7 +121,7 @@ static struct sdfgi_region_args region_args(const struct change *change, uint32_
         .low = { box->low[0], box->low[1], box->low[2] },
         .cascade = c,
         .high = { box->high[0], box->high[1], box->high[2] },
-        .bounds_axis = change_bounds_axis(change),
+        .bounds_axis = sdfgi_change_bounds_axis(change),
         .before = { change->before[0], change->before[1], change->before[2] },
     };
 }
@@ -131,9 +131,9 @@ static struct sdfgi_distance_prepare_args prepare_args(const struct change *chan
                                                        uint32_t resolution)
 {
     struct sdfgi_distance_prepare_args args = { .cascade = work->cascade, .first_block = work->first };
-    const uint32_t count = cell_box_empty(&change->kept) ? 0 : change->count;
+    const uint32_t count = sdfgi_cell_box_empty(&change->kept) ? 0 : change->count;
     for (uint32_t i = 0; i < count; i++)
-        if (!cell_box_empty(&change->boxes[i]))
+        if (!sdfgi_cell_box_empty(&change->boxes[i]))
             pack_box(&change->boxes[i], (int32_t)resolution, args.corners + 3 * args.box_count++);
     return args;
 }
@@ -143,7 +143,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     const struct frame *frame = stage->frame;
     const struct change *change = change_of(stage, target);
     const uint32_t c = target->cascade;
-    switch (pass_row(work->pass)->args) {
+    switch (sdfgi_pass_row(work->pass)->args) {
     case ARGS_cascade:
         work->args.cascade.cascade = c;
         break;
@@ -159,7 +159,8 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
         break;
     case ARGS_light_mark:
         work->args.light_mark =
-            (struct sdfgi_light_mark_args){ .cascade = c, .rebuild = frame_relist(frame, c) == RELIST_NEW };
+            (struct sdfgi_light_mark_args){ .cascade = c,
+                                            .rebuild = sdfgi_frame_relist(frame, c) == RELIST_NEW };
         break;
     case ARGS_probe_blend:
         work->args.probe_blend = (struct sdfgi_probe_blend_args){
@@ -175,7 +176,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_light_bounce:
     case ARGS_gather:
     case ARGS_COUNT:
-        assert(pass_row(work->pass)->phase == PHASE_OWN);
+        assert(sdfgi_pass_row(work->pass)->phase == PHASE_OWN);
         break;
     }
 }
@@ -185,20 +186,21 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
 /* Voxelisers need not run where there is only air. */
 static bool is_void(const struct plan_stage *stage, enum pass pass, const struct plan_target *target)
 {
-    if (pass_row(pass)->domain != DOMAIN_INSTANCES)
+    if (sdfgi_pass_row(pass)->domain != DOMAIN_INSTANCES)
         return false;
     const struct cascade *cascade = &stage->frame->next.cascades.at[target->cascade];
-    const struct box box = cascade_world_box(cascade, &target->piece->box);
-    return !scene_touches(stage->input->scene, &box);
+    const struct box box = sdfgi_cascade_world_box(cascade, &target->piece->box);
+    return !sdfgi_scene_touches(stage->input->scene, &box);
 }
 
-void stage_add_phase(const struct plan_stage *stage, enum pass_phase phase, const struct plan_target *target)
+void sdfgi_stage_add_phase(const struct plan_stage *stage, enum pass_phase phase,
+                           const struct plan_target *target)
 {
     for (int i = 0; i < PASS_COUNT; i++) {
         const enum pass pass = (enum pass)i;
-        if (pass_row(pass)->phase != phase || is_void(stage, pass, target))
+        if (sdfgi_pass_row(pass)->phase != phase || is_void(stage, pass, target))
             continue;
-        struct work *work = stage_add(stage, pass, target->cascade);
+        struct work *work = sdfgi_stage_add(stage, pass, target->cascade);
         if (!work)
             continue;
         fill_domain(stage, target, work);

@@ -20,7 +20,7 @@ enum { GROUP_WIDTH = 1024, MAX_SLICES = 256 };
 static uint32_t slice_count(const struct cascade *cascade, const struct cell_box *cells,
                             const struct box *bounds, double threads, double columns_per_thread)
 {
-    const struct box box = cascade_world_box(cascade, cells);
+    const struct box box = sdfgi_cascade_world_box(cascade, cells);
     double room[3];
     for (int i = 0; i < 3; i++)
         room[i] = (fmin(bounds->max[i], box.max[i]) - fmax(bounds->min[i], box.min[i])) *
@@ -87,7 +87,7 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
         .groups = groups,
         .slices = slice_count(cascade, &work->box, &instance->bounds, (double)groups * SDFGI_GROUP_TRIANGLE,
                               columns),
-        .material = pool_index(instance->desc.material.id),
+        .material = sdfgi_pool_index(instance->desc.material.id),
         .flags = mesh_flags(d),
         .position_offset = (uint32_t)(d->position_offset / 4),
         .position_stride = d->position_stride / 4,
@@ -144,8 +144,8 @@ static void draw_instance(struct binder *b, const struct instance *instance)
 {
     const struct scene *scene = b->voxelizer->scene;
     struct pass_recorder *rec = b->voxelizer->rec;
-    const struct mesh *mesh = pool_get(&scene->meshes, instance->desc.mesh.id);
-    const struct material *material = pool_get(&scene->materials, instance->desc.material.id);
+    const struct mesh *mesh = sdfgi_pool_get(&scene->meshes, instance->desc.mesh.id);
+    const struct material *material = sdfgi_pool_get(&scene->materials, instance->desc.material.id);
     assert(mesh && material);
     bind(b, mesh, material);
     const struct sdfgi_voxelize_args args = voxelize_args(b->voxelizer, b->work, instance, mesh);
@@ -163,11 +163,11 @@ static void draw_instance(struct binder *b, const struct instance *instance)
 static void draw_instances(struct binder *b)
 {
     const struct voxelizer *v = b->voxelizer;
-    const struct box box = cascade_world_box(&v->cascades->at[b->work->cascade], &b->work->box);
+    const struct box box = sdfgi_cascade_world_box(&v->cascades->at[b->work->cascade], &b->work->box);
     const struct pool *instances = &v->scene->instances;
     for (uint32_t i = 0; i < instances->end; i++) {
-        const struct instance *instance = pool_at(instances, i);
-        if (instance && instance_touches(instance, &box))
+        const struct instance *instance = sdfgi_pool_at(instances, i);
+        if (instance && sdfgi_instance_touches(instance, &box))
             draw_instance(b, instance);
     }
 }
@@ -179,7 +179,8 @@ static void record_compute(const struct voxelizer *v, const struct work *work)
                         .work = work,
                         .point = VK_PIPELINE_BIND_POINT_COMPUTE,
                         .pipelines = rec->backend->pipelines.passes[work->pass] };
-    gpu_use(&rec->gpu, GPU_USAGE_COMPUTE, pass_row(work->pass)->reads, pass_row(work->pass)->writes);
+    gpu_use(&rec->gpu, GPU_USAGE_COMPUTE, sdfgi_pass_row(work->pass)->reads,
+            sdfgi_pass_row(work->pass)->writes);
     draw_instances(&b);
 }
 
@@ -190,17 +191,19 @@ static void record_raster(const struct voxelizer *v, const struct work *work)
     struct binder b = {
         .voxelizer = v, .work = work, .point = VK_PIPELINE_BIND_POINT_GRAPHICS, .pipelines = target->pipelines
     };
-    gpu_use(&rec->gpu, GPU_USAGE_GRAPHICS, pass_row(work->pass)->reads, pass_row(work->pass)->writes);
+    gpu_use(&rec->gpu, GPU_USAGE_GRAPHICS, sdfgi_pass_row(work->pass)->reads,
+            sdfgi_pass_row(work->pass)->writes);
     gpu_render_pass_begin(&rec->gpu, target->pass, target->framebuffer, target->extent);
     draw_instances(&b);
     gpu_render_pass_end(&rec->gpu);
 }
 
-void voxelize_record(const struct voxelizer *v, const struct work *work)
+void sdfgi_voxelize_record(const struct voxelizer *v, const struct work *work)
 {
-    const bool raster = pass_row(work->pass)->kind == PASS_KIND_RASTER_TEXTURED;
-    pass_open(v->rec, work);
-    pass_bind_resources(v->rec, raster ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE);
+    const bool raster = sdfgi_pass_row(work->pass)->kind == PASS_KIND_RASTER_TEXTURED;
+    sdfgi_pass_open(v->rec, work);
+    sdfgi_pass_bind_resources(v->rec,
+                              raster ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE);
     if (raster)
         record_raster(v, work);
     else

@@ -16,6 +16,6 @@ struct voxelizer {
 };
 
 /* An item of a pass over DOMAIN_INSTANCES. */
-void voxelize_record(const struct voxelizer *voxelizer, const struct work *work);
+void sdfgi_voxelize_record(const struct voxelizer *voxelizer, const struct work *work);
 
 #endif

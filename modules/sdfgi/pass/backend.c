@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "backend.h"
 
-uint32_t backend_slot(const struct backend *backend)
+uint32_t sdfgi_backend_slot(const struct backend *backend)
 {
     return (uint32_t)(backend->retired.frame % backend->retired.frames_in_flight);
 }
 
-VkResult backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
-                             VkBufferUsageFlags usage, enum gpu_placement placement,
-                             enum sdfgi_memory_category category, const char *name)
+VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
+                                   VkBufferUsageFlags usage, enum gpu_placement placement,
+                                   enum sdfgi_memory_category category, const char *name)
 {
     const VkResult result = gpu_buffer_init(&backend->device, buffer, size, usage, placement, name);
     if (result != VK_SUCCESS)
@@ -18,8 +18,8 @@ VkResult backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer,
     return VK_SUCCESS;
 }
 
-void backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
-                           enum sdfgi_memory_category category)
+void sdfgi_backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
+                                 enum sdfgi_memory_category category)
 {
     if (buffer->handle) {
         backend->held.bytes[category] -= buffer->size;
@@ -28,8 +28,8 @@ void backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
     gpu_buffer_finish(&backend->device, buffer);
 }
 
-VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
-                              VkDescriptorSetLayout layout, VkDescriptorSet *set)
+VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
+                                    VkDescriptorSetLayout layout, VkDescriptorSet *set)
 {
     return backend->device.fn.AllocateDescriptorSets(
         backend->device.handle,

@@ -28,27 +28,27 @@ struct backend {
 };
 
 /* Frames recorded so far modulo the frames in flight. */
-uint32_t backend_slot(const struct backend *backend);
+uint32_t sdfgi_backend_slot(const struct backend *backend);
 
 /* A buffer whose size counts in `held`. */
-VkResult backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
-                             VkBufferUsageFlags usage, enum gpu_placement placement,
-                             enum sdfgi_memory_category category, const char *name);
+VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
+                                   VkBufferUsageFlags usage, enum gpu_placement placement,
+                                   enum sdfgi_memory_category category, const char *name);
 /* Accepts a buffer that was never made. */
-void backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
-                           enum sdfgi_memory_category category);
+void sdfgi_backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
+                                 enum sdfgi_memory_category category);
 
 /* Sampler, layouts, and the pipelines of rows that are made with the context. */
-VkResult pipelines_init(struct backend *backend);
-void pipelines_finish(struct backend *backend);
+VkResult sdfgi_pipelines_init(struct backend *backend);
+void sdfgi_pipelines_finish(struct backend *backend);
 /* Makes the pipeline of a variant unless it is there. */
-VkResult pipelines_require(struct backend *backend, enum pass pass, uint32_t variant);
+VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32_t variant);
 /* Makes a variant of a raster pass for its render pass, which draws into `extent` pixels a side. */
-VkResult pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant, VkRenderPass render_pass,
-                          uint32_t extent, VkPipeline *pipeline);
+VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
+                                VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline);
 
 /* One set from a pool. */
-VkResult backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
-                              VkDescriptorSetLayout layout, VkDescriptorSet *set);
+VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
+                                    VkDescriptorSetLayout layout, VkDescriptorSet *set);
 
 #endif

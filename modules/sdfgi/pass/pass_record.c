@@ -9,8 +9,8 @@
 #define MARK_BLOCKS     1
 #define MARK_BLOCKS_CPU 16
 
-void pass_recorder_begin(struct pass_recorder *r, const struct backend *backend, struct resources *resources,
-                         VkCommandBuffer cmd)
+void sdfgi_pass_recorder_begin(struct pass_recorder *r, const struct backend *backend,
+                               struct resources *resources, VkCommandBuffer cmd)
 {
     memset(r, 0, sizeof *r);
     r->backend = backend;
@@ -20,7 +20,7 @@ void pass_recorder_begin(struct pass_recorder *r, const struct backend *backend,
 }
 
 /* All layouts agree in these two sets, so that they stay bound while passes change. */
-void pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint point)
+void sdfgi_pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint point)
 {
     if (r->bound >> point & 1)
         return;
@@ -43,15 +43,15 @@ static void end_label(struct pass_recorder *r)
     r->open = NULL;
 }
 
-void pass_close(struct pass_recorder *r)
+void sdfgi_pass_close(struct pass_recorder *r)
 {
     end_label(r);
     end_time(r);
 }
 
-void pass_recorder_end(struct pass_recorder *r)
+void sdfgi_pass_recorder_end(struct pass_recorder *r)
 {
-    pass_close(r);
+    sdfgi_pass_close(r);
     gpu_recorder_end(&r->gpu);
 }
 
@@ -62,7 +62,7 @@ static bool same_pass(const struct work *a, const struct work *b)
 
 /* Passes that run side by side have one time, that of the first: timestamps between them would have each wait
  * for the one before. */
-void pass_open(struct pass_recorder *r, const struct work *work)
+void sdfgi_pass_open(struct pass_recorder *r, const struct work *work)
 {
     if (same_pass(r->open, work)) {
         r->open = work;
@@ -72,36 +72,36 @@ void pass_open(struct pass_recorder *r, const struct work *work)
     end_label(r);
     if (!beside)
         end_time(r);
-    gpu_label_begin(&r->gpu, pass_row(work->pass)->name);
+    gpu_label_begin(&r->gpu, sdfgi_pass_row(work->pass)->name);
     if (!r->timed)
         gpu_timer_begin(r->timer, &r->gpu, (uint32_t)work->pass);
     r->timed = true;
     r->open = work;
-    if (pass_row(work->pass)->kind != PASS_KIND_COMPUTE)
+    if (sdfgi_pass_row(work->pass)->kind != PASS_KIND_COMPUTE)
         return; /* the voxeliser binds what each material needs */
-    pass_bind_resources(r, VK_PIPELINE_BIND_POINT_COMPUTE);
+    sdfgi_pass_bind_resources(r, VK_PIPELINE_BIND_POINT_COMPUTE);
     gpu_bind_pipeline(&r->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, r->backend->pipelines.passes[work->pass][0]);
 }
 
 static void dispatch(struct pass_recorder *r, const struct work *work)
 {
-    const struct pass_row *row = pass_row(work->pass);
+    const struct pass_row *row = sdfgi_pass_row(work->pass);
     if (work->indirect != WORK_DIRECT) {
         gpu_use(&r->gpu, GPU_USAGE_INDIRECT, row->reads | RESOURCE_BIT(INDIRECT), row->writes);
         gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[RESOURCE_INDIRECT], 16 * work->indirect);
         return;
     }
-    const struct work_groups groups =
-        work_groups(work, &r->resources->extent, r->backend->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
+    const struct work_groups groups = sdfgi_work_groups(
+        work, &r->resources->extent, r->backend->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
     gpu_use(&r->gpu, GPU_USAGE_COMPUTE, row->reads, row->writes);
     gpu_dispatch(&r->gpu, groups.x, groups.y, groups.z);
 }
 
-void pass_record(struct pass_recorder *r, const struct work *work)
+void sdfgi_pass_record(struct pass_recorder *r, const struct work *work)
 {
-    const struct pass_row *row = pass_row(work->pass);
+    const struct pass_row *row = sdfgi_pass_row(work->pass);
     assert(work->kind == WORK_PASS && row->domain != DOMAIN_INSTANCES);
-    pass_open(r, work);
+    sdfgi_pass_open(r, work);
     if (row->args_size > 0)
         gpu_push(&r->gpu, r->backend->pipelines.layouts[row->set], row->args_size, &work->args);
     dispatch(r, work);
@@ -109,10 +109,10 @@ void pass_record(struct pass_recorder *r, const struct work *work)
     r->tally[work->pass].units += work->units;
 }
 
-void pass_record_clear(struct pass_recorder *r, const struct work *work)
+void sdfgi_pass_record_clear(struct pass_recorder *r, const struct work *work)
 {
     assert(work->kind == WORK_CLEAR);
-    pass_close(r);
+    sdfgi_pass_close(r);
     gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << work->resource);
     gpu_fill(&r->gpu, &r->resources->buffers[work->resource], work->offset, work->bytes, 0);
 }

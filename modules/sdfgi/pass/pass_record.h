@@ -22,20 +22,20 @@ struct pass_recorder {
     uint32_t bound;          /* a bit per bind point that has the resources' sets */
 };
 
-void pass_recorder_begin(struct pass_recorder *r, const struct backend *backend, struct resources *resources,
-                         VkCommandBuffer cmd);
-void pass_recorder_end(struct pass_recorder *r);
+void sdfgi_pass_recorder_begin(struct pass_recorder *r, const struct backend *backend,
+                               struct resources *resources, VkCommandBuffer cmd);
+void sdfgi_pass_recorder_end(struct pass_recorder *r);
 
 /* Binds LOOKUP and WORK, unless they are bound. */
-void pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint point);
+void sdfgi_pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint point);
 
 /* Opens label and time span of an item's pass, unless the item before has opened them. */
-void pass_open(struct pass_recorder *r, const struct work *work);
+void sdfgi_pass_open(struct pass_recorder *r, const struct work *work);
 /* Closes what is open. */
-void pass_close(struct pass_recorder *r);
+void sdfgi_pass_close(struct pass_recorder *r);
 
 /* An item of any domain but DOMAIN_INSTANCES. */
-void pass_record(struct pass_recorder *r, const struct work *work);
-void pass_record_clear(struct pass_recorder *r, const struct work *work);
+void sdfgi_pass_record(struct pass_recorder *r, const struct work *work);
+void sdfgi_pass_record_clear(struct pass_recorder *r, const struct work *work);
 
 #endif

@@ -40,7 +40,7 @@ static const struct pass_row rows[PASS_COUNT] = {
 #undef R
 };
 
-const char *pass_unit_name(enum pass_unit unit)
+const char *sdfgi_pass_unit_name(enum pass_unit unit)
 {
     static const char *const names[UNIT_COUNT] = {
         [UNIT_CELLS] = "cells",   [UNIT_TRIANGLES] = "triangles", [UNIT_BLOCKS] = "blocks",
@@ -50,7 +50,7 @@ const char *pass_unit_name(enum pass_unit unit)
     return names[unit];
 }
 
-const struct pass_row *pass_row(enum pass pass)
+const struct pass_row *sdfgi_pass_row(enum pass pass)
 {
     return &rows[pass];
 }

@@ -94,9 +94,9 @@ struct pass_row {
     uint64_t reads, writes; /* bits of enum resource */
 };
 
-const struct pass_row *pass_row(enum pass pass);
+const struct pass_row *sdfgi_pass_row(enum pass pass);
 /* "light cells" */
-const char *pass_unit_name(enum pass_unit unit);
+const char *sdfgi_pass_unit_name(enum pass_unit unit);
 
 #define RESOURCE_BIT(id) (UINT64_C(1) << RESOURCE_##id)
 

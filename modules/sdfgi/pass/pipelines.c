@@ -25,15 +25,18 @@ struct pass_shaders {
     }
 #define SHADERS_COMPUTE(file)                                                                                \
     {                                                                                                        \
-        .compute = { SHADER(file##_comp) }                                                                   \
+        .compute = { SHADER(sdfgi_##file##_comp) }                                                           \
     }
 #define SHADERS_COMPUTE_TEXTURED(file)                                                                       \
     {                                                                                                        \
-        .compute = { SHADER(file##_comp), SHADER(file##_textured_comp) }                                     \
+        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_textured_comp) }                     \
     }
 #define SHADERS_RASTER_TEXTURED(file)                                                                        \
     {                                                                                                        \
-        .vertex = SHADER(file##_vert), .fragment = { SHADER(file##_frag), SHADER(file##_textured_frag) }     \
+        .vertex = SHADER(sdfgi_##file##_vert), .fragment = {                                                 \
+            SHADER(sdfgi_##file##_frag),                                                                     \
+            SHADER(sdfgi_##file##_textured_frag)                                                             \
+        }                                                                                                    \
     }
 
 static const struct pass_shaders shaders[PASS_COUNT] = {
@@ -64,9 +67,9 @@ static VkResult resource_set_layout(struct backend *backend, enum resource_set s
     VkDescriptorSetLayoutBinding bindings[RESOURCE_COUNT];
     uint32_t count = 0;
     for (int i = 0; i < RESOURCE_COUNT; i++) {
-        const struct resource_row *row = resource_row((enum resource)i);
+        const struct resource_row *row = sdfgi_resource_row((enum resource)i);
         if (row->set == set)
-            bindings[count++] = binding(row->binding, resource_descriptor((enum resource)i), NULL);
+            bindings[count++] = binding(row->binding, sdfgi_resource_descriptor((enum resource)i), NULL);
     }
     return set_layout(&backend->device, bindings, count, &backend->pipelines.sets[set]);
 }
@@ -136,22 +139,22 @@ static VkResult make_layouts(struct backend *backend)
     return result;
 }
 
-VkResult pipelines_require(struct backend *backend, enum pass pass, uint32_t variant)
+VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32_t variant)
 {
     VkPipeline *pipeline = &backend->pipelines.passes[pass][variant];
     if (*pipeline)
         return VK_SUCCESS;
     return gpu_compute_pipeline_create(&backend->device, shaders[pass].compute[variant],
-                                       backend->pipelines.layouts[pass_row(pass)->set], pass_row(pass)->name,
-                                       pipeline);
+                                       backend->pipelines.layouts[sdfgi_pass_row(pass)->set],
+                                       sdfgi_pass_row(pass)->name, pipeline);
 }
 
-VkResult pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant, VkRenderPass render_pass,
-                          uint32_t extent, VkPipeline *pipeline)
+VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
+                                VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline)
 {
     return gpu_raster_pipeline_create(&backend->device, shaders[pass].vertex, shaders[pass].fragment[variant],
-                                      backend->pipelines.layouts[pass_row(pass)->set], render_pass, extent,
-                                      pass_row(pass)->name, pipeline);
+                                      backend->pipelines.layouts[sdfgi_pass_row(pass)->set], render_pass,
+                                      extent, sdfgi_pass_row(pass)->name, pipeline);
 }
 
 static VkResult make_sampler(struct backend *backend)
@@ -167,18 +170,18 @@ static VkResult make_sampler(struct backend *backend)
         backend->device.callbacks, &backend->pipelines.nearest);
 }
 
-VkResult pipelines_init(struct backend *backend)
+VkResult sdfgi_pipelines_init(struct backend *backend)
 {
     VkResult result = make_sampler(backend);
     if (result == VK_SUCCESS)
         result = make_layouts(backend);
     for (int i = 0; i < PASS_COUNT && result == VK_SUCCESS; i++)
-        if (pass_row((enum pass)i)->made == PASS_MADE_CREATED)
-            result = pipelines_require(backend, (enum pass)i, 0);
+        if (sdfgi_pass_row((enum pass)i)->made == PASS_MADE_CREATED)
+            result = sdfgi_pipelines_require(backend, (enum pass)i, 0);
     return result;
 }
 
-void pipelines_finish(struct backend *backend)
+void sdfgi_pipelines_finish(struct backend *backend)
 {
     const struct gpu_device *d = &backend->device;
     struct pipelines *p = &backend->pipelines;

@@ -23,12 +23,12 @@ enum format_size {
 #undef SIZE
 };
 
-const struct resource_row *resource_row(enum resource resource)
+const struct resource_row *sdfgi_resource_row(enum resource resource)
 {
     return &rows[resource];
 }
 
-uint64_t resource_size(enum resource resource, const struct extent *e)
+uint64_t sdfgi_resource_size(enum resource resource, const struct extent *e)
 {
     switch (resource) {
 #define SIZE(id, kind, format, category, scope, set, extent, keep)                                           \
@@ -43,13 +43,13 @@ uint64_t resource_size(enum resource resource, const struct extent *e)
     return 0;
 }
 
-VkDescriptorType resource_descriptor(enum resource resource)
+VkDescriptorType sdfgi_resource_descriptor(enum resource resource)
 {
     return rows[resource].kind == RESOURCE_KIND_UNIFORM ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
                                                         : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-uint32_t resource_set_size(enum resource_set set)
+uint32_t sdfgi_resource_set_size(enum resource_set set)
 {
     uint32_t count = 0;
     for (int i = 0; i < RESOURCE_COUNT; i++)
@@ -57,7 +57,7 @@ uint32_t resource_set_size(enum resource_set set)
     return count;
 }
 
-uint64_t readback_size(uint32_t frames_in_flight)
+uint64_t sdfgi_readback_size(uint32_t frames_in_flight)
 {
     return (uint64_t)frames_in_flight * SDFGI_COUNTER_COUNT * sizeof(uint32_t);
 }

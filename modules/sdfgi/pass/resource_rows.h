@@ -23,13 +23,13 @@ struct resource_row {
     uint32_t binding; /* in its set */
 };
 
-const struct resource_row *resource_row(enum resource resource);
+const struct resource_row *sdfgi_resource_row(enum resource resource);
 /* Bytes. */
-uint64_t resource_size(enum resource resource, const struct extent *extent);
-VkDescriptorType resource_descriptor(enum resource resource);
+uint64_t sdfgi_resource_size(enum resource resource, const struct extent *extent);
+VkDescriptorType sdfgi_resource_descriptor(enum resource resource);
 /* How many resources of a set are bound. */
-uint32_t resource_set_size(enum resource_set set);
+uint32_t sdfgi_resource_set_size(enum resource_set set);
 /* Bytes of counters that come back to the host. */
-uint64_t readback_size(uint32_t frames_in_flight);
+uint64_t sdfgi_readback_size(uint32_t frames_in_flight);
 
 #endif

@@ -12,9 +12,9 @@
 static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer, enum resource resource,
                               const struct extent *extent)
 {
-    return backend_buffer_init(backend, buffer, resource_size(resource, extent), BUFFER_USAGE,
-                               GPU_DEVICE_LOCAL, resource_row(resource)->category,
-                               resource_row(resource)->name);
+    return sdfgi_backend_buffer_init(backend, buffer, sdfgi_resource_size(resource, extent), BUFFER_USAGE,
+                                     GPU_DEVICE_LOCAL, sdfgi_resource_row(resource)->category,
+                                     sdfgi_resource_row(resource)->name);
 }
 
 static VkResult create_buffers(struct backend *backend, struct resources *r)
@@ -24,9 +24,9 @@ static VkResult create_buffers(struct backend *backend, struct resources *r)
         if (result != VK_SUCCESS)
             return result;
     }
-    return backend_buffer_init(backend, &r->readback, readback_size(backend->retired.frames_in_flight),
-                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_HOST_READ, SDFGI_MEMORY_READBACK,
-                               "sdfgi readback");
+    return sdfgi_backend_buffer_init(
+        backend, &r->readback, sdfgi_readback_size(backend->retired.frames_in_flight),
+        VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_HOST_READ, SDFGI_MEMORY_READBACK, "sdfgi readback");
 }
 
 /* ---- Descriptor sets */
@@ -53,7 +53,7 @@ static VkResult create_sets(const struct backend *backend, VkDescriptorPool *poo
 {
     VkResult result = create_pool(backend, RESOURCE_SET_COUNT, RESOURCE_COUNT, pool);
     for (int i = 0; i < RESOURCE_SET_COUNT && result == VK_SUCCESS; i++)
-        result = backend_set_allocate(backend, *pool, backend->pipelines.sets[i], &sets[i]);
+        result = sdfgi_backend_set_allocate(backend, *pool, backend->pipelines.sets[i], &sets[i]);
     return result;
 }
 
@@ -65,9 +65,9 @@ static void write_binding(const struct backend *backend, VkDescriptorSet set, en
         backend->device.handle, 1,
         &(VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                  .dstSet = set,
-                                 .dstBinding = resource_row(resource)->binding,
+                                 .dstBinding = sdfgi_resource_row(resource)->binding,
                                  .descriptorCount = 1,
-                                 .descriptorType = resource_descriptor(resource),
+                                 .descriptorType = sdfgi_resource_descriptor(resource),
                                  .pBufferInfo = &info },
         0, NULL);
 }
@@ -75,7 +75,7 @@ static void write_binding(const struct backend *backend, VkDescriptorSet set, en
 static void write_sets(const struct backend *backend, const struct resources *r)
 {
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        write_binding(backend, r->sets[resource_row((enum resource)i)->set], (enum resource)i,
+        write_binding(backend, r->sets[sdfgi_resource_row((enum resource)i)->set], (enum resource)i,
                       r->buffers[i].handle);
 }
 
@@ -106,8 +106,8 @@ static VkResult create_raster(struct backend *backend, struct raster_target *tar
     target->extent = resolution * SDFGI_SUBVOXELS;
     VkResult result = create_framebuffer(&backend->device, target);
     for (uint32_t v = 0; v < PASS_VARIANTS && result == VK_SUCCESS; v++)
-        result = pipelines_raster(backend, PASS_VOXELIZE_RASTER, v, target->pass, target->extent,
-                                  &target->pipelines[v]);
+        result = sdfgi_pipelines_raster(backend, PASS_VOXELIZE_RASTER, v, target->pass, target->extent,
+                                        &target->pipelines[v]);
     return result;
 }
 
@@ -133,15 +133,15 @@ static void destroy(struct gpu_retired *item, void *user)
     struct resources *r = (struct resources *)item;
     const struct gpu_device *d = &backend->device;
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        backend_buffer_finish(backend, &r->buffers[i], resource_row((enum resource)i)->category);
-    backend_buffer_finish(backend, &r->readback, SDFGI_MEMORY_READBACK);
+        sdfgi_backend_buffer_finish(backend, &r->buffers[i], sdfgi_resource_row((enum resource)i)->category);
+    sdfgi_backend_buffer_finish(backend, &r->readback, SDFGI_MEMORY_READBACK);
     gpu_timer_finish(d, &r->timer);
     d->fn.DestroyDescriptorPool(d->handle, r->pool, d->callbacks);
     for (int v = 0; v < PASS_VARIANTS; v++)
         d->fn.DestroyPipeline(d->handle, r->raster.pipelines[v], d->callbacks);
     d->fn.DestroyFramebuffer(d->handle, r->raster.framebuffer, d->callbacks);
     d->fn.DestroyRenderPass(d->handle, r->raster.pass, d->callbacks);
-    hooks_free(&backend->hooks, r);
+    sdfgi_hooks_free(&backend->hooks, r);
 }
 
 _Static_assert(offsetof(struct resources, retired) == 0,
@@ -150,36 +150,36 @@ _Static_assert(offsetof(struct resources, retired) == 0,
 static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent)
 {
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        if (resource_size((enum resource)i, extent) > backend->device.limits.maxStorageBufferRange)
-            return message_invalid(
+        if (sdfgi_resource_size((enum resource)i, extent) > backend->device.limits.maxStorageBufferRange)
+            return sdfgi_message_invalid(
                 &backend->hooks,
                 "%s exceeds the device's maxStorageBufferRange: lower sdfgi_resolution or sdfgi_cascades",
-                resource_row((enum resource)i)->name);
+                sdfgi_resource_row((enum resource)i)->name);
     return SDFGI_OK;
 }
 
-enum sdfgi_result resources_create(struct backend *backend, const struct sdfgi_settings *settings,
-                                   struct resources **out)
+enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
+                                         struct resources **out)
 {
-    const struct extent extent = extent_from_settings(settings);
+    const struct extent extent = sdfgi_extent_from_settings(settings);
     const enum sdfgi_result fits = check_sizes(backend, &extent);
     if (fits != SDFGI_OK)
         return fits;
-    struct resources *r = hooks_alloc_zeroed(&backend->hooks, sizeof *r);
+    struct resources *r = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *r);
     if (!r)
-        return message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, "switching on");
+        return sdfgi_message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, "switching on");
     r->extent = extent;
     const VkResult result = create_all(backend, r, settings);
     if (result != VK_SUCCESS) {
         destroy(&r->retired, backend);
-        return message_vulkan(&backend->hooks, result, "switching on");
+        return sdfgi_message_vulkan(&backend->hooks, result, "switching on");
     }
     write_sets(backend, r);
     *out = r;
     return SDFGI_OK;
 }
 
-void resources_retire(struct backend *backend, struct resources *resources)
+void sdfgi_resources_retire(struct backend *backend, struct resources *resources)
 {
     if (resources)
         gpu_retire(&backend->retired, &resources->retired, destroy, backend);
@@ -200,18 +200,18 @@ static void destroy_list(struct gpu_retired *item, void *user)
 {
     struct backend *backend = user;
     struct old_list *old = (struct old_list *)item;
-    backend_buffer_finish(backend, &old->buffer, resource_row(RESOURCE_LIGHT_CELLS)->category);
+    sdfgi_backend_buffer_finish(backend, &old->buffer, sdfgi_resource_row(RESOURCE_LIGHT_CELLS)->category);
     backend->device.fn.DestroyDescriptorPool(backend->device.handle, old->pool, backend->device.callbacks);
-    hooks_free(&backend->hooks, old);
+    sdfgi_hooks_free(&backend->hooks, old);
 }
 
-bool resources_grow_light_cells(struct backend *backend, struct resources *r, uint64_t light_cells)
+bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources *r, uint64_t light_cells)
 {
     assert(light_cells > r->extent.light_cells && light_cells <= r->extent.light_cells_max);
     struct extent extent = r->extent;
     extent.light_cells = light_cells;
     /* Made as what is to be destroyed, and exchanged for the old ones. */
-    struct old_list *list = hooks_alloc_zeroed(&backend->hooks, sizeof *list);
+    struct old_list *list = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *list);
     if (!list)
         return false;
     VkDescriptorSet sets[RESOURCE_SET_COUNT];
@@ -237,28 +237,28 @@ bool resources_grow_light_cells(struct backend *backend, struct resources *r, ui
 
 /* ---- The blank set */
 
-VkResult blank_set_init(struct backend *backend, struct blank_set *blank)
+VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
 {
     const struct extent none = { 0 };
-    const uint64_t bytes = resource_size(RESOURCE_FRAME, &none);
+    const uint64_t bytes = sdfgi_resource_size(RESOURCE_FRAME, &none);
     VkResult result =
         gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ, "sdfgi blank");
     if (result == VK_SUCCESS)
         result = gpu_buffer_zero(&backend->device, &blank->buffer);
     if (result == VK_SUCCESS)
-        result = create_pool(backend, 1, resource_set_size(RESOURCE_SET_LOOKUP), &blank->pool);
+        result = create_pool(backend, 1, sdfgi_resource_set_size(RESOURCE_SET_LOOKUP), &blank->pool);
     if (result == VK_SUCCESS)
-        result = backend_set_allocate(backend, blank->pool, backend->pipelines.sets[RESOURCE_SET_LOOKUP],
-                                      &blank->set);
+        result = sdfgi_backend_set_allocate(backend, blank->pool,
+                                            backend->pipelines.sets[RESOURCE_SET_LOOKUP], &blank->set);
     if (result != VK_SUCCESS)
         return result;
     for (int i = 0; i < RESOURCE_COUNT; i++)
-        if (resource_row((enum resource)i)->set == RESOURCE_SET_LOOKUP)
+        if (sdfgi_resource_row((enum resource)i)->set == RESOURCE_SET_LOOKUP)
             write_binding(backend, blank->set, (enum resource)i, blank->buffer.handle);
     return VK_SUCCESS;
 }
 
-void blank_set_finish(struct backend *backend, struct blank_set *blank)
+void sdfgi_blank_set_finish(struct backend *backend, struct blank_set *blank)
 {
     const struct gpu_device *d = &backend->device;
     d->fn.DestroyDescriptorPool(d->handle, blank->pool, d->callbacks);

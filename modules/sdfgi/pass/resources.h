@@ -28,13 +28,14 @@ struct resources {
 };
 
 /* Reports failures; leaves *out as it was then. */
-enum sdfgi_result resources_create(struct backend *backend, const struct sdfgi_settings *settings,
-                                   struct resources **out);
+enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
+                                         struct resources **out);
 /* Destroys them once no frame in flight can use them. NULL is accepted. */
-void resources_retire(struct backend *backend, struct resources *resources);
+void sdfgi_resources_retire(struct backend *backend, struct resources *resources);
 /* Exchanges the light lists for empty ones with room for `light_cells` in each cascade, and the descriptor
  * sets with them. Changes nothing and returns false if memory is short. */
-bool resources_grow_light_cells(struct backend *backend, struct resources *resources, uint64_t light_cells);
+bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources *resources,
+                                      uint64_t light_cells);
 
 /* The LOOKUP set of a context that has no light to show: every lookup is black. At most 64 KiB, and no
  * command. */
@@ -44,7 +45,7 @@ struct blank_set {
     VkDescriptorSet set;
 };
 
-VkResult blank_set_init(struct backend *backend, struct blank_set *blank);
-void blank_set_finish(struct backend *backend, struct blank_set *blank);
+VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank);
+void sdfgi_blank_set_finish(struct backend *backend, struct blank_set *blank);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <assert.h>
 
-struct work *work_add(struct work_list *list, enum pass pass, uint32_t cascade, const char *reason)
+struct work *sdfgi_work_add(struct work_list *list, enum pass pass, uint32_t cascade, const char *reason)
 {
     assert(list->count < SDFGI_MAX_WORK);
     struct work *work = &list->items[list->count++];
@@ -13,14 +13,14 @@ struct work *work_add(struct work_list *list, enum pass pass, uint32_t cascade, 
     return work;
 }
 
-void work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes)
+void sdfgi_work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes)
 {
     assert(list->count < SDFGI_MAX_WORK);
     list->items[list->count++] =
         (struct work){ .kind = WORK_CLEAR, .resource = resource, .offset = offset, .bytes = bytes };
 }
 
-bool work_has(const struct work_list *list, enum pass pass)
+bool sdfgi_work_has(const struct work_list *list, enum pass pass)
 {
     for (uint32_t i = 0; i < list->count; i++)
         if (list->items[i].kind == WORK_PASS && list->items[i].pass == pass)
@@ -50,15 +50,16 @@ static uint32_t runs_of(const struct work *work, uint32_t per_run)
     return groups_for(4 * ((uint64_t)work->first + work->count), per_run) - first;
 }
 
-struct work_groups work_groups(const struct work *work, const struct extent *e, uint32_t blocks_per_group)
+struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e,
+                                     uint32_t blocks_per_group)
 {
-    const uint32_t group = pass_row(work->pass)->group, probes = (uint32_t)e->probes,
+    const uint32_t group = sdfgi_pass_row(work->pass)->group, probes = (uint32_t)e->probes,
                    cascades = (uint32_t)e->cascades, n = 8 * ((uint32_t)e->probes_per_side - 1);
-    switch (pass_row(work->pass)->domain) {
+    switch (sdfgi_pass_row(work->pass)->domain) {
     case DOMAIN_INSTANCES:
         break;
     case DOMAIN_BOX:
-        return (struct work_groups){ groups_for(cell_box_cells(&work->box), group), 1, 1 };
+        return (struct work_groups){ groups_for(sdfgi_cell_box_cells(&work->box), group), 1, 1 };
     case DOMAIN_CELLS:
         return (struct work_groups){ n / group, n / group, n / group };
     case DOMAIN_DISTANCE_ROWS:

@@ -19,7 +19,7 @@ enum {
     SDFGI_MAX_WORK = 512, /* the plan of a frame never has more: asserted */
 };
 
-/* What a pass runs over; work_groups() tells how many workgroups that takes. */
+/* What a pass runs over; sdfgi_work_groups() tells how many workgroups that takes. */
 enum domain {
     DOMAIN_INSTANCES,        /* mesh instances that touch a box: sized by the voxeliser */
     DOMAIN_BOX,              /* cells of a box */
@@ -78,10 +78,10 @@ struct work_list {
 };
 
 /* Appends an item with this pass and reason, and zeros otherwise; the caller fills it in. */
-struct work *work_add(struct work_list *list, enum pass pass, uint32_t cascade, const char *reason);
-void work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes);
+struct work *sdfgi_work_add(struct work_list *list, enum pass pass, uint32_t cascade, const char *reason);
+void sdfgi_work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes);
 /* True if an item runs the pass. */
-bool work_has(const struct work_list *list, enum pass pass);
+bool sdfgi_work_has(const struct work_list *list, enum pass pass);
 
 struct work_groups {
     uint32_t x, y, z;
@@ -89,7 +89,7 @@ struct work_groups {
 
 /* Workgroups of an item that is neither indirect nor of DOMAIN_INSTANCES. `blocks_per_group` is how many
  * light blocks a workgroup marks. */
-struct work_groups work_groups(const struct work *work, const struct extent *extent,
-                               uint32_t blocks_per_group);
+struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *extent,
+                                     uint32_t blocks_per_group);
 
 #endif

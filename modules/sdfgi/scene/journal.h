@@ -21,10 +21,10 @@ struct journal {
     struct journal *next; /* of the same scene */
 };
 
-void journal_note(struct journal *journals, enum journal_note note);
-void journal_add_box(struct journal *journals, const struct box *box);
-bool journal_is_empty(const struct journal *journal);
+void sdfgi_journal_note(struct journal *journals, enum journal_note note);
+void sdfgi_journal_add_box(struct journal *journals, const struct box *box);
+bool sdfgi_journal_is_empty(const struct journal *journal);
 /* Forgets all entries; it stays the scene's. */
-void journal_clear(struct journal *journal);
+void sdfgi_journal_clear(struct journal *journal);
 
 #endif

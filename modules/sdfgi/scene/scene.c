@@ -8,62 +8,62 @@
 #include <math.h>
 #include <string.h>
 
-void scene_init(struct scene *scene, struct backend *backend)
+void sdfgi_scene_init(struct scene *scene, struct backend *backend)
 {
     scene->backend = backend;
-    pool_init(&scene->meshes, sizeof(struct mesh), MAX_OBJECTS);
-    pool_init(&scene->materials, sizeof(struct material), SDFGI_MAX_MATERIALS);
-    pool_init(&scene->instances, sizeof(struct instance), MAX_OBJECTS);
-    pool_init(&scene->lights, sizeof(struct light), SDFGI_MAX_LIGHTS);
+    sdfgi_pool_init(&scene->meshes, sizeof(struct mesh), MAX_OBJECTS);
+    sdfgi_pool_init(&scene->materials, sizeof(struct material), SDFGI_MAX_MATERIALS);
+    sdfgi_pool_init(&scene->instances, sizeof(struct instance), MAX_OBJECTS);
+    sdfgi_pool_init(&scene->lights, sizeof(struct light), SDFGI_MAX_LIGHTS);
 }
 
 static void free_sets(struct scene *scene)
 {
     for (uint32_t i = 0; i < scene->meshes.end; i++) {
-        const struct mesh *mesh = pool_at(&scene->meshes, i);
+        const struct mesh *mesh = sdfgi_pool_at(&scene->meshes, i);
         if (mesh)
-            hooks_free(&scene->backend->hooks, mesh->set);
+            sdfgi_hooks_free(&scene->backend->hooks, mesh->set);
     }
     for (uint32_t i = 0; i < scene->materials.end; i++) {
-        const struct material *material = pool_at(&scene->materials, i);
+        const struct material *material = sdfgi_pool_at(&scene->materials, i);
         if (material)
-            hooks_free(&scene->backend->hooks, material->set);
+            sdfgi_hooks_free(&scene->backend->hooks, material->set);
     }
 }
 
-void scene_finish(struct scene *scene)
+void sdfgi_scene_finish(struct scene *scene)
 {
     const struct hooks *hooks = &scene->backend->hooks;
     free_sets(scene);
-    scene_sets_finish(scene);
-    pool_finish(&scene->meshes, hooks);
-    pool_finish(&scene->materials, hooks);
-    pool_finish(&scene->instances, hooks);
-    pool_finish(&scene->lights, hooks);
+    sdfgi_scene_sets_finish(scene);
+    sdfgi_pool_finish(&scene->meshes, hooks);
+    sdfgi_pool_finish(&scene->materials, hooks);
+    sdfgi_pool_finish(&scene->instances, hooks);
+    sdfgi_pool_finish(&scene->lights, hooks);
 }
 
-void scene_add_journal(struct scene *scene, struct journal *journal)
+void sdfgi_scene_add_journal(struct scene *scene, struct journal *journal)
 {
     journal->next = scene->journals;
     scene->journals = journal;
 }
 
-bool instance_touches(const struct instance *instance, const struct box *box)
+bool sdfgi_instance_touches(const struct instance *instance, const struct box *box)
 {
-    return instance->desc.mobility == SDFGI_STATIC && box_overlaps(&instance->bounds, box);
+    return instance->desc.mobility == SDFGI_STATIC && sdfgi_box_overlaps(&instance->bounds, box);
 }
 
-bool scene_touches(const struct scene *scene, const struct box *box)
+bool sdfgi_scene_touches(const struct scene *scene, const struct box *box)
 {
     for (uint32_t i = 0; i < scene->instances.end; i++) {
-        const struct instance *instance = pool_at(&scene->instances, i);
-        if (instance && instance_touches(instance, box))
+        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
+        if (instance && sdfgi_instance_touches(instance, box))
             return true;
     }
     return false;
 }
 
-bool scene_has_light(const struct scene *scene, bool reads_sky)
+bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky)
 {
     static const struct sdfgi_sky none;
     const bool sky = reads_sky && memcmp(&scene->sky, &none, sizeof none) != 0;
@@ -77,27 +77,28 @@ static void update_emission_unit(struct scene *scene)
 {
     float unit = 0;
     for (uint32_t i = 0; i < scene->materials.end; i++) {
-        const struct material *m = pool_at(&scene->materials, i);
+        const struct material *m = sdfgi_pool_at(&scene->materials, i);
         for (int k = 0; m && k < 3; k++)
             unit = fmaxf(unit, m->desc.emission[k]);
     }
     if (unit == scene->emission_unit)
         return;
     scene->emission_unit = unit;
-    journal_note(scene->journals, JOURNAL_MATERIALS);
-    journal_note(scene->journals, JOURNAL_EVERYTHING);
+    sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
+    sdfgi_journal_note(scene->journals, JOURNAL_EVERYTHING);
 }
 
 static const char *material_problem(const struct sdfgi_material_desc *d)
 {
-    if (!check_non_negative(d->albedo, 3) || d->albedo[0] > 1 || d->albedo[1] > 1 || d->albedo[2] > 1)
+    if (!sdfgi_check_non_negative(d->albedo, 3) || d->albedo[0] > 1 || d->albedo[1] > 1 || d->albedo[2] > 1)
         return "albedo is outside [0, 1]";
-    if (!check_non_negative(d->emission, 3))
+    if (!sdfgi_check_non_negative(d->emission, 3))
         return "emission is negative or not finite";
-    if (!check_non_negative(&d->alpha, 1) || d->alpha > 1 || !check_non_negative(&d->alpha_cutoff, 1))
+    if (!sdfgi_check_non_negative(&d->alpha, 1) || d->alpha > 1 ||
+        !sdfgi_check_non_negative(&d->alpha_cutoff, 1))
         return "alpha is outside [0, 1] or alpha_cutoff is negative";
-    if (!check_finite_floats(d->albedo_texture.uv_transform, 6) ||
-        !check_finite_floats(d->emission_texture.uv_transform, 6))
+    if (!sdfgi_check_finite_floats(d->albedo_texture.uv_transform, 6) ||
+        !sdfgi_check_finite_floats(d->emission_texture.uv_transform, 6))
         return "a uv_transform is not finite";
     if ((d->albedo_texture.view && !d->albedo_texture.sampler) ||
         (d->emission_texture.view && !d->emission_texture.sampler))
@@ -105,42 +106,42 @@ static const char *material_problem(const struct sdfgi_material_desc *d)
     return NULL;
 }
 
-enum sdfgi_result scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
-                                        sdfgi_material *out)
+enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
+                                              sdfgi_material *out)
 {
     const char *problem = material_problem(desc);
     if (problem)
-        return message_invalid(&scene->backend->hooks, "sdfgi_material_create: %s", problem);
+        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_material_create: %s", problem);
     uint32_t id;
-    struct material *material = pool_add(&scene->materials, &scene->backend->hooks, &id);
+    struct material *material = sdfgi_pool_add(&scene->materials, &scene->backend->hooks, &id);
     if (!material)
-        return check_out_of_slots(scene, "sdfgi_material_create", SDFGI_MAX_MATERIALS);
+        return sdfgi_check_out_of_slots(scene, "sdfgi_material_create", SDFGI_MAX_MATERIALS);
     material->desc = *desc;
-    const VkResult result = scene_sets_material(scene, material);
+    const VkResult result = sdfgi_scene_sets_material(scene, material);
     if (result != VK_SUCCESS) {
-        pool_remove(&scene->materials, id);
-        return message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
+        sdfgi_pool_remove(&scene->materials, id);
+        return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
     }
-    journal_note(scene->journals, JOURNAL_MATERIALS);
+    sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
     update_emission_unit(scene);
     out->id = id;
     return SDFGI_OK;
 }
 
-enum sdfgi_result scene_material_destroy(struct scene *scene, sdfgi_material handle)
+enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_material handle)
 {
-    struct material *material = pool_get(&scene->materials, handle.id);
+    struct material *material = sdfgi_pool_get(&scene->materials, handle.id);
     if (!material)
-        return check_unknown_handle(scene, "sdfgi_material_destroy", handle.id);
+        return sdfgi_check_unknown_handle(scene, "sdfgi_material_destroy", handle.id);
     for (uint32_t i = 0; i < scene->instances.end; i++) {
-        const struct instance *instance = pool_at(&scene->instances, i);
+        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
         if (instance && instance->desc.material.id == handle.id)
-            return message_invalid(&scene->backend->hooks,
-                                   "sdfgi_material_destroy: instance %u still uses material %u",
-                                   pool_id(&scene->instances, i), handle.id);
+            return sdfgi_message_invalid(&scene->backend->hooks,
+                                         "sdfgi_material_destroy: instance %u still uses material %u",
+                                         sdfgi_pool_id(&scene->instances, i), handle.id);
     }
-    scene_sets_retire(scene, material->set);
-    pool_remove(&scene->materials, handle.id);
+    sdfgi_scene_sets_retire(scene, material->set);
+    sdfgi_pool_remove(&scene->materials, handle.id);
     update_emission_unit(scene);
     return SDFGI_OK;
 }
@@ -163,47 +164,48 @@ static const char *mesh_problem(const struct sdfgi_mesh_desc *d)
         return "an offset or stride is not a multiple of 4";
     if ((d->position_offset | d->uv_offset | d->color_offset | d->index_offset) >> 34)
         return "an offset exceeds 16 GiB";
-    if (!check_finite_floats(d->bounds_min, 3) || !check_finite_floats(d->bounds_max, 3) ||
+    if (!sdfgi_check_finite_floats(d->bounds_min, 3) || !sdfgi_check_finite_floats(d->bounds_max, 3) ||
         d->bounds_min[0] > d->bounds_max[0] || d->bounds_min[1] > d->bounds_max[1] ||
         d->bounds_min[2] > d->bounds_max[2])
         return "bounds are not finite or bounds_min exceeds bounds_max";
     return NULL;
 }
 
-enum sdfgi_result scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out)
+enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc,
+                                          sdfgi_mesh *out)
 {
     const char *problem = mesh_problem(desc);
     if (problem)
-        return message_invalid(&scene->backend->hooks, "sdfgi_mesh_create: %s", problem);
+        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_mesh_create: %s", problem);
     uint32_t id;
-    struct mesh *mesh = pool_add(&scene->meshes, &scene->backend->hooks, &id);
+    struct mesh *mesh = sdfgi_pool_add(&scene->meshes, &scene->backend->hooks, &id);
     if (!mesh)
-        return check_out_of_slots(scene, "sdfgi_mesh_create", MAX_OBJECTS);
+        return sdfgi_check_out_of_slots(scene, "sdfgi_mesh_create", MAX_OBJECTS);
     mesh->desc = *desc;
     mesh->desc.position_stride = desc->position_stride ? desc->position_stride : 12;
     mesh->desc.uv_stride = desc->uv_stride ? desc->uv_stride : 8;
     mesh->desc.color_stride = desc->color_stride ? desc->color_stride : 16;
-    const VkResult result = scene_sets_mesh(scene, mesh);
+    const VkResult result = sdfgi_scene_sets_mesh(scene, mesh);
     if (result != VK_SUCCESS) {
-        pool_remove(&scene->meshes, id);
-        return message_vulkan(&scene->backend->hooks, result, "sdfgi_mesh_create");
+        sdfgi_pool_remove(&scene->meshes, id);
+        return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_mesh_create");
     }
     out->id = id;
     return SDFGI_OK;
 }
 
-enum sdfgi_result scene_mesh_destroy(struct scene *scene, sdfgi_mesh handle)
+enum sdfgi_result sdfgi_scene_mesh_destroy(struct scene *scene, sdfgi_mesh handle)
 {
-    struct mesh *mesh = pool_get(&scene->meshes, handle.id);
+    struct mesh *mesh = sdfgi_pool_get(&scene->meshes, handle.id);
     if (!mesh)
-        return check_unknown_handle(scene, "sdfgi_mesh_destroy", handle.id);
+        return sdfgi_check_unknown_handle(scene, "sdfgi_mesh_destroy", handle.id);
     for (uint32_t i = 0; i < scene->instances.end; i++) {
-        const struct instance *instance = pool_at(&scene->instances, i);
+        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
         if (instance && instance->desc.mesh.id == handle.id)
-            scene_instance_destroy(scene, (sdfgi_instance){ pool_id(&scene->instances, i) });
+            sdfgi_scene_instance_destroy(scene, (sdfgi_instance){ sdfgi_pool_id(&scene->instances, i) });
     }
-    scene_sets_retire(scene, mesh->set);
-    pool_remove(&scene->meshes, handle.id);
+    sdfgi_scene_sets_retire(scene, mesh->set);
+    sdfgi_pool_remove(&scene->meshes, handle.id);
     return SDFGI_OK;
 }
 
@@ -228,73 +230,76 @@ static struct box transformed_bounds(const struct mesh *mesh, const struct sdfgi
 
 static bool transform_finite(const struct sdfgi_transform *t)
 {
-    return check_finite_floats(t->basis, 9) && check_finite_doubles(t->translation, 3);
+    return sdfgi_check_finite_floats(t->basis, 9) && sdfgi_check_finite_doubles(t->translation, 3);
 }
 
-enum sdfgi_result scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
-                                        sdfgi_instance *out)
+enum sdfgi_result sdfgi_scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
+                                              sdfgi_instance *out)
 {
-    const struct mesh *mesh = pool_get(&scene->meshes, desc->mesh.id);
+    const struct mesh *mesh = sdfgi_pool_get(&scene->meshes, desc->mesh.id);
     if (!mesh)
-        return check_unknown_handle(scene, "sdfgi_instance_create: mesh", desc->mesh.id);
-    if (!pool_get(&scene->materials, desc->material.id))
-        return check_unknown_handle(scene, "sdfgi_instance_create: material", desc->material.id);
+        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_create: mesh", desc->mesh.id);
+    if (!sdfgi_pool_get(&scene->materials, desc->material.id))
+        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_create: material", desc->material.id);
     if (!transform_finite(&desc->transform))
-        return message_invalid(&scene->backend->hooks, "sdfgi_instance_create: transform is not finite");
+        return sdfgi_message_invalid(&scene->backend->hooks,
+                                     "sdfgi_instance_create: transform is not finite");
     if (desc->mobility != SDFGI_STATIC && desc->mobility != SDFGI_EXCLUDED)
-        return message_invalid(&scene->backend->hooks, "sdfgi_instance_create: unknown mobility %d",
-                               (int)desc->mobility);
+        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_instance_create: unknown mobility %d",
+                                     (int)desc->mobility);
     uint32_t id;
-    struct instance *instance = pool_add(&scene->instances, &scene->backend->hooks, &id);
+    struct instance *instance = sdfgi_pool_add(&scene->instances, &scene->backend->hooks, &id);
     if (!instance)
-        return check_out_of_slots(scene, "sdfgi_instance_create", MAX_OBJECTS);
+        return sdfgi_check_out_of_slots(scene, "sdfgi_instance_create", MAX_OBJECTS);
     instance->desc = *desc;
     instance->bounds = transformed_bounds(mesh, &desc->transform);
     if (desc->mobility == SDFGI_STATIC)
-        journal_add_box(scene->journals, &instance->bounds);
+        sdfgi_journal_add_box(scene->journals, &instance->bounds);
     out->id = id;
     return SDFGI_OK;
 }
 
-enum sdfgi_result scene_instance_set_transform(struct scene *scene, sdfgi_instance handle,
-                                               const struct sdfgi_transform *transform)
+enum sdfgi_result sdfgi_scene_instance_set_transform(struct scene *scene, sdfgi_instance handle,
+                                                     const struct sdfgi_transform *transform)
 {
-    struct instance *instance = pool_get(&scene->instances, handle.id);
+    struct instance *instance = sdfgi_pool_get(&scene->instances, handle.id);
     if (!instance)
-        return check_unknown_handle(scene, "sdfgi_instance_set_transform", handle.id);
+        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_set_transform", handle.id);
     if (!transform_finite(transform))
-        return message_invalid(&scene->backend->hooks,
-                               "sdfgi_instance_set_transform: transform is not finite");
+        return sdfgi_message_invalid(&scene->backend->hooks,
+                                     "sdfgi_instance_set_transform: transform is not finite");
     const bool in_volumes = instance->desc.mobility == SDFGI_STATIC;
     if (in_volumes)
-        journal_add_box(scene->journals, &instance->bounds);
+        sdfgi_journal_add_box(scene->journals, &instance->bounds);
     instance->desc.transform = *transform;
-    instance->bounds = transformed_bounds(pool_get(&scene->meshes, instance->desc.mesh.id), transform);
+    instance->bounds = transformed_bounds(sdfgi_pool_get(&scene->meshes, instance->desc.mesh.id), transform);
     if (in_volumes)
-        journal_add_box(scene->journals, &instance->bounds);
+        sdfgi_journal_add_box(scene->journals, &instance->bounds);
     return SDFGI_OK;
 }
 
-enum sdfgi_result scene_instance_destroy(struct scene *scene, sdfgi_instance handle)
+enum sdfgi_result sdfgi_scene_instance_destroy(struct scene *scene, sdfgi_instance handle)
 {
-    const struct instance *instance = pool_get(&scene->instances, handle.id);
+    const struct instance *instance = sdfgi_pool_get(&scene->instances, handle.id);
     if (!instance)
-        return check_unknown_handle(scene, "sdfgi_instance_destroy", handle.id);
+        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_destroy", handle.id);
     if (instance->desc.mobility == SDFGI_STATIC)
-        journal_add_box(scene->journals, &instance->bounds);
-    pool_remove(&scene->instances, handle.id);
+        sdfgi_journal_add_box(scene->journals, &instance->bounds);
+    sdfgi_pool_remove(&scene->instances, handle.id);
     return SDFGI_OK;
 }
 
-enum sdfgi_result scene_invalidate_box(struct scene *scene, const double box_min[3], const double box_max[3])
+enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double box_min[3],
+                                             const double box_max[3])
 {
     struct box box;
     memcpy(box.min, box_min, sizeof box.min);
     memcpy(box.max, box_max, sizeof box.max);
     for (int i = 0; i < 3; i++)
         if (!(box.min[i] <= box.max[i]))
-            return message_invalid(&scene->backend->hooks,
-                                   "sdfgi_invalidate_box: box_min exceeds box_max, or one is not a number");
-    journal_add_box(scene->journals, &box);
+            return sdfgi_message_invalid(
+                &scene->backend->hooks,
+                "sdfgi_invalidate_box: box_min exceeds box_max, or one is not a number");
+    sdfgi_journal_add_box(scene->journals, &box);
     return SDFGI_OK;
 }

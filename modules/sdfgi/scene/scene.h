@@ -50,37 +50,38 @@ struct scene {
     struct journal *journals;
 };
 
-void scene_init(struct scene *scene, struct backend *backend);
-void scene_finish(struct scene *scene);
+void sdfgi_scene_init(struct scene *scene, struct backend *backend);
+void sdfgi_scene_finish(struct scene *scene);
 
 /* Has the scene write what changes into a journal too, which must outlive the scene. */
-void scene_add_journal(struct scene *scene, struct journal *journal);
+void sdfgi_scene_add_journal(struct scene *scene, struct journal *journal);
 
 /* The functions of sdfgi.h by the same names: they check what they are given. */
-enum sdfgi_result scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
-                                        sdfgi_material *out);
-enum sdfgi_result scene_material_destroy(struct scene *scene, sdfgi_material material);
-enum sdfgi_result scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out);
-enum sdfgi_result scene_mesh_destroy(struct scene *scene, sdfgi_mesh mesh);
-enum sdfgi_result scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
-                                        sdfgi_instance *out);
-enum sdfgi_result scene_instance_set_transform(struct scene *scene, sdfgi_instance instance,
-                                               const struct sdfgi_transform *transform);
-enum sdfgi_result scene_instance_destroy(struct scene *scene, sdfgi_instance instance);
-enum sdfgi_result scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
-                                     sdfgi_light *out);
-enum sdfgi_result scene_light_update(struct scene *scene, sdfgi_light light,
-                                     const struct sdfgi_light_desc *desc);
-enum sdfgi_result scene_light_destroy(struct scene *scene, sdfgi_light light);
-enum sdfgi_result scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky);
-enum sdfgi_result scene_invalidate_box(struct scene *scene, const double box_min[static 3],
-                                       const double box_max[static 3]);
+enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
+                                              sdfgi_material *out);
+enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_material material);
+enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc,
+                                          sdfgi_mesh *out);
+enum sdfgi_result sdfgi_scene_mesh_destroy(struct scene *scene, sdfgi_mesh mesh);
+enum sdfgi_result sdfgi_scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
+                                              sdfgi_instance *out);
+enum sdfgi_result sdfgi_scene_instance_set_transform(struct scene *scene, sdfgi_instance instance,
+                                                     const struct sdfgi_transform *transform);
+enum sdfgi_result sdfgi_scene_instance_destroy(struct scene *scene, sdfgi_instance instance);
+enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
+                                           sdfgi_light *out);
+enum sdfgi_result sdfgi_scene_light_update(struct scene *scene, sdfgi_light light,
+                                           const struct sdfgi_light_desc *desc);
+enum sdfgi_result sdfgi_scene_light_destroy(struct scene *scene, sdfgi_light light);
+enum sdfgi_result sdfgi_scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky);
+enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double box_min[static 3],
+                                             const double box_max[static 3]);
 
 /* True if the instance is in the volumes and may touch the box. */
-bool instance_touches(const struct instance *instance, const struct box *box);
+bool sdfgi_instance_touches(const struct instance *instance, const struct box *box);
 /* True if any instance does. */
-bool scene_touches(const struct scene *scene, const struct box *box);
+bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
 /* True if anything in the scene gives light. */
-bool scene_has_light(const struct scene *scene, bool reads_sky);
+bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-bool check_finite_floats(const float *v, int count)
+bool sdfgi_check_finite_floats(const float *v, int count)
 {
     for (int i = 0; i < count; i++)
         if (!isfinite(v[i]))
@@ -11,7 +11,7 @@ bool check_finite_floats(const float *v, int count)
     return true;
 }
 
-bool check_finite_doubles(const double *v, int count)
+bool sdfgi_check_finite_doubles(const double *v, int count)
 {
     for (int i = 0; i < count; i++)
         if (!isfinite(v[i]))
@@ -19,7 +19,7 @@ bool check_finite_doubles(const double *v, int count)
     return true;
 }
 
-bool check_non_negative(const float *v, int count)
+bool sdfgi_check_non_negative(const float *v, int count)
 {
     for (int i = 0; i < count; i++)
         if (!(isfinite(v[i]) && v[i] >= 0))
@@ -27,15 +27,16 @@ bool check_non_negative(const float *v, int count)
     return true;
 }
 
-enum sdfgi_result check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit)
+enum sdfgi_result sdfgi_check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit)
 {
-    message(&scene->backend->hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY,
-            "%s: out of host memory, or more than %u of them", what, limit);
+    sdfgi_message_log(&scene->backend->hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY,
+                      "%s: out of host memory, or more than %u of them", what, limit);
     return SDFGI_ERROR_OUT_OF_MEMORY;
 }
 
-enum sdfgi_result check_unknown_handle(const struct scene *scene, const char *what, uint32_t id)
+enum sdfgi_result sdfgi_check_unknown_handle(const struct scene *scene, const char *what, uint32_t id)
 {
-    message(&scene->backend->hooks, SDFGI_MESSAGE_INVALID_HANDLE, "%s: no object with handle %u", what, id);
+    sdfgi_message_log(&scene->backend->hooks, SDFGI_MESSAGE_INVALID_HANDLE, "%s: no object with handle %u",
+                      what, id);
     return SDFGI_ERROR_INVALID_ARGUMENT;
 }

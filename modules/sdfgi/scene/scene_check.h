@@ -7,12 +7,12 @@
 
 enum { MAX_OBJECTS = (1 << 20) - 2 }; /* of one kind: what a handle can number */
 
-bool check_finite_floats(const float *v, int count);
-bool check_finite_doubles(const double *v, int count);
+bool sdfgi_check_finite_floats(const float *v, int count);
+bool sdfgi_check_finite_doubles(const double *v, int count);
 /* Finite, too. */
-bool check_non_negative(const float *v, int count);
+bool sdfgi_check_non_negative(const float *v, int count);
 /* Report that a pool is full or memory short, or that a handle names nothing. */
-enum sdfgi_result check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit);
-enum sdfgi_result check_unknown_handle(const struct scene *scene, const char *what, uint32_t id);
+enum sdfgi_result sdfgi_check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit);
+enum sdfgi_result sdfgi_check_unknown_handle(const struct scene *scene, const char *what, uint32_t id);
 
 #endif

@@ -10,7 +10,7 @@ enum { SETS_PER_POOL = 128 };
 static VkResult add_pool(struct scene *scene)
 {
     const struct gpu_device *device = &scene->backend->device;
-    struct set_pool *pool = hooks_alloc_zeroed(&scene->backend->hooks, sizeof *pool);
+    struct set_pool *pool = sdfgi_hooks_alloc_zeroed(&scene->backend->hooks, sizeof *pool);
     if (!pool)
         return VK_ERROR_OUT_OF_HOST_MEMORY;
     const VkDescriptorPoolSize sizes[] = {
@@ -26,7 +26,7 @@ static VkResult add_pool(struct scene *scene)
                                        .pPoolSizes = sizes },
         device->callbacks, &pool->handle);
     if (result != VK_SUCCESS) {
-        hooks_free(&scene->backend->hooks, pool);
+        sdfgi_hooks_free(&scene->backend->hooks, pool);
         return result;
     }
     pool->free = SETS_PER_POOL;
@@ -51,7 +51,7 @@ static VkResult allocate(struct scene *scene, VkDescriptorSetLayout layout, stru
             return result;
     }
     set->pool = pool_with_room(scene);
-    const VkResult result = backend_set_allocate(scene->backend, set->pool->handle, layout, &set->set);
+    const VkResult result = sdfgi_backend_set_allocate(scene->backend, set->pool->handle, layout, &set->set);
     if (result == VK_SUCCESS)
         set->pool->free--;
     return result;
@@ -59,19 +59,19 @@ static VkResult allocate(struct scene *scene, VkDescriptorSetLayout layout, stru
 
 static VkResult create(struct scene *scene, VkDescriptorSetLayout layout, struct object_set **out)
 {
-    struct object_set *set = hooks_alloc_zeroed(&scene->backend->hooks, sizeof *set);
+    struct object_set *set = sdfgi_hooks_alloc_zeroed(&scene->backend->hooks, sizeof *set);
     if (!set)
         return VK_ERROR_OUT_OF_HOST_MEMORY;
     const VkResult result = allocate(scene, layout, set);
     if (result != VK_SUCCESS) {
-        hooks_free(&scene->backend->hooks, set);
+        sdfgi_hooks_free(&scene->backend->hooks, set);
         return result;
     }
     *out = set;
     return VK_SUCCESS;
 }
 
-VkResult scene_sets_mesh(struct scene *scene, struct mesh *mesh)
+VkResult sdfgi_scene_sets_mesh(struct scene *scene, struct mesh *mesh)
 {
     const struct gpu_device *device = &scene->backend->device;
     const VkResult result = create(scene, scene->backend->pipelines.mesh, &mesh->set);
@@ -126,11 +126,11 @@ static void write_textures(const struct gpu_device *device, const struct materia
     device->fn.UpdateDescriptorSets(device->handle, 2, writes, 0, NULL);
 }
 
-VkResult scene_sets_material(struct scene *scene, struct material *material)
+VkResult sdfgi_scene_sets_material(struct scene *scene, struct material *material)
 {
     if (!material->desc.albedo_texture.view && !material->desc.emission_texture.view)
         return VK_SUCCESS;
-    VkResult result = pipelines_require(scene->backend, PASS_VOXELIZE, 1);
+    VkResult result = sdfgi_pipelines_require(scene->backend, PASS_VOXELIZE, 1);
     if (result == VK_SUCCESS)
         result = create(scene, scene->backend->pipelines.material, &material->set);
     if (result != VK_SUCCESS)
@@ -147,24 +147,24 @@ static void destroy(struct gpu_retired *item, void *user)
     device->fn.FreeDescriptorSets(device->handle, set->pool->handle, 1, &set->set);
     set->pool->free++;
     assert(set->pool->free <= SETS_PER_POOL);
-    hooks_free(&scene->backend->hooks, set);
+    sdfgi_hooks_free(&scene->backend->hooks, set);
 }
 
 _Static_assert(offsetof(struct object_set, retired) == 0, "destroy() finds the set by its first member");
 
-void scene_sets_retire(struct scene *scene, struct object_set *set)
+void sdfgi_scene_sets_retire(struct scene *scene, struct object_set *set)
 {
     if (set)
         gpu_retire(&scene->backend->retired, &set->retired, destroy, scene);
 }
 
-void scene_sets_finish(struct scene *scene)
+void sdfgi_scene_sets_finish(struct scene *scene)
 {
     const struct gpu_device *device = &scene->backend->device;
     for (struct set_pool *pool = scene->set_pools, *next; pool; pool = next) {
         next = pool->next;
         device->fn.DestroyDescriptorPool(device->handle, pool->handle, device->callbacks);
-        hooks_free(&scene->backend->hooks, pool);
+        sdfgi_hooks_free(&scene->backend->hooks, pool);
     }
     scene->set_pools = NULL;
 }

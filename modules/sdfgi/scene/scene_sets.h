@@ -5,11 +5,11 @@
 
 #include "scene.h"
 
-VkResult scene_sets_mesh(struct scene *scene, struct mesh *mesh);
+VkResult sdfgi_scene_sets_mesh(struct scene *scene, struct mesh *mesh);
 /* Leaves material->set null if the material has no texture. */
-VkResult scene_sets_material(struct scene *scene, struct material *material);
+VkResult sdfgi_scene_sets_material(struct scene *scene, struct material *material);
 /* Frees a set once no frame in flight can use it. NULL is accepted. */
-void scene_sets_retire(struct scene *scene, struct object_set *set);
-void scene_sets_finish(struct scene *scene);
+void sdfgi_scene_sets_retire(struct scene *scene, struct object_set *set);
+void sdfgi_scene_sets_finish(struct scene *scene);
 
 #endif

@@ -29,15 +29,15 @@ static VkResult create_pool(const struct backend *backend, VkDescriptorPool *poo
 static void destroy(struct backend *backend, struct view *view)
 {
     backend->device.fn.DestroyDescriptorPool(backend->device.handle, view->pool, backend->device.callbacks);
-    hooks_free(&backend->hooks, view);
+    sdfgi_hooks_free(&backend->hooks, view);
 }
 
 static struct view *create(struct backend *backend, VkResult *result)
 {
-    struct view *view = hooks_alloc_zeroed(&backend->hooks, sizeof *view);
+    struct view *view = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *view);
     *result = view ? create_pool(backend, &view->pool) : VK_ERROR_OUT_OF_HOST_MEMORY;
     for (uint32_t f = 0; f < backend->retired.frames_in_flight && *result == VK_SUCCESS; f++)
-        *result = backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
+        *result = sdfgi_backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
     if (*result == VK_SUCCESS)
         return view;
     if (view)
@@ -45,7 +45,7 @@ static struct view *create(struct backend *backend, VkResult *result)
     return NULL;
 }
 
-void views_finish(struct backend *backend, struct views *views)
+void sdfgi_views_finish(struct backend *backend, struct views *views)
 {
     for (struct view *view = views->first, *next; view; view = next) {
         next = view->next;
@@ -54,7 +54,7 @@ void views_finish(struct backend *backend, struct views *views)
     views->first = NULL;
 }
 
-struct view *views_next(struct backend *backend, struct views *views, VkResult *result)
+struct view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result)
 {
     struct view **link = &views->first;
     *result = VK_SUCCESS;
@@ -68,7 +68,7 @@ struct view *views_next(struct backend *backend, struct views *views, VkResult *
 
 /* ---- Stage 8, diffuse, as a screen pass */
 
-const char *view_gather_problem(const struct sdfgi_gather_desc *d)
+const char *sdfgi_view_gather_problem(const struct sdfgi_gather_desc *d)
 {
     if (!d->depth || !d->normal || !d->output)
         return "depth, normal or output is null";
@@ -80,7 +80,8 @@ const char *view_gather_problem(const struct sdfgi_gather_desc *d)
     return NULL;
 }
 
-void view_write_set(const struct backend *backend, const struct view *view, const struct sdfgi_gather_desc *d)
+void sdfgi_view_write_set(const struct backend *backend, const struct view *view,
+                          const struct sdfgi_gather_desc *d)
 {
     const VkImageLayout layout = d->input_layout ? d->input_layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkDescriptorImageInfo images[GATHER_IMAGES] = {
@@ -92,7 +93,7 @@ void view_write_set(const struct backend *backend, const struct view *view, cons
     for (uint32_t i = 0; i < GATHER_IMAGES; i++)
         writes[i] = (VkWriteDescriptorSet){
             .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = view->sets[backend_slot(backend)],
+            .dstSet = view->sets[sdfgi_backend_slot(backend)],
             .dstBinding = i,
             .descriptorCount = 1,
             .descriptorType = i == SDFGI_BINDING_GATHER_OUTPUT ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
@@ -102,7 +103,7 @@ void view_write_set(const struct backend *backend, const struct view *view, cons
     backend->device.fn.UpdateDescriptorSets(backend->device.handle, GATHER_IMAGES, writes, 0, NULL);
 }
 
-struct work view_gather_work(const struct sdfgi_gather_desc *d)
+struct work sdfgi_view_gather_work(const struct sdfgi_gather_desc *d)
 {
     struct work work = {
         .pass = PASS_GATHER,

@@ -18,16 +18,16 @@ struct views {
     uint32_t used; /* in this frame */
 };
 
-void views_finish(struct backend *backend, struct views *views);
+void sdfgi_views_finish(struct backend *backend, struct views *views);
 /* The next view of this frame, or NULL and a reason. */
-struct view *views_next(struct backend *backend, struct views *views, VkResult *result);
+struct view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result);
 
 /* NULL, or what is wrong with the description. */
-const char *view_gather_problem(const struct sdfgi_gather_desc *desc);
+const char *sdfgi_view_gather_problem(const struct sdfgi_gather_desc *desc);
 /* Writes the pictures of a gather into the view's set of this frame. */
-void view_write_set(const struct backend *backend, const struct view *view,
-                    const struct sdfgi_gather_desc *desc);
+void sdfgi_view_write_set(const struct backend *backend, const struct view *view,
+                          const struct sdfgi_gather_desc *desc);
 /* The gather as an item of work. */
-struct work view_gather_work(const struct sdfgi_gather_desc *desc);
+struct work sdfgi_view_gather_work(const struct sdfgi_gather_desc *desc);
 
 #endif

@@ -10,12 +10,12 @@
 #define CIRCLING_CYCLES 8
 #define CLEARLY_LESS    0.9f
 
-void convergence_reset(struct convergence *c)
+void sdfgi_convergence_reset(struct convergence *c)
 {
     *c = (struct convergence){ .change = INFINITY, .least = INFINITY };
 }
 
-void convergence_add(struct convergence *c, float change)
+void sdfgi_convergence_add(struct convergence *c, float change)
 {
     c->change = change;
     c->cycles_without_fall++;
@@ -25,16 +25,16 @@ void convergence_add(struct convergence *c, float change)
     }
 }
 
-bool convergence_done(const struct convergence *c)
+bool sdfgi_convergence_done(const struct convergence *c)
 {
     return c->change < ACCUMULATION_CONVERGED_CHANGE ||
            (c->change < CIRCLING_CHANGE && c->cycles_without_fall >= CIRCLING_CYCLES);
 }
 
-void accumulation_init(struct accumulation *a)
+void sdfgi_accumulation_init(struct accumulation *a)
 {
     *a = (struct accumulation){ .phase = LIGHTING_DARK, .cycle = 1 };
-    convergence_reset(&a->convergence);
+    sdfgi_convergence_reset(&a->convergence);
 }
 
 /* All changes of phase go through here. */
@@ -49,16 +49,16 @@ static void wake(struct accumulation *a)
 {
     if (a->phase == LIGHTING_CONVERGED)
         enter(a, LIGHTING_RUNNING);
-    convergence_reset(&a->convergence);
+    sdfgi_convergence_reset(&a->convergence);
 }
 
-void accumulation_invalidate(struct accumulation *a)
+void sdfgi_accumulation_invalidate(struct accumulation *a)
 {
     a->invalid_cycle = a->cycle;
     wake(a);
 }
 
-void accumulation_restart(struct accumulation *a)
+void sdfgi_accumulation_restart(struct accumulation *a)
 {
     a->invalid_cycle = a->cycle;
     a->cycle++;
@@ -66,41 +66,41 @@ void accumulation_restart(struct accumulation *a)
     wake(a);
 }
 
-void accumulation_go_dark(struct accumulation *a)
+void sdfgi_accumulation_go_dark(struct accumulation *a)
 {
     enter(a, LIGHTING_DARK);
 }
 
-void accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest)
+void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest)
 {
     assert(cycle <= a->cycle);
     a->known_cycle = cycle;
     a->known_change = change;
     a->known_brightest = brightest;
     if (cycle > a->invalid_cycle)
-        convergence_add(&a->convergence, change);
+        sdfgi_convergence_add(&a->convergence, change);
 }
 
-void accumulation_show(struct accumulation *a, bool cycle_ends)
+void sdfgi_accumulation_show(struct accumulation *a, bool cycle_ends)
 {
     assert(a->phase != LIGHTING_CONVERGED);
     if (a->phase != LIGHTING_RUNNING)
         enter(a, cycle_ends ? LIGHTING_RUNNING : LIGHTING_FIRST_CYCLE);
 }
 
-bool accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames)
+bool sdfgi_accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames)
 {
     return a->frame + 1 == cycle_frames;
 }
 
-void accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests)
+void sdfgi_accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests)
 {
     a->rays_missing -= a->rays_missing > 0;
-    if (!accumulation_cycle_ends(a, cycle_frames)) {
+    if (!sdfgi_accumulation_cycle_ends(a, cycle_frames)) {
         a->frame++;
         return;
     }
-    if (rests && convergence_done(&a->convergence))
+    if (rests && sdfgi_convergence_done(&a->convergence))
         enter(a, LIGHTING_CONVERGED);
     a->cycle++;
     a->frame = 0;

@@ -25,10 +25,10 @@ struct convergence {
     uint32_t cycles_without_fall;
 };
 
-void convergence_reset(struct convergence *convergence);
+void sdfgi_convergence_reset(struct convergence *convergence);
 /* Takes in the largest relative change of a probe texel over a cycle. */
-void convergence_add(struct convergence *convergence, float change);
-bool convergence_done(const struct convergence *convergence);
+void sdfgi_convergence_add(struct convergence *convergence, float change);
+bool sdfgi_convergence_done(const struct convergence *convergence);
 
 struct accumulation {
     enum lighting_phase phase;
@@ -42,21 +42,21 @@ struct accumulation {
     float known_change, known_brightest;
 };
 
-void accumulation_init(struct accumulation *a);
+void sdfgi_accumulation_init(struct accumulation *a);
 /* The light is no longer what it was: go on until it has converged again. */
-void accumulation_invalidate(struct accumulation *a);
+void sdfgi_accumulation_invalidate(struct accumulation *a);
 /* Begins a cycle anew: what this one has gathered does not count. */
-void accumulation_restart(struct accumulation *a);
+void sdfgi_accumulation_restart(struct accumulation *a);
 /* Nothing is stored any more: no probe holds light. */
-void accumulation_go_dark(struct accumulation *a);
+void sdfgi_accumulation_go_dark(struct accumulation *a);
 /* A cycle that ended came back from the GPU. */
-void accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest);
+void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest);
 /* Probes were given the light of this frame. */
-void accumulation_show(struct accumulation *a, bool cycle_ends);
+void sdfgi_accumulation_show(struct accumulation *a, bool cycle_ends);
 /* Goes on to the next frame of the cycle. `rests`: no other work is left, so that light may count as
  * converged. */
-void accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests);
+void sdfgi_accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests);
 
-bool accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames);
+bool sdfgi_accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames);
 
 #endif

@@ -40,7 +40,7 @@ static void reserve(struct cascade *cascade, uint32_t c, const struct scroll *sc
     }
 }
 
-void blend_reserve(struct cascades *cascades, const struct scroll *scroll)
+void sdfgi_blend_reserve(struct cascades *cascades, const struct scroll *scroll)
 {
     for (uint32_t c = 0; c < cascades->count; c++)
         reserve(&cascades->at[c], c, scroll, cascades->resolution);
@@ -70,7 +70,7 @@ static bool move(struct cascade *cascade, const struct scroll *scroll, uint32_t 
     return moves;
 }
 
-void blend_move(struct cascades *cascades, struct scroll *scroll, bool jumps)
+void sdfgi_blend_move(struct cascades *cascades, struct scroll *scroll, bool jumps)
 {
     scroll->blends_moving = 0;
     for (uint32_t c = 0; c < cascades->count; c++)

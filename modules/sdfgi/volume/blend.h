@@ -13,9 +13,9 @@
 #include "scroll.h"
 
 /* Leaves cells free on the sides that the camera leaves. */
-void blend_reserve(struct cascades *cascades, const struct scroll *scroll);
+void sdfgi_blend_reserve(struct cascades *cascades, const struct scroll *scroll);
 /* Moves all borders towards where the camera and the valid regions would have them: at once if `jumps`.
  * Counts those that have not arrived. */
-void blend_move(struct cascades *cascades, struct scroll *scroll, bool jumps);
+void sdfgi_blend_move(struct cascades *cascades, struct scroll *scroll, bool jumps);
 
 #endif

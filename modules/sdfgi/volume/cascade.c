@@ -28,7 +28,7 @@ static int64_t spacings_to_step(int64_t off_centre, double spare)
     return off_centre / spacing;
 }
 
-bool cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[static 3])
+bool sdfgi_cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[static 3])
 {
     const int64_t half = resolution / 2, spacing = SDFGI_PROBE_SPACING;
     int64_t off_centre[3];
@@ -39,14 +39,14 @@ bool cascade_place(struct cascade *cascade, uint32_t resolution, const double ca
     }
     for (int i = 0; moves && i < 3; i++)
         cascade->origin[i] += spacing * (cascade->place == CASCADE_UNPLACED
-                                             ? floor_div(off_centre[i] + spacing / 2, spacing)
+                                             ? sdfgi_floor_div(off_centre[i] + spacing / 2, spacing)
                                              : spacings_to_step(off_centre[i], cascade->spare[i]));
     if (cascade->place == CASCADE_UNPLACED)
         cascade->place = CASCADE_OUTDATED;
     return moves;
 }
 
-struct box cascade_box(const struct cascade *cascade, uint32_t resolution)
+struct box sdfgi_cascade_box(const struct cascade *cascade, uint32_t resolution)
 {
     struct box box;
     for (int i = 0; i < 3; i++) {
@@ -56,7 +56,7 @@ struct box cascade_box(const struct cascade *cascade, uint32_t resolution)
     return box;
 }
 
-struct cell_box cascade_cells(const struct cascade *cascade, uint32_t resolution, const struct box *box)
+struct cell_box sdfgi_cascade_cells(const struct cascade *cascade, uint32_t resolution, const struct box *box)
 {
     const double n = (double)resolution;
     struct cell_box cells;
@@ -72,7 +72,7 @@ struct cell_box cascade_cells(const struct cascade *cascade, uint32_t resolution
     return cells;
 }
 
-struct box cascade_world_box(const struct cascade *cascade, const struct cell_box *cells)
+struct box sdfgi_cascade_world_box(const struct cascade *cascade, const struct cell_box *cells)
 {
     struct box box;
     for (int i = 0; i < 3; i++) {
@@ -83,7 +83,7 @@ struct box cascade_world_box(const struct cascade *cascade, const struct cell_bo
     return box;
 }
 
-void cascades_init(struct cascades *cascades, const struct sdfgi_settings *settings)
+void sdfgi_cascades_init(struct cascades *cascades, const struct sdfgi_settings *settings)
 {
     memset(cascades, 0, sizeof *cascades);
     cascades->count = settings->cascades;
@@ -91,38 +91,38 @@ void cascades_init(struct cascades *cascades, const struct sdfgi_settings *setti
     for (uint32_t c = 0; c < cascades->count; c++)
         for (int i = 0; i < 3; i++)
             cascades->at[c].cell_size[i] =
-                ldexp(settings->min_cell_size_m, (int)c) * (i == 1 ? settings_y_scale(settings) : 1.0);
+                ldexp(settings->min_cell_size_m, (int)c) * (i == 1 ? sdfgi_settings_y_scale(settings) : 1.0);
 }
 
-void cascade_outdate(struct cascade *cascade)
+void sdfgi_cascade_outdate(struct cascade *cascade)
 {
     if (cascade->place == CASCADE_CURRENT)
         cascade->place = CASCADE_OUTDATED;
 }
 
-bool cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box)
+bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box)
 {
-    const struct box own = cascade_box(cascade, resolution);
-    if (cascade->place == CASCADE_UNPLACED || !box_overlaps(&own, box))
+    const struct box own = sdfgi_cascade_box(cascade, resolution);
+    if (cascade->place == CASCADE_UNPLACED || !sdfgi_box_overlaps(&own, box))
         return false;
-    box_list_add(cascade->edits, &cascade->edit_count, SDFGI_MAX_CHANGES, box);
+    sdfgi_box_list_add(cascade->edits, &cascade->edit_count, SDFGI_MAX_CHANGES, box);
     return true;
 }
 
-bool cascade_completes(const struct cascade *cascade)
+bool sdfgi_cascade_completes(const struct cascade *cascade)
 {
     return cascade->change.stage == CHANGE_COMPLETES;
 }
 
-bool cascades_complete(const struct cascades *cascades)
+bool sdfgi_cascades_complete(const struct cascades *cascades)
 {
     for (uint32_t c = 0; c < cascades->count; c++)
-        if (cascade_completes(&cascades->at[c]))
+        if (sdfgi_cascade_completes(&cascades->at[c]))
             return true;
     return false;
 }
 
-bool cascades_rest(const struct cascades *cascades)
+bool sdfgi_cascades_rest(const struct cascades *cascades)
 {
     for (uint32_t c = 0; c < cascades->count; c++)
         if (cascades->at[c].change.cause != CHANGE_NONE || cascades->at[c].pace == CASCADE_LEFT_BEHIND)

@@ -78,29 +78,30 @@ struct cascades {
 };
 
 /* Cascades of these settings that hold nothing yet. */
-void cascades_init(struct cascades *cascades, const struct sdfgi_settings *settings);
+void sdfgi_cascades_init(struct cascades *cascades, const struct sdfgi_settings *settings);
 
 /* Places a cascade around a camera: at first centred to within half a probe. Afterwards a cascade moves in
  * steps of one probe spacing, when the camera is more than one spacing from its centre on some axis; other
  * axes move in the same step if `spare` has reserved room for it. A camera that oscillates around a point
  * causes one step at most. Returns true if it moved. */
-bool cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[static 3]);
-struct box cascade_box(const struct cascade *cascade, uint32_t resolution);
+bool sdfgi_cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[static 3]);
+struct box sdfgi_cascade_box(const struct cascade *cascade, uint32_t resolution);
 /* Cells that a box in the world touches, widened to whole probe spacings, clipped to the cascade. */
-struct cell_box cascade_cells(const struct cascade *cascade, uint32_t resolution, const struct box *box);
+struct cell_box sdfgi_cascade_cells(const struct cascade *cascade, uint32_t resolution,
+                                    const struct box *box);
 /* The world box of some cells, and a sub-voxel more: triangles set sub-voxels that they touch. */
-struct box cascade_world_box(const struct cascade *cascade, const struct cell_box *cells);
+struct box sdfgi_cascade_world_box(const struct cascade *cascade, const struct cell_box *cells);
 
 /* Notes that everything stored is out of date. */
-void cascade_outdate(struct cascade *cascade);
+void sdfgi_cascade_outdate(struct cascade *cascade);
 /* Notes that geometry changed in a box. Returns false if the cascade has no cell there. */
-bool cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box);
+bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box);
 
 /* True in the frame in which the cascade's change completes. */
-bool cascade_completes(const struct cascade *cascade);
+bool sdfgi_cascade_completes(const struct cascade *cascade);
 /* True if a change completes in this frame, of any cascade. */
-bool cascades_complete(const struct cascades *cascades);
+bool sdfgi_cascades_complete(const struct cascades *cascades);
 /* True if no cascade changes or has to catch up with the camera. */
-bool cascades_rest(const struct cascades *cascades);
+bool sdfgi_cascades_rest(const struct cascades *cascades);
 
 #endif

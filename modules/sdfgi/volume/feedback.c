@@ -21,9 +21,9 @@ static void read_counters(struct volume *volume, const struct feedback_slot *slo
     memcpy(counters, (const uint32_t *)readback->mapped + index * SDFGI_COUNTER_COUNT,
            sizeof volume->feedback.counters);
     if (slot->ended_cycle > 0)
-        accumulation_add_known(&volume->state.accumulation, slot->ended_cycle,
-                               float_of(counters[SDFGI_COUNTER_MAX_CHANGE]),
-                               float_of(counters[SDFGI_COUNTER_MAX_IRRADIANCE]));
+        sdfgi_accumulation_add_known(&volume->state.accumulation, slot->ended_cycle,
+                                     float_of(counters[SDFGI_COUNTER_MAX_CHANGE]),
+                                     float_of(counters[SDFGI_COUNTER_MAX_IRRADIANCE]));
 }
 
 static void read_times(struct volume *volume, uint32_t index)
@@ -37,7 +37,7 @@ static void read_times(struct volume *volume, uint32_t index)
     }
 }
 
-void volume_read_back(struct volume *volume, uint32_t index)
+void sdfgi_volume_read_back(struct volume *volume, uint32_t index)
 {
     struct feedback_slot *slot = &volume->feedback.slots[index];
     for (int i = 0; i < PASS_COUNT; i++)

@@ -21,7 +21,7 @@ static vec3 point_of(const double at[3])
 static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_params *p)
 {
     const struct change *change = &cascade->change;
-    const bool completes = cascade_completes(cascade);
+    const bool completes = sdfgi_cascade_completes(cascade);
     const struct cell_box *kept = completes ? &change->kept : &cascade->valid;
     const uint32_t count = completes ? change->count : 0;
     p->valid_low = cell_of(cascade->valid.low);
@@ -31,7 +31,7 @@ static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_para
     p->blend_high = point_of(cascade->blend_high);
     p->kept_low = cell_of(kept->low);
     p->kept_high = cell_of(kept->high);
-    p->bounds_axis = change_bounds_axis(change);
+    p->bounds_axis = sdfgi_change_bounds_axis(change);
     for (uint32_t i = 0; i < count; i++) {
         p->dirty[i].low = cell_of(change->boxes[i].low);
         p->dirty[i].high = cell_of(change->boxes[i].high);
@@ -45,10 +45,10 @@ static struct sdfgi_cascade_params cascade_params(const struct volume_state *sta
     double origin[3], shift[3];
     int32_t wrap[3], probe_wrap[3], probe_base[3];
     for (int i = 0; i < 3; i++) {
-        const int64_t probe = floor_div(cascade->origin[i], SDFGI_PROBE_SPACING);
+        const int64_t probe = sdfgi_floor_div(cascade->origin[i], SDFGI_PROBE_SPACING);
         origin[i] = (double)cascade->origin[i] * cascade->cell_size[i] - state->origin[i];
-        wrap[i] = (int32_t)floor_mod(cascade->origin[i], n);
-        probe_wrap[i] = (int32_t)floor_mod(probe, side);
+        wrap[i] = (int32_t)sdfgi_floor_mod(cascade->origin[i], n);
+        probe_wrap[i] = (int32_t)sdfgi_floor_mod(probe, side);
         probe_base[i] = (int32_t)(uint32_t)(uint64_t)probe;
         /* Cell space of cascade c = (cell space of cascade 0 + first origin) / 2^c - own origin. */
         shift[i] = ldexp((double)first->origin[i], -(int)c) - (double)cascade->origin[i];
@@ -80,16 +80,16 @@ static void fill_sky(struct sdfgi_frame_params *p, const struct sdfgi_sky *sky, 
 
 static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_settings *s)
 {
-    p->y_scale = (float)settings_y_scale(s);
+    p->y_scale = (float)sdfgi_settings_y_scale(s);
     p->energy = s->energy;
     p->normal_bias = s->normal_bias_cells;
     p->probe_bias = s->probe_bias_cells;
     p->bounce_feedback = s->bounce_feedback;
     p->resolution = s->resolution;
-    p->resolution_log2 = log2_of(s->resolution);
+    p->resolution_log2 = sdfgi_log2(s->resolution);
     p->probes_per_side = s->resolution / SDFGI_PROBE_SPACING + 1;
     p->cascade_count = s->cascades;
-    p->visibility = settings_shader_visibility(s);
+    p->visibility = sdfgi_settings_shader_visibility(s);
 }
 
 /* The rays of this frame. Once light has converged nobody reads these: they stay, and are no reason to upload
@@ -100,7 +100,7 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     const struct accumulation *a = &state->accumulation;
     const bool keep = a->phase == LIGHTING_CONVERGED;
     const struct sdfgi_frame_params *old = &state->params;
-    const uint32_t samples = settings_cycle_samples(s), first = a->frame * s->ray_count;
+    const uint32_t samples = sdfgi_settings_cycle_samples(s), first = a->frame * s->ray_count;
     const uint32_t rays = s->ray_count < samples - first ? s->ray_count : samples - first;
     p->cycle_samples = keep ? old->cycle_samples : samples;
     p->first_sample = keep ? old->first_sample : first;
@@ -108,8 +108,8 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->brightest_texel = keep ? old->brightest_texel : a->known_brightest;
 }
 
-void params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,
-                 const struct params_input *input)
+void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,
+                       const struct params_input *input)
 {
     memset(p, 0, sizeof *p);
     for (uint32_t c = 0; c < state->cascades.count; c++)
@@ -125,7 +125,8 @@ void params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,
     fill_cycle(p, state, input->settings);
 }
 
-struct sdfgi_light_params params_of_light(const struct volume_state *state, const struct sdfgi_light_desc *l)
+struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state,
+                                                const struct sdfgi_light_desc *l)
 {
     /* Squares of floats fit a double, however long or short the vector. */
     const double x = (double)l->direction[0], y = (double)l->direction[1], z = (double)l->direction[2];
@@ -155,8 +156,8 @@ static void uv_rows(const float m[6], vec4 rows[2])
     rows[1] = (vec4){ use[3], use[4], use[5], 0 };
 }
 
-struct sdfgi_material_params params_of_material(const struct scene *scene,
-                                                const struct sdfgi_material_desc *m)
+struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
+                                                      const struct sdfgi_material_desc *m)
 {
     struct sdfgi_material_params p = {
         .albedo = { m->albedo[0], m->albedo[1], m->albedo[2] },

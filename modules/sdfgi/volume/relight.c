@@ -6,12 +6,12 @@
 /* Of frames that are all busy, one in so many lights cells again. */
 #define PATIENCE 4
 
-void relight_init(struct relight *relight)
+void sdfgi_relight_init(struct relight *relight)
 {
     *relight = (struct relight){ .budget = RELIGHT_CELLS };
 }
 
-uint32_t light_list_entries(const struct relight *relight, const struct light_lists *lists, uint32_t c)
+uint32_t sdfgi_light_list_entries(const struct relight *relight, const struct light_lists *lists, uint32_t c)
 {
     const bool known = lists->frame >= relight->at[c].listed_at + lists->frames_in_flight;
     return known && lists->counted[c] < lists->room ? lists->counted[c] : lists->room;
@@ -21,7 +21,7 @@ uint32_t light_list_entries(const struct relight *relight, const struct light_li
 static void skip_room(struct relight *relight, const struct light_lists *lists, uint32_t c)
 {
     struct relight_cursor *cursor = &relight->at[c];
-    const uint32_t entries = light_list_entries(relight, lists, c);
+    const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
     while (cursor->left > 0 && cursor->next >= entries) {
         assert(cursor->next <= lists->room);
         const uint32_t gap = lists->room - cursor->next;
@@ -30,7 +30,7 @@ static void skip_room(struct relight *relight, const struct light_lists *lists, 
     }
 }
 
-bool relight_is_due(const struct relight *relight)
+bool sdfgi_relight_is_due(const struct relight *relight)
 {
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
         if (relight->at[c].left > 0)
@@ -50,14 +50,14 @@ static uint32_t cascades_in_shadow(const struct light_lists *lists, const enum r
 
 /* Where a list changes while a pass over it is under way, the pass goes on at the same entry until it has
  * come round once more: it may have passed by cells that have moved to entries before it. */
-void relight_note(struct relight *relight, const struct light_lists *lists,
-                  const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway)
+void sdfgi_relight_note(struct relight *relight, const struct light_lists *lists,
+                        const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway)
 {
     const uint32_t in_shadow = cascades_in_shadow(lists, relists);
     for (uint32_t c = 0; c < lists->cascades; c++)
         if (relists[c] != RELIST_NOT)
             relight->at[c].listed_at = lists->frame;
-    if (!relight_is_due(relight))
+    if (!sdfgi_relight_is_due(relight))
         relight->cascade = 0;
     for (uint32_t c = 0; c < lists->cascades; c++) {
         if (c < in_shadow)
@@ -76,7 +76,7 @@ static struct relight_range take(struct relight *relight, const struct light_lis
     struct relight_range range = { .cascade = c, .first = cursor->next };
     if (cursor->left == 0)
         return range;
-    range.count = light_list_entries(relight, lists, c) - cursor->next;
+    range.count = sdfgi_light_list_entries(relight, lists, c) - cursor->next;
     range.count = range.count < cursor->left ? range.count : cursor->left;
     range.count = range.count < most ? range.count : most;
     cursor->next += range.count;
@@ -85,12 +85,12 @@ static struct relight_range take(struct relight *relight, const struct light_lis
     return range;
 }
 
-uint32_t relight_take(struct relight *relight, const struct light_lists *lists, bool busy,
-                      struct relight_range ranges[static SDFGI_MAX_CASCADES])
+uint32_t sdfgi_relight_take(struct relight *relight, const struct light_lists *lists, bool busy,
+                            struct relight_range ranges[static SDFGI_MAX_CASCADES])
 {
     uint32_t count = 0, left = relight->budget;
     relight->waits = busy ? (relight->waits + 1) % PATIENCE : 0;
-    if (relight->waits > 0 || !relight_is_due(relight))
+    if (relight->waits > 0 || !sdfgi_relight_is_due(relight))
         return 0;
     for (uint32_t i = 0; i < lists->cascades && left > 0; i++) {
         const struct relight_range range = take(relight, lists, relight->cascade, left);

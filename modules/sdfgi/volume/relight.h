@@ -46,18 +46,19 @@ struct relight_range {
     uint32_t cascade, first, count;
 };
 
-void relight_init(struct relight *relight);
+void sdfgi_relight_init(struct relight *relight);
 /* Entries of a list: as counted, once the count of this list has come back; until then all that it has room
  * for. */
-uint32_t light_list_entries(const struct relight *relight, const struct light_lists *lists, uint32_t cascade);
+uint32_t sdfgi_light_list_entries(const struct relight *relight, const struct light_lists *lists,
+                                  uint32_t cascade);
 /* Notes which lists are written in this frame, and what has to be lit again because of it: nothing if all
  * cells are lit in this frame anyway, or if there is no light. */
-void relight_note(struct relight *relight, const struct light_lists *lists,
-                  const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway);
+void sdfgi_relight_note(struct relight *relight, const struct light_lists *lists,
+                        const enum relist relists[static SDFGI_MAX_CASCADES], bool lit_anyway);
 /* Takes this frame's part; returns how many ranges it filled in. `busy`: the frame has enough to do. */
-uint32_t relight_take(struct relight *relight, const struct light_lists *lists, bool busy,
-                      struct relight_range ranges[static SDFGI_MAX_CASCADES]);
+uint32_t sdfgi_relight_take(struct relight *relight, const struct light_lists *lists, bool busy,
+                            struct relight_range ranges[static SDFGI_MAX_CASCADES]);
 /* True if cells wait to be lit again. */
-bool relight_is_due(const struct relight *relight);
+bool sdfgi_relight_is_due(const struct relight *relight);
 
 #endif

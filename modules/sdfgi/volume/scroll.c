@@ -94,18 +94,18 @@ static void begin(struct run *run, struct cascade *cascade)
 {
     const uint32_t resolution = run->cascades->resolution;
     struct cascade next = *cascade;
-    const bool moved = cascade_place(&next, resolution, run->scroll->camera);
+    const bool moved = sdfgi_cascade_place(&next, resolution, run->scroll->camera);
     cascade->place = next.place;
     const bool outdated = cascade->place == CASCADE_OUTDATED;
     const bool scrolls = moved && (cascade->pace == CASCADE_KEEPS_UP || outdated);
     cascade->pace = pace_of(cascade, moved, scrolls);
     if (cascade->edit_count > 0 && !outdated && !(scrolls && cascade->last_turn == CHANGE_EDIT)) {
-        change_begin_edit(cascade, resolution);
+        sdfgi_change_begin_edit(cascade, resolution);
     } else if (scrolls) {
-        run->scroll->scrolls_begun += !cell_box_empty(&cascade->valid);
-        change_begin_scroll(cascade, resolution, next.origin, run->scroll->camera);
+        run->scroll->scrolls_begun += !sdfgi_cell_box_empty(&cascade->valid);
+        sdfgi_change_begin_scroll(cascade, resolution, next.origin, run->scroll->camera);
     } else if (outdated) {
-        change_begin_rebuild(cascade, resolution, run->scroll->camera);
+        sdfgi_change_begin_rebuild(cascade, resolution, run->scroll->camera);
     }
     run->plan->begins = run->plan->begins || cascade->change.cause != CHANGE_NONE;
 }
@@ -145,10 +145,11 @@ static struct scroll_piece *add_piece(struct run *run, enum piece_kind kind, uin
 static uint64_t take_voxels(struct run *run, uint32_t c, uint64_t cells)
 {
     struct change *change = &run->cascades->at[c].change;
-    struct cell_box box = change_box(change, change->box, run->cascades->resolution);
-    const int axis = cell_box_longest_axis(&box);
+    struct cell_box box = sdfgi_change_box(change, change->box, run->cascades->resolution);
+    const int axis = sdfgi_cell_box_longest_axis(&box);
     const int32_t thickness = SDFGI_PROBE_SPACING;
-    const uint64_t slice = cell_box_cells(&box) / (uint64_t)((box.high[axis] - box.low[axis]) / thickness);
+    const uint64_t slice =
+        sdfgi_cell_box_cells(&box) / (uint64_t)((box.high[axis] - box.low[axis]) / thickness);
     box.low[axis] = change->slice > box.low[axis] ? change->slice : box.low[axis];
     const uint64_t left = (uint64_t)(box.high[axis] - box.low[axis]) / (uint64_t)thickness;
     const uint64_t slices = cells / slice < left ? cells / slice : left;
@@ -156,7 +157,7 @@ static uint64_t take_voxels(struct run *run, uint32_t c, uint64_t cells)
     if (!piece)
         return 0;
     piece->begins = change->stage == CHANGE_BEGUN;
-    change_enter(change, CHANGE_VOXELS);
+    sdfgi_change_enter(change, CHANGE_VOXELS);
     piece->box = box;
     piece->box.high[axis] = box.low[axis] + (int32_t)slices * thickness;
     change->slice = piece->box.high[axis];
@@ -175,7 +176,7 @@ static uint64_t take_distances(struct run *run, uint32_t c, uint64_t cells)
     const uint64_t layer = layer_cells(run->cascades);
     uint64_t count = run->limits->flood ? (cells > 0 ? layers : 0) : cells / layer;
     count = count < left ? count : left;
-    change_enter(change, left > 0 ? CHANGE_DISTANCES : CHANGE_READY);
+    sdfgi_change_enter(change, left > 0 ? CHANGE_DISTANCES : CHANGE_READY);
     struct scroll_piece *piece = count > 0 ? add_piece(run, PIECE_DISTANCES, c) : NULL;
     if (!piece)
         return 0;
@@ -228,7 +229,7 @@ static double scrolls_of_all(const struct run *run)
 static bool may_complete(const struct run *run)
 {
     const double scrolls = scrolls_of_all(run);
-    const bool apart = !cascades_complete(run->cascades) &&
+    const bool apart = !sdfgi_cascades_complete(run->cascades) &&
                        run->scroll->calm_frames >= fmin(SCROLL_CALM_FRAMES, BUSY_SCROLLS / scrolls - 1);
     return apart || scrolls >= BUSY_SCROLLS || any_hurries(run);
 }
@@ -241,7 +242,7 @@ static void advance(struct run *run, uint32_t c, uint64_t *budget)
     struct change *change = &run->cascades->at[c].change;
     uint64_t done;
     do {
-        change->box = change_next_box(change, run->cascades->resolution);
+        change->box = sdfgi_change_next_box(change, run->cascades->resolution);
         done = change->box < change->count ? take_voxels(run, c, *budget) : take_distances(run, c, *budget);
         assert(done <= change->cells_left);
         change->cells_left -= done;
@@ -249,7 +250,7 @@ static void advance(struct run *run, uint32_t c, uint64_t *budget)
         run->plan->cells += done;
     } while (done > 0);
     if (change->cells_left == 0 && may_complete(run))
-        change_enter(change, CHANGE_COMPLETES);
+        sdfgi_change_enter(change, CHANGE_COMPLETES);
 }
 
 /* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so
@@ -281,23 +282,23 @@ static void advance_all(struct run *run, uint64_t budget)
 static bool any_valid(const struct cascades *cascades)
 {
     for (uint32_t c = 0; c < cascades->count; c++)
-        if (!cell_box_empty(&cascades->at[c].valid))
+        if (!sdfgi_cell_box_empty(&cascades->at[c].valid))
             return true;
     return false;
 }
 
-void scroll_init(struct scroll *scroll)
+void sdfgi_scroll_init(struct scroll *scroll)
 {
     *scroll = (struct scroll){ .calm_frames = 1 };
 }
 
-void scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
-                 const double camera[static 3], bool blend_jumps, struct scroll_plan *plan)
+void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
+                       const double camera[static 3], bool blend_jumps, struct scroll_plan *plan)
 {
     struct run run = { scroll, cascades, limits, plan };
     memset(plan, 0, sizeof *plan);
     follow_camera(scroll, &cascades->at[0], camera);
-    blend_reserve(cascades, scroll);
+    sdfgi_blend_reserve(cascades, scroll);
     begin_all(&run);
     plan->from_nothing = !any_valid(cascades);
     /* With nothing to show, there is nothing to wait for. */
@@ -305,20 +306,20 @@ void scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct 
         scroll->pace = 0;
     advance_all(&run, frame_budget(&run));
     for (uint32_t c = 0; c < cascades->count; c++)
-        if (cascade_completes(&cascades->at[c]))
-            cascades->at[c].valid = cell_box_whole(cascades->resolution);
-    blend_move(cascades, scroll, blend_jumps || plan->from_nothing);
+        if (sdfgi_cascade_completes(&cascades->at[c]))
+            cascades->at[c].valid = sdfgi_cell_box_whole(cascades->resolution);
+    sdfgi_blend_move(cascades, scroll, blend_jumps || plan->from_nothing);
 }
 
-void scroll_finish(struct scroll *scroll, struct cascades *cascades)
+void sdfgi_scroll_finish(struct scroll *scroll, struct cascades *cascades)
 {
-    scroll->calm_frames = cascades_complete(cascades) ? 0 : scroll->calm_frames + 1;
+    scroll->calm_frames = sdfgi_cascades_complete(cascades) ? 0 : scroll->calm_frames + 1;
     for (uint32_t c = 0; c < cascades->count; c++)
-        if (cascade_completes(&cascades->at[c]))
-            change_finish(&cascades->at[c].change);
+        if (sdfgi_cascade_completes(&cascades->at[c]))
+            sdfgi_change_finish(&cascades->at[c].change);
 }
 
-bool scroll_plan_has(const struct scroll_plan *plan, enum piece_kind kind)
+bool sdfgi_scroll_plan_has(const struct scroll_plan *plan, enum piece_kind kind)
 {
     for (uint32_t i = 0; i < plan->piece_count; i++)
         if (plan->pieces[i].kind == kind)

@@ -54,14 +54,14 @@ struct scroll_limits {
     bool flood;         /* distances cannot be cut: a cascade's are made at once */
 };
 
-void scroll_init(struct scroll *scroll);
+void sdfgi_scroll_init(struct scroll *scroll);
 /* Begins what cascades need and decides how much of it this frame does. `blend_jumps`: no light has been
  * shown yet, so that blend regions need not move smoothly. */
-void scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
-                 const double camera[static 3], bool blend_jumps, struct scroll_plan *plan);
+void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
+                       const double camera[static 3], bool blend_jumps, struct scroll_plan *plan);
 /* After the frame: what completed is finished. */
-void scroll_finish(struct scroll *scroll, struct cascades *cascades);
+void sdfgi_scroll_finish(struct scroll *scroll, struct cascades *cascades);
 
-bool scroll_plan_has(const struct scroll_plan *plan, enum piece_kind kind);
+bool sdfgi_scroll_plan_has(const struct scroll_plan *plan, enum piece_kind kind);
 
 #endif

@@ -7,51 +7,52 @@
 /* Room beyond what is needed, so that a scene that grows a little does not grow the list each time. */
 #define SPARE_PART 8
 
-void volume_init(struct volume *volume, struct backend *backend, struct scene *scene)
+void sdfgi_volume_init(struct volume *volume, struct backend *backend, struct scene *scene)
 {
     volume->backend = backend;
-    scene_add_journal(scene, &volume->journal);
+    sdfgi_scene_add_journal(scene, &volume->journal);
 }
 
-void volume_finish(struct volume *volume)
+void sdfgi_volume_finish(struct volume *volume)
 {
-    resources_retire(volume->backend, volume->resources);
+    sdfgi_resources_retire(volume->backend, volume->resources);
     volume->resources = NULL;
 }
 
-void volume_reset(struct volume *volume, struct resources *resources, const struct sdfgi_settings *settings)
+void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
+                        const struct sdfgi_settings *settings)
 {
-    resources_retire(volume->backend, volume->resources);
+    sdfgi_resources_retire(volume->backend, volume->resources);
     volume->resources = resources;
     struct volume_state *state = &volume->state;
     memset(state, 0, sizeof *state);
     memset(&volume->feedback, 0, sizeof volume->feedback);
-    journal_clear(&volume->journal);
-    cascades_init(&state->cascades, settings);
-    scroll_init(&state->scroll);
-    accumulation_init(&state->accumulation);
-    relight_init(&state->relight);
+    sdfgi_journal_clear(&volume->journal);
+    sdfgi_cascades_init(&state->cascades, settings);
+    sdfgi_scroll_init(&state->scroll);
+    sdfgi_accumulation_init(&state->accumulation);
+    sdfgi_relight_init(&state->relight);
     state->exposure = 1;
 }
 
-void volume_apply_journal(const struct journal *journal, struct volume_state *state)
+void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state)
 {
     bool invalidates = journal->notes & (JOURNAL_LIGHTS | JOURNAL_SKY | JOURNAL_EVERYTHING);
     for (uint32_t c = 0; c < state->cascades.count; c++) {
         struct cascade *cascade = &state->cascades.at[c];
         if (journal->notes & JOURNAL_EVERYTHING)
-            cascade_outdate(cascade);
+            sdfgi_cascade_outdate(cascade);
         for (uint32_t i = 0; i < journal->box_count; i++)
-            if (cascade_add_edit(cascade, state->cascades.resolution, &journal->boxes[i]))
+            if (sdfgi_cascade_add_edit(cascade, state->cascades.resolution, &journal->boxes[i]))
                 invalidates = true;
     }
     if (invalidates)
-        accumulation_invalidate(&state->accumulation);
+        sdfgi_accumulation_invalidate(&state->accumulation);
 }
 
-bool volume_has_converged(const struct volume *volume)
+bool sdfgi_volume_has_converged(const struct volume *volume)
 {
-    return volume->state.accumulation.phase == LIGHTING_CONVERGED && journal_is_empty(&volume->journal);
+    return volume->state.accumulation.phase == LIGHTING_CONVERGED && sdfgi_journal_is_empty(&volume->journal);
 }
 
 static uint64_t most_light_cells(const struct volume *volume)
@@ -63,24 +64,25 @@ static uint64_t most_light_cells(const struct volume *volume)
     return most;
 }
 
-bool volume_make_room(struct volume *volume)
+bool sdfgi_volume_make_room(struct volume *volume)
 {
     struct resources *r = volume->resources;
     const uint64_t needed = most_light_cells(volume), wanted = needed + needed / SPARE_PART;
     const uint64_t room = wanted < r->extent.light_cells_max ? wanted : r->extent.light_cells_max;
     if (needed <= r->extent.light_cells || needed == volume->feedback.light_cells_refused)
         return false;
-    if (room > r->extent.light_cells && resources_grow_light_cells(volume->backend, r, room))
+    if (room > r->extent.light_cells && sdfgi_resources_grow_light_cells(volume->backend, r, room))
         return true;
     if (volume->feedback.light_cells_refused == 0)
-        message(&volume->backend->hooks, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW,
-                "sdfgi_update: %llu light cells in a cascade, room for %llu, and no memory for more",
-                (unsigned long long)needed, (unsigned long long)r->extent.light_cells);
+        sdfgi_message_log(
+            &volume->backend->hooks, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW,
+            "sdfgi_update: %llu light cells in a cascade, room for %llu, and no memory for more",
+            (unsigned long long)needed, (unsigned long long)r->extent.light_cells);
     volume->feedback.light_cells_refused = needed;
     return false;
 }
 
-struct light_lists volume_light_lists(const struct volume *volume)
+struct light_lists sdfgi_volume_light_lists(const struct volume *volume)
 {
     struct light_lists lists = { .cascades = volume->state.cascades.count,
                                  .room = (uint32_t)volume->resources->extent.light_cells,

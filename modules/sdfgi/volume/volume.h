@@ -53,24 +53,25 @@ struct volume {
 };
 
 /* A volume of a scene, without resources. */
-void volume_init(struct volume *volume, struct backend *backend, struct scene *scene);
-void volume_finish(struct volume *volume);
+void sdfgi_volume_init(struct volume *volume, struct backend *backend, struct scene *scene);
+void sdfgi_volume_finish(struct volume *volume);
 /* Replaces the resources (NULL: none) and forgets all light and cascades. */
-void volume_reset(struct volume *volume, struct resources *resources, const struct sdfgi_settings *settings);
+void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
+                        const struct sdfgi_settings *settings);
 
 /* Applies what changed in the scene since the last frame to a state: boxes become edits, light is
  * invalidated. */
-void volume_apply_journal(const struct journal *journal, struct volume_state *state);
+void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state);
 /* True if the light has converged and nothing has changed since. */
-bool volume_has_converged(const struct volume *volume);
+bool sdfgi_volume_has_converged(const struct volume *volume);
 
 /* Takes in what the frame that last used the slot left there. */
-void volume_read_back(struct volume *volume, uint32_t slot);
+void sdfgi_volume_read_back(struct volume *volume, uint32_t slot);
 /* Makes the light lists longer where the newest counters say that they were too short. Returns true if they
  * are empty now and have to be written again. */
-bool volume_make_room(struct volume *volume);
+bool sdfgi_volume_make_room(struct volume *volume);
 /* The lists as far as counters know them. */
-struct light_lists volume_light_lists(const struct volume *volume);
+struct light_lists sdfgi_volume_light_lists(const struct volume *volume);
 
 /* Frame parameters of a state. */
 struct params_input {
@@ -78,11 +79,11 @@ struct params_input {
     const struct scene *scene;
     uint64_t light_cell_room;
 };
-void params_fill(struct sdfgi_frame_params *params, const struct volume_state *state,
-                 const struct params_input *input);
-struct sdfgi_light_params params_of_light(const struct volume_state *state,
-                                          const struct sdfgi_light_desc *light);
-struct sdfgi_material_params params_of_material(const struct scene *scene,
-                                                const struct sdfgi_material_desc *material);
+void sdfgi_params_fill(struct sdfgi_frame_params *params, const struct volume_state *state,
+                       const struct params_input *input);
+struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state,
+                                                const struct sdfgi_light_desc *light);
+struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
+                                                      const struct sdfgi_material_desc *material);
 
 #endif
