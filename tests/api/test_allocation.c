@@ -5,6 +5,8 @@
 #include "gi_test.h"
 #include "require.h"
 
+#include <vulkan/vulkan.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -176,6 +178,8 @@ static void no_vulkan_failure_while_switching_on_is_fatal(void **state)
     failing_vulkan_reset(0, VK_SUCCESS);
     REQUIRE_CMP((int)sdfgi_create(&desc, &gi), ==, (int)SDFGI_OK);
     const int64_t live = counting.live;
+    const VkDescriptorSet blank = sdfgi_get_descriptor_set(gi);
+    REQUIRE_TRUE(blank != VK_NULL_HANDLE);
     for (int i = 0; i < 2; i++) {
         for (uint32_t k = 1;; k++) {
             memset(messages, 0, sizeof messages);
@@ -192,7 +196,7 @@ static void no_vulkan_failure_while_switching_on_is_fatal(void **state)
             REQUIRE_CMP(counting.live, ==, live);
             struct sdfgi_settings in_force;
             sdfgi_get_settings(gi, &in_force);
-            REQUIRE_TRUE(!in_force.enabled && sdfgi_get_descriptor_set(gi) == VK_NULL_HANDLE);
+            REQUIRE_TRUE(!in_force.enabled && !gi->volume.resources && sdfgi_get_descriptor_set(gi) == blank);
         }
         failing_vulkan_reset(0, VK_SUCCESS);
         REQUIRE_CMP((int)sdfgi_set_settings(gi, &off), ==, (int)SDFGI_OK);
@@ -217,12 +221,31 @@ static sdfgi *create_on(struct counting *counting)
     return gi;
 }
 
+/* Records a frame that never runs, as shaders that were skipped leave nothing behind that it could run on.
+ * The context counts as active then. */
+static void record_first_frame(sdfgi *gi)
+{
+    const VkCommandBufferAllocateInfo allocate = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                   .commandPool = gpu.command_pool,
+                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                   .commandBufferCount = 1 };
+    const VkCommandBufferBeginInfo begin = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+    VkCommandBuffer cmd;
+    REQUIRE_CMP((int)vkAllocateCommandBuffers(gpu.device, &allocate, &cmd), ==, (int)VK_SUCCESS);
+    REQUIRE_CMP((int)vkBeginCommandBuffer(cmd, &begin), ==, (int)VK_SUCCESS);
+    REQUIRE_CMP((int)sdfgi_update(gi, cmd, &(struct sdfgi_frame_desc){ 0 }), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)vkEndCommandBuffer(cmd), ==, (int)VK_SUCCESS);
+    vkFreeCommandBuffers(gpu.device, gpu.command_pool, 1, &cmd);
+    REQUIRE_TRUE(sdfgi_is_active(gi));
+}
+
 /* A change of resolution that fails leaves the old volumes in force. */
 static void a_failed_change_leaves_the_old_settings_in_force(void **state)
 {
     (void)state;
     struct counting counting = { 0 };
     sdfgi *gi = create_on(&counting);
+    record_first_frame(gi);
     const VkDescriptorSet set = sdfgi_get_descriptor_set(gi);
     const struct sdfgi_settings on = small_settings(true);
     struct sdfgi_settings larger = on, in_force;
@@ -231,7 +254,7 @@ static void a_failed_change_leaves_the_old_settings_in_force(void **state)
     REQUIRE_CMP((int)sdfgi_set_settings(gi, &larger), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
     sdfgi_get_settings(gi, &in_force);
     REQUIRE_BYTES(&in_force, &on, sizeof on);
-    REQUIRE_TRUE(sdfgi_get_descriptor_set(gi) == set);
+    REQUIRE_TRUE(sdfgi_get_descriptor_set(gi) == set && sdfgi_is_active(gi));
     failing_vulkan_reset(0, VK_SUCCESS);
     REQUIRE_CMP((int)sdfgi_set_settings(gi, &larger), ==, (int)SDFGI_OK);
     sdfgi_destroy(gi);
@@ -384,6 +407,35 @@ static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
+/* What a picture needs is made with its first gather: a pool, and a set for each of two frames in flight. */
+static void no_failure_to_make_a_view_is_fatal(void **state)
+{
+    (void)state;
+    struct counting counting = { 0 };
+    sdfgi *gi = create_on(&counting);
+    record_first_frame(gi);
+    const VkImageView image = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
+    const struct sdfgi_gather_desc gather = {
+        .depth = image, .normal = image, .output = image, .width = 1, .height = 1
+    };
+    const int64_t live = counting.live;
+    REQUIRE_CMP((int)sdfgi_pipelines_require(&gi->backend, PASS_GATHER, 0), ==, (int)VK_SUCCESS);
+    for (uint32_t k = 1; k <= 3; k++) {
+        memset(messages, 0, sizeof messages);
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        REQUIRE_CMP((int)sdfgi_gather(gi, VK_NULL_HANDLE, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP(failing_vulkan_calls(), ==, k);
+        REQUIRE_CMP(memory_messages(), ==, 1u);
+        REQUIRE_CMP(counting.live, ==, live);
+    }
+    counting.fail_at = counting.calls + 1;
+    failing_vulkan_reset(0, VK_SUCCESS);
+    REQUIRE_CMP((int)sdfgi_gather(gi, VK_NULL_HANDLE, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+    REQUIRE_CMP(counting.live, ==, live);
+    sdfgi_destroy(gi);
+    REQUIRE_CMP(counting.live, ==, 0);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -396,6 +448,7 @@ int main(void)
         cmocka_unit_test(no_vulkan_failure_while_adding_a_mesh_is_fatal),
         cmocka_unit_test_setup(no_failure_while_the_light_list_grows_is_fatal, keep_shaders),
         cmocka_unit_test_setup(no_failure_to_make_a_late_pipeline_is_fatal, keep_shaders),
+        cmocka_unit_test(no_failure_to_make_a_view_is_fatal),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

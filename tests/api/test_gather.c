@@ -79,6 +79,54 @@ static void open_scene(struct gi_test *t)
     gi_test_update(t, 8);
 }
 
+/* Clip (x, y, depth) to (3 x, -1.9 - 0.2 depth, 3 y), column-major. */
+static struct sdfgi_gather_desc floor_desc(const struct gpu_test_image *depth,
+                                           const struct gpu_test_image *normal,
+                                           const struct gpu_test_image *output)
+{
+    return (struct sdfgi_gather_desc){
+        .depth = depth->view,
+        .normal = normal->view,
+        .output = output->view,
+        .width = WIDTH,
+        .height = HEIGHT,
+        .background_depth = 1,
+        .inverse_view_projection = { 3, 0, 0, 0, 0, 0, 3, 0, 0, -2, 0, 0, 0, -1, 0, 1 },
+    };
+}
+
+static void read_output(struct gi_test *t, const struct gpu_test_image *output, uint16_t (*texels)[4])
+{
+    gpu_test_image_read(&t->gpu, output->image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        output->extent, 8, texels);
+}
+
+/* The largest error of a picture, relative to what the lookup gives; 0 where there is background. */
+static double worst_error(const float depth[static PIXELS], float expected[static PIXELS][3],
+                          uint16_t found[static PIXELS][4])
+{
+    double worst = 0;
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double want = depth[i] < 1 ? (double)expected[i][k] : 0,
+                         have = (double)gi_test_half(found[i][k]);
+            worst = fmax(worst, fabs(have - want) / fmax(want, 0.1));
+        }
+    return worst;
+}
+
+static double brightest(const struct screen *s, float expected[static PIXELS][3])
+{
+    double most = 0;
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, s->depth[i] < 1 ? (double)expected[i][k] : 0);
+    return most;
+}
+
+/* Half floats have 11 bits, and a driver may truncate. */
+#define ROUNDING 0x1p-10
+
 static void gather_equals_the_lookup_in_a_shader(void **state)
 {
     (void)state;
@@ -92,36 +140,110 @@ static void gather_equals_the_lookup_in_a_shader(void **state)
     struct gpu_test_image depth = image_create(&t, VK_FORMAT_R32_SFLOAT, 4, s.depth);
     struct gpu_test_image normal = image_create(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, s.normals);
     struct gpu_test_image output = image_create(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
-    struct gather g = { .t = &t,
-                        .desc = { .depth = depth.view,
-                                  .normal = normal.view,
-                                  .output = output.view,
-                                  .width = WIDTH,
-                                  .height = HEIGHT,
-                                  .background_depth = 1,
-                                  /* clip (x, y, depth) to (3 x, -1.9 - 0.2 depth, 3 y), column-major */
-                                  .inverse_view_projection = { 3, 0, 0, 0, 0, 0, 3, 0, 0, -2, 0, 0, 0, -1, 0,
-                                                               1 } } };
+    struct gather g = { .t = &t, .desc = floor_desc(&depth, &normal, &output) };
     gpu_test_submit(&t.gpu, gather_record, &g);
     REQUIRE_CMP((int)g.result, ==, (int)SDFGI_OK);
-    gpu_test_image_read(&t.gpu, output.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
-                        output.extent, 8, found);
-    double worst = 0, brightest = 0;
-    for (int i = 0; i < PIXELS; i++)
-        for (int k = 0; k < 3; k++) {
-            const double want = s.depth[i] < 1 ? (double)expected[i][k] : 0,
-                         have = (double)gi_test_half(found[i][k]);
-            worst = fmax(worst, fabs(have - want) / fmax(want, 0.1));
-            brightest = fmax(brightest, want);
-        }
-    printf("gather: off by %.2e at most, brightest %.3f\n", worst, brightest);
+    read_output(&t, &output, found);
+    const double worst = worst_error(s.depth, expected, found), light = brightest(&s, expected);
+    printf("gather: off by %.2e at most, brightest %.3f\n", worst, light);
     gpu_test_image_destroy(&t.gpu, &depth);
     gpu_test_image_destroy(&t.gpu, &normal);
     gpu_test_image_destroy(&t.gpu, &output);
     gi_test_close(&t);
-    REQUIRE_CMP(brightest, >, 1.0);
-    /* Half floats have 11 bits, and a driver may truncate: 2^-10. */
-    REQUIRE_CMP(worst, <=, 0x1p-10);
+    REQUIRE_CMP(light, >, 1.0);
+    REQUIRE_CMP(worst, <=, ROUNDING);
+}
+
+/* ---- Many pictures in a frame */
+
+enum { PICTURES = 20 };
+
+/* Pictures that can be told apart: each has background at a pixel of its own. */
+struct pictures {
+    struct gi_test *t;
+    float depth[PICTURES][PIXELS];
+    struct gpu_test_image depths[PICTURES], outputs[PICTURES], normal;
+    uint32_t turn; /* which depths go to which output */
+};
+
+static uint32_t depth_of(const struct pictures *p, uint32_t output)
+{
+    return (output + 7 * p->turn) % PICTURES;
+}
+
+static void pictures_open(struct pictures *p, struct gi_test *t, const struct screen *s)
+{
+    p->t = t;
+    p->turn = 0;
+    p->normal = image_create(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, s->normals);
+    for (uint32_t i = 0; i < PICTURES; i++) {
+        memcpy(p->depth[i], s->depth, sizeof s->depth);
+        uint32_t pixel = 6 * i;
+        while (s->depth[pixel] >= 1)
+            pixel++;
+        p->depth[i][pixel] = 1;
+        p->depths[i] = image_create(t, VK_FORMAT_R32_SFLOAT, 4, p->depth[i]);
+        p->outputs[i] = image_create(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    }
+}
+
+static void pictures_close(struct pictures *p)
+{
+    for (uint32_t i = 0; i < PICTURES; i++) {
+        gpu_test_image_destroy(&p->t->gpu, &p->depths[i]);
+        gpu_test_image_destroy(&p->t->gpu, &p->outputs[i]);
+    }
+    gpu_test_image_destroy(&p->t->gpu, &p->normal);
+}
+
+static void record_pictures(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct pictures *p = user;
+    REQUIRE_CMP((int)sdfgi_update(p->t->gi, cmd, &p->t->frame), ==, (int)SDFGI_OK);
+    for (uint32_t i = 0; i < PICTURES; i++) {
+        const struct sdfgi_gather_desc desc =
+            floor_desc(&p->depths[depth_of(p, i)], &p->normal, &p->outputs[i]);
+        REQUIRE_CMP((int)sdfgi_gather(p->t->gi, cmd, &desc), ==, (int)SDFGI_OK);
+    }
+}
+
+static void require_pictures(struct pictures *p, float expected[static PIXELS][3])
+{
+    static uint16_t found[PIXELS][4];
+    static struct sdfgi_report report;
+    for (uint32_t i = 0; i < PICTURES; i++) {
+        read_output(p->t, &p->outputs[i], found);
+        REQUIRE_CMP(worst_error(p->depth[depth_of(p, i)], expected, found), <=, ROUNDING);
+    }
+    sdfgi_get_report(p->t->gi, &report);
+    REQUIRE_CMP(report.passes[PASS_GATHER].dispatches, ==, (uint32_t)PICTURES);
+    REQUIRE_CMP(report.passes[PASS_GATHER].work, ==, (uint64_t)PICTURES * PIXELS);
+}
+
+/* Any number; the next frame has them again, from other images. */
+static void twenty_gathers_in_a_frame_give_twenty_pictures_twice(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static struct screen s;
+    static struct pictures p;
+    static float expected[PIXELS][3];
+    open_scene(&t);
+    screen_fill(&s);
+    pictures_open(&p, &t, &s);
+    for (p.turn = 0; p.turn < 2; p.turn++) {
+        gpu_test_submit(&t.gpu, record_pictures, &p);
+        gi_test_irradiance(&t, s.points, PIXELS, expected);
+        REQUIRE_CMP(brightest(&s, expected), >, 1.0);
+        require_pictures(&p, expected);
+    }
+    uint32_t views = 0;
+    for (const struct view *view = t.gi->views.first; view; view = view->next)
+        views++;
+    REQUIRE_CMP(views, ==, (uint32_t)PICTURES);
+    pictures_close(&p);
+    gi_test_close(&t);
 }
 
 static void gather_refuses_bad_descriptors(void **state)
@@ -164,6 +286,7 @@ int main(void)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gather_equals_the_lookup_in_a_shader),
+        cmocka_unit_test(twenty_gathers_in_a_frame_give_twenty_pictures_twice),
         cmocka_unit_test(gather_refuses_bad_descriptors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

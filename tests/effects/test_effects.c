@@ -19,6 +19,7 @@ static bool ran(enum pass pass)
     return report.passes[pass].ran;
 }
 
+/* A pass that ran gives a reason for running, one that did not gives none of that kind. */
 static void require_reasons(void)
 {
     REQUIRE_CMP(report.pass_count, ==, (uint32_t)PASS_COUNT);
@@ -27,6 +28,10 @@ static void require_reasons(void)
         REQUIRE_TRUE(report.passes[i].reason != NULL && report.passes[i].reason[0] != 0);
         REQUIRE_TRUE(report.passes[i].work_unit != NULL);
         REQUIRE_CMP(report.passes[i].ran, ==, report.passes[i].dispatches > 0);
+        const char *why = sdfgi_need_reason(sdfgi_pass_row((enum pass)i)->need);
+        if ((strcmp(report.passes[i].reason, why) == 0) != report.passes[i].ran)
+            require_fail(__FILE__, __LINE__, "%s: ran: %d, because: %s", report.passes[i].name,
+                         report.passes[i].ran, report.passes[i].reason);
     }
 }
 
@@ -66,7 +71,7 @@ static void off_records_nothing_and_holds_nothing(void **state)
     REQUIRE_CMP(report.command_count, ==, 0u);
     REQUIRE_CMP(report.memory.total_bytes, ==, 0ul);
     REQUIRE_TRUE(!report.active && !report.converged && !sdfgi_is_active(t.gi));
-    REQUIRE_TRUE(sdfgi_get_descriptor_set(t.gi) == VK_NULL_HANDLE);
+    REQUIRE_TRUE(sdfgi_get_descriptor_set(t.gi) != VK_NULL_HANDLE);
     require_reasons();
     for (int i = 0; i < PASS_COUNT; i++)
         REQUIRE_TRUE(!report.passes[i].ran);
@@ -93,7 +98,7 @@ static void switching_off_returns_all_memory(void **state)
         gi_test_update(&t, t.gi->backend.retired.frames_in_flight);
         REQUIRE_CMP(report_now(&t)->memory.total_bytes, ==, 0ul);
         REQUIRE_CMP(report.command_count, ==, 0u);
-        REQUIRE_TRUE(t.gi->retired == NULL);
+        REQUIRE_TRUE(t.gi->backend.retired.first == NULL);
     }
     gi_test_close(&t);
 }
@@ -238,8 +243,10 @@ static void moving_an_instance_generates_the_cascades_it_touches(void **state)
     gi_test_converge(&t, 120);
     struct sdfgi_transform up = { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 0 } };
     REQUIRE_CMP(sdfgi_instance_set_transform(t.gi, far, &up), ==, SDFGI_OK);
-    REQUIRE_TRUE(t.gi->volume.state.cascades.at[0].edit_count == 0 && t.gi->volume.state.cascades.at[1].edit_count > 0);
     gi_test_update(&t, 1);
+    const struct cascade *cascades = t.gi->frame.next.cascades.at;
+    REQUIRE_CMP((int)cascades[0].change.cause, ==, (int)CHANGE_NONE);
+    REQUIRE_CMP((int)cascades[1].change.cause, ==, (int)CHANGE_EDIT);
     REQUIRE_CMP(report_now(&t)->passes[PASS_PROBE_PLACE].dispatches, ==, 1u);
     REQUIRE_TRUE(ran(PASS_VOXELIZE));
     gi_test_converge(&t, 120);
@@ -251,6 +258,46 @@ static void moving_an_instance_generates_the_cascades_it_touches(void **state)
     REQUIRE_CMP(sdfgi_instance_set_transform(t.gi, far, &up), ==, SDFGI_OK);
     gi_test_update(&t, 1);
     REQUIRE_CMP(report_now(&t)->command_count, ==, 0u);
+    gi_test_close(&t);
+}
+
+/* Light cells that should be lit again have to wait, as the budget takes none of them: what calls for direct
+ * light does not make it run. */
+static void a_pass_that_has_to_wait_gives_no_reason_to_run(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    open_floor(&t, 1);
+    const struct sdfgi_light_desc sun = light_sun(-0.5f, -0.8f, 0, 5);
+    light_create(&t, &sun);
+    gi_test_update(&t, 2);
+    t.gi->volume.state.relight.budget = 0;
+    light_add_box(&t, (double[]){ -1, -2, -1 }, (double[]){ 1, 0, 1 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    gi_test_update(&t, 1);
+    report_now(&t);
+    REQUIRE_TRUE(ran(PASS_LIGHT_LIST) && ran(PASS_LIGHT_DIRECT));
+    require_reasons();
+    gi_test_update(&t, 1);
+    REQUIRE_TRUE(sdfgi_relight_is_due(&t.gi->volume.state.relight));
+    report_now(&t);
+    REQUIRE_TRUE(!ran(PASS_LIGHT_DIRECT));
+    require_reasons();
+    gi_test_close(&t);
+}
+
+/* A change is complete in the frame in which the light list grows: no ray stays, so none is forgotten. */
+static void a_pass_with_nothing_to_do_gives_no_reason_to_run(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    open_floor(&t, 1);
+    t.gi->volume.resources->extent.light_cells = 100;
+    gi_test_update(&t, 2);
+    REQUIRE_CMP(sdfgi_invalidate_box(t.gi, (double[]){ -1, -3, -1 }, (double[]){ 1, -2, 1 }), ==, SDFGI_OK);
+    gi_test_update(&t, 1);
+    report_now(&t);
+    REQUIRE_TRUE(t.gi->frame.situation.list_grew && ran(PASS_PROBE_SEED) && !ran(PASS_RAY_INVALIDATE));
+    require_reasons();
     gi_test_close(&t);
 }
 
@@ -368,6 +415,8 @@ int main(void)
         cmocka_unit_test(moving_a_light_relights_and_does_not_voxelize),
         cmocka_unit_test(changing_the_sky_traces_nothing_and_lights_nothing_directly),
         cmocka_unit_test(moving_an_instance_generates_the_cascades_it_touches),
+        cmocka_unit_test(a_pass_that_has_to_wait_gives_no_reason_to_run),
+        cmocka_unit_test(a_pass_with_nothing_to_do_gives_no_reason_to_run),
         cmocka_unit_test(deleting_an_occluder_removes_its_shadow_and_bounce),
         cmocka_unit_test(hard_53_no_light_remains_of_a_removed_lamp),
         cmocka_unit_test(removing_an_unused_bright_material_changes_no_light),

@@ -200,6 +200,7 @@ static void add_report(const struct journey *j, struct journey_row *row)
             printf("#   %s\n", lines[i]);
     }
     note_passes(&report);
+    journey_state_require_reasons(&report);
 }
 
 void journey_frame(struct journey *j, const double camera[static 3])

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Where a context keeps its state on the device: all that journeys know of the inside of the library. */
+ * Where a context keeps its state on the device, and why passes run: all that journeys know of the inside of
+ * the library. */
 #ifndef TEST_JOURNEY_STATE_H
 #define TEST_JOURNEY_STATE_H
 
@@ -19,5 +20,8 @@ struct journey_state {
 };
 
 void journey_state_find(const struct gi_test *t, struct journey_state *state);
+
+/* A pass that ran gives the reason of its row in the table, and one that did not gives another. */
+void journey_state_require_reasons(const struct sdfgi_report *report);
 
 #endif

@@ -14,8 +14,8 @@
 
 #include <stdio.h>
 
-/* A ring of 100 samples in 4 frames: journeys see several end. */
-static struct sdfgi_settings short_rings(uint32_t cascades)
+/* A cycle of 100 samples in 4 frames: journeys see several end. */
+static struct sdfgi_settings short_cycles(uint32_t cascades)
 {
     struct sdfgi_settings settings = light_settings(32, 0.25f);
     settings.cascades = cascades;
@@ -28,7 +28,7 @@ static void a_scene_built_from_nothing_is_as_recorded(void **state)
     (void)state;
     struct journey j;
     struct journey_poster poster;
-    struct sdfgi_settings settings = short_rings(3);
+    struct sdfgi_settings settings = short_cycles(3);
     settings.ray_count = 50;
     journey_open(&j, "build", &settings);
     scroll_world(&j.t, (double[]){ 0, 0, 0 }, 10);
@@ -45,7 +45,7 @@ static void a_walk_along_an_axis_is_as_recorded(void **state)
 {
     (void)state;
     struct journey j;
-    const struct sdfgi_settings settings = short_rings(3);
+    const struct sdfgi_settings settings = short_cycles(3);
     journey_open(&j, "walk", &settings);
     scroll_world(&j.t, (double[]){ 6, 0, -4 }, 12);
     double camera[3] = { 0.3, 0.2, -0.4 };
@@ -60,7 +60,7 @@ static void a_walk_with_other_methods_is_as_recorded(void **state)
 {
     (void)state;
     struct journey j;
-    struct sdfgi_settings settings = short_rings(2);
+    struct sdfgi_settings settings = short_cycles(2);
     settings.voxelizer = SDFGI_VOXELIZER_RASTER;
     settings.sdf_method = SDFGI_SDF_FLOOD;
     settings.visibility = SDFGI_VISIBILITY_PROBE_DEPTH;
@@ -79,7 +79,7 @@ static void a_flight_across_all_axes_is_as_recorded(void **state)
 {
     (void)state;
     struct journey j;
-    struct sdfgi_settings settings = short_rings(2);
+    struct sdfgi_settings settings = short_cycles(2);
     settings.resolution = 64;
     settings.min_cell_size_m = 0.2f;
     settings.ray_count = 5;
@@ -99,7 +99,7 @@ static void a_jump_far_away_and_back_is_as_recorded(void **state)
 {
     (void)state;
     struct journey j;
-    struct sdfgi_settings settings = short_rings(2);
+    struct sdfgi_settings settings = short_cycles(2);
     settings.use_occlusion = false;
     journey_open(&j, "teleport", &settings);
     scroll_world(&j.t, (double[]){ 0, 0, 0 }, 8);
@@ -153,7 +153,7 @@ static void edits_along_the_way_are_as_recorded(void **state)
 {
     (void)state;
     struct journey j;
-    const struct sdfgi_settings settings = short_rings(2);
+    const struct sdfgi_settings settings = short_cycles(2);
     journey_open(&j, "edits", &settings);
     scroll_world(&j.t, (double[]){ 4, 0, 0 }, 10);
     double camera[3] = { 0.3, 0.2, -0.4 };
@@ -218,8 +218,8 @@ static void change_settings(struct journey *j, const double camera[static 3], st
     journey_stay(j, camera, 2);
 }
 
-/* Off, and on again with another ring and without feedback: light settles, and the frames after that do
- * nothing. */
+/* Off, and on again with another sample cycle and without feedback: light settles, and the frames after that
+ * do nothing. */
 static void settle(struct journey *j, const double camera[static 3], struct sdfgi_settings *settings)
 {
     settings->enabled = false;
@@ -240,7 +240,7 @@ static void changes_of_light_and_sky_are_as_recorded(void **state)
 {
     (void)state;
     struct journey j;
-    struct sdfgi_settings settings = short_rings(2);
+    struct sdfgi_settings settings = short_cycles(2);
     journey_open(&j, "light", &settings);
     scroll_world(&j.t, (double[]){ 0, 0, 0 }, 8);
     const double camera[3] = { 0.3, 0.2, -0.4 };

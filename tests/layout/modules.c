@@ -6,11 +6,11 @@
 #include "sdfgi_shaders.h"
 
 /* All shaders of a row of the pass table. */
-#define MODULE(id, words)                { PASS_##id, #words, words, sizeof words, NULL },
-#define MODULES_COMPUTE(id, file)          MODULE(id, sdfgi_##file##_comp)
-#define MODULES_COMPUTE_TEXTURED(id, file) MODULES_COMPUTE(id, file) MODULE(id, sdfgi_##file##_textured_comp)
-#define MODULES_RASTER_TEXTURED(id, file) \
-    MODULE(id, sdfgi_##file##_vert) MODULE(id, sdfgi_##file##_frag) MODULE(id, sdfgi_##file##_textured_frag)
+#define MODULE(id, words)                  { PASS_##id, #words, sdfgi_##words, sizeof sdfgi_##words, NULL },
+#define MODULES_COMPUTE(id, file)          MODULE(id, file##_comp)
+#define MODULES_COMPUTE_TEXTURED(id, file) MODULES_COMPUTE(id, file) MODULE(id, file##_textured_comp)
+#define MODULES_RASTER_TEXTURED(id, file)                                                                    \
+    MODULE(id, file##_vert) MODULE(id, file##_frag) MODULE(id, file##_textured_frag)
 
 struct module modules[] = {
 #define ROW(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)              \

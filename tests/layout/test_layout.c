@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * The library's own compiled shaders place every shared struct and every resource where C does. */
-#include "context.h"
 #include "modules.h"
+#include "pass/resource_rows.h"
+#include "pass/work.h"
 #include "require.h"
+#include "shaders/shared/bindings.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -262,10 +264,8 @@ static void shaders_lay_out_every_shared_struct_as_c_does(void **state)
 
 /* ---- Bindings */
 
-#define SAME_BINDING(id, category, size, lifetime)                                                           \
-    _Static_assert((int)RESOURCE_##id == SDFGI_BINDING_##id, "bindings.h follows the resource table: " #id);
-SDFGI_BUFFERS(SAME_BINDING)
-#undef SAME_BINDING
+_Static_assert((int)RESOURCE_SET_LOOKUP == SDFGI_SET_LOOKUP && (int)RESOURCE_SET_WORK == SDFGI_SET_WORK,
+               "resources are bound in the sets that their rows name");
 
 /* Block of a buffer of the resource table, sdfgi_<id>_buffer; the table's names are "sdfgi <ID>". */
 static void block_name(int resource, char name[static 64])
@@ -275,27 +275,33 @@ static void block_name(int resource, char name[static 64])
         *c = *c == ' ' ? '_' : (char)tolower((unsigned char)*c);
 }
 
-/* What the binding of a resource has to be. */
-static uint32_t table_binding(const struct module *module, const struct module_resource *r)
+/* The resource that a block stands for; RESOURCE_COUNT: none. */
+static int resource_of(const struct module_resource *r)
 {
     char name[64];
     for (int i = 0; i < RESOURCE_COUNT; i++) {
         block_name(i, name);
         if (strcmp(r->block, name) == 0)
-            return (uint32_t)i;
+            return i;
     }
-    require_fail(__FILE__, __LINE__, "%s: %s is not in the resource table", module->name, r->block);
-    return 0;
+    return RESOURCE_COUNT;
 }
 
 static void check_binding(const struct module *module, const struct module_resource *r,
                           uint32_t seen[static RESOURCE_COUNT])
 {
-    const uint32_t binding = table_binding(module, r);
-    if (r->binding != binding)
-        require_fail(__FILE__, __LINE__, "%s: %s has binding %u, in the resource table %u", module->name,
-                     r->block, r->binding, binding);
-    seen[binding]++;
+    const int resource = resource_of(r);
+    if (resource == RESOURCE_COUNT && r->set != SDFGI_SET_LOOKUP && r->set != SDFGI_SET_WORK)
+        return;
+    if (resource == RESOURCE_COUNT)
+        require_fail(__FILE__, __LINE__, "%s: %s is not in the resource table", module->name, r->block);
+    const struct resource_row *row = sdfgi_resource_row((enum resource)resource);
+    if (r->set != (uint32_t)row->set || r->binding != row->binding)
+        require_fail(__FILE__, __LINE__, "%s: %s has set %u, binding %u, in the resource table %u, %u",
+                     module->name, r->block, r->set, r->binding, (unsigned)row->set, row->binding);
+    const bool uniform = row->kind == RESOURCE_KIND_UNIFORM;
+    REQUIRE_CMP(r->kind, ==, uniform ? SPVC_RESOURCE_TYPE_UNIFORM_BUFFER : SPVC_RESOURCE_TYPE_STORAGE_BUFFER);
+    seen[resource]++;
 }
 
 static void shaders_bind_every_resource_where_the_table_says(void **state)
@@ -306,12 +312,25 @@ static void shaders_bind_every_resource_where_the_table_says(void **state)
         struct module_resource resources[MODULE_RESOURCES_MAX];
         const size_t count = module_resources(&modules[i], resources);
         for (size_t k = 0; k < count; k++)
-            if (resources[k].set == 0)
-                check_binding(&modules[i], &resources[k], seen);
+            check_binding(&modules[i], &resources[k], seen);
     }
     for (int i = 0; i < RESOURCE_COUNT; i++)
         if (!seen[i])
-            require_fail(__FILE__, __LINE__, "binding %d: in no shader", i);
+            require_fail(__FILE__, __LINE__, "%s: in no shader", sdfgi_resource_row((enum resource)i)->name);
+}
+
+/* Bindings of a set are 0, 1, ... in the order of its rows: set layouts and pools count on it. */
+static void rows_of_a_set_stand_in_the_order_of_their_bindings(void **state)
+{
+    (void)state;
+    uint32_t count[RESOURCE_SET_COUNT] = { 0 };
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
+        const struct resource_row *row = sdfgi_resource_row((enum resource)i);
+        REQUIRE_CMP(row->binding, ==, count[row->set]);
+        count[row->set]++;
+    }
+    for (int i = 0; i < RESOURCE_SET_COUNT; i++)
+        REQUIRE_CMP(sdfgi_resource_set_size((enum resource_set)i), ==, count[i]);
 }
 
 /* ---- Push constants */
@@ -319,13 +338,15 @@ static void shaders_bind_every_resource_where_the_table_says(void **state)
 _Static_assert(sizeof(struct sdfgi_voxelize_args) <= 128, "Vulkan promises 128 bytes");
 _Static_assert(sizeof(struct sdfgi_gather_args) <= 128, "Vulkan promises 128 bytes");
 _Static_assert(sizeof(struct sdfgi_distance_prepare_args) <= 128, "Vulkan promises 128 bytes");
-_Static_assert(sizeof(struct sdfgi_region_args) <= sizeof(struct sdfgi_distance_prepare_args), "they share a layout");
+_Static_assert(sizeof(struct sdfgi_region_args) <= sizeof(struct sdfgi_distance_prepare_args),
+               "they share a layout");
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shaders_lay_out_every_shared_struct_as_c_does),
         cmocka_unit_test(shaders_bind_every_resource_where_the_table_says),
+        cmocka_unit_test(rows_of_a_set_stand_in_the_order_of_their_bindings),
     };
     return cmocka_run_group_tests_name("layout", tests, modules_open, modules_close);
 }

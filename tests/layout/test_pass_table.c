@@ -1,23 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * The rows of pass_table.h say of every pass what its shaders do: barriers follow from them. */
 #include "access.h"
-#include "context.h"
 #include "modules.h"
+#include "pass/pass_rows.h"
+#include "pass/resource_rows.h"
 #include "require.h"
+#include "shaders/shared/bindings.h"
 
 #include <stdlib.h>
-
-/* From the table itself: the library's functions would bring its own copies of the shaders along. */
-static const struct {
-    const char *name;
-    uint64_t reads, writes;
-} rows[PASS_COUNT] = {
-#define R(id)                                      RESOURCE_BIT(id)
-#define ROW(id, shader, unit, reads, writes, need) [PASS_##id] = { #shader, (reads) | R(FRAME), (writes) },
-    SDFGI_PASSES(ROW)
-#undef ROW
-#undef R
-};
 
 static bool is_vertex(const struct module *module)
 {
@@ -30,15 +20,25 @@ struct touches {
     uint8_t access[RESOURCE_COUNT]; /* ACCESS_* */
 };
 
+static enum resource resource_at(uint32_t set, uint32_t binding)
+{
+    for (int i = 0; i < RESOURCE_COUNT; i++) {
+        const struct resource_row *row = sdfgi_resource_row((enum resource)i);
+        if ((uint32_t)row->set == set && row->binding == binding)
+            return (enum resource)i;
+    }
+    require_fail(__FILE__, __LINE__, "set %u, binding %u: no resource is bound there", set, binding);
+    return RESOURCE_COUNT;
+}
+
 static void touch(struct touches *touches, const struct module *module,
                   const struct module_resource *resource, uint8_t access)
 {
-    const uint32_t id = resource->binding;
-    REQUIRE_CMP(id, <, (uint32_t)RESOURCE_COUNT);
+    const enum resource id = resource_at(resource->set, resource->binding);
     /* Only its length is asked for, or access.c lacks an instruction. */
     if (!access)
         require_fail(__FILE__, __LINE__, "%s: %s: named, but neither read nor written", module->name,
-                     sdfgi_resource_row((enum resource)id)->name);
+                     sdfgi_resource_row(id)->name);
     touches->access[id] |= access;
 }
 
@@ -48,15 +48,15 @@ static void add_touches(struct touches *touches, const struct module *module)
     const size_t count = module_active_resources(module, resources);
     uint8_t *access = access_by_id(module->code, module->size);
     for (size_t i = 0; i < count; i++)
-        if (resources[i].set == 0)
+        if (resources[i].set == SDFGI_SET_LOOKUP || resources[i].set == SDFGI_SET_WORK)
             touch(touches, module, &resources[i], access[resources[i].id]);
     free(access);
 }
 
 static uint8_t row_access(enum pass pass, int resource)
 {
-    return (uint8_t)((rows[pass].reads >> resource & 1 ? ACCESS_READ : 0) |
-                     (rows[pass].writes >> resource & 1 ? ACCESS_WRITE : 0));
+    return (uint8_t)((sdfgi_pass_row(pass)->reads >> resource & 1 ? ACCESS_READ : 0) |
+                     (sdfgi_pass_row(pass)->writes >> resource & 1 ? ACCESS_WRITE : 0));
 }
 
 /* A row need not repeat under reads what it writes; all else is exact. */
@@ -75,8 +75,9 @@ static int compare(const struct module *module, const struct touches *touches)
         const uint8_t row = row_access(module->pass, i), shader = touches->access[i];
         if (agree(row, shader))
             continue;
-        print_error("%s (%s): %s: by the table the pass %s, the shader %s\n", rows[module->pass].name,
-                    module->name, sdfgi_resource_row((enum resource)i)->name, verbs[row], verbs[shader]);
+        print_error("%s (%s): %s: by the table the pass %s, the shader %s\n",
+                    sdfgi_pass_row(module->pass)->name, module->name,
+                    sdfgi_resource_row((enum resource)i)->name, verbs[row], verbs[shader]);
         wrong++;
     }
     return wrong;
@@ -118,9 +119,9 @@ static void every_pass_has_a_shader_of_its_name(void **state)
     (void)state;
     for (int i = 0; i < PASS_COUNT; i++)
         if (!has_shader((enum pass)i))
-            require_fail(__FILE__, __LINE__, "%s: no shader", rows[i].name);
+            require_fail(__FILE__, __LINE__, "%s: no shader", sdfgi_pass_row((enum pass)i)->name);
     for (size_t i = 0; i < module_count; i++) {
-        const char *pass = rows[modules[i].pass].name;
+        const char *pass = sdfgi_pass_row(modules[i].pass)->name;
         if (strncmp(modules[i].name, pass, strlen(pass)) != 0)
             require_fail(__FILE__, __LINE__, "%s: is no shader of %s", modules[i].name, pass);
     }
@@ -145,7 +146,8 @@ static void workgroups_have_a_size_without_specialization(void **state)
     }
 }
 
-static void push_constants_fit_everywhere(void **state)
+/* Vulkan promises 128 bytes. */
+static void push_constants_are_the_arguments_of_the_row_and_fit_everywhere(void **state)
 {
     (void)state;
     for (size_t i = 0; i < module_count; i++) {
@@ -156,9 +158,27 @@ static void push_constants_fit_everywhere(void **state)
             REQUIRE_CMP(spvc_compiler_get_declared_struct_size(
                             spirv, spvc_compiler_get_type_handle(spirv, type), &size),
                         ==, SPVC_SUCCESS);
-        /* Vulkan promises 128 bytes. */
-        if (size > 128)
-            require_fail(__FILE__, __LINE__, "%s: %zu bytes of push constants", modules[i].name, size);
+        if (size > 128 || size != sdfgi_pass_row(modules[i].pass)->args_size)
+            require_fail(__FILE__, __LINE__, "%s: %zu bytes of push constants, in the table %u",
+                         modules[i].name, size, sdfgi_pass_row(modules[i].pass)->args_size);
+    }
+}
+
+/* Beside LOOKUP and WORK: MESH with or without MATERIAL, or VIEW, or nothing. */
+static void shaders_bind_the_set_of_the_row(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < module_count; i++) {
+        const enum pass_set set = sdfgi_pass_row(modules[i].pass)->set;
+        const uint32_t last = set == PASS_SET_MESH   ? SDFGI_SET_MATERIAL
+                              : set == PASS_SET_VIEW ? SDFGI_SET_VIEW
+                                                     : SDFGI_SET_WORK;
+        struct module_resource resources[MODULE_RESOURCES_MAX];
+        const size_t count = module_resources(&modules[i], resources);
+        for (size_t k = 0; k < count; k++)
+            if (resources[k].set > last)
+                require_fail(__FILE__, __LINE__, "%s: %s is in set %u, by the table the last is %u",
+                             modules[i].name, resources[k].block, resources[k].set, last);
     }
 }
 
@@ -168,7 +188,8 @@ int main(void)
         cmocka_unit_test(every_row_names_what_its_shaders_read_and_write),
         cmocka_unit_test(every_pass_has_a_shader_of_its_name),
         cmocka_unit_test(workgroups_have_a_size_without_specialization),
-        cmocka_unit_test(push_constants_fit_everywhere),
+        cmocka_unit_test(push_constants_are_the_arguments_of_the_row_and_fit_everywhere),
+        cmocka_unit_test(shaders_bind_the_set_of_the_row),
     };
     return cmocka_run_group_tests_name("pass_table", tests, modules_open, modules_close);
 }

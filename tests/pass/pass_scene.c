@@ -85,6 +85,35 @@ struct pass_distance_error pass_distance_error(struct gi_test *t, double y_scale
     return e;
 }
 
+struct recording {
+    struct sdfgi *gi;
+    const struct work_list *list;
+};
+
+static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct recording *recording = user;
+    struct sdfgi *gi = recording->gi;
+    static struct pass_recorder recorder;
+    sdfgi_pass_recorder_begin(&recorder, &gi->backend, gi->volume.resources, cmd);
+    gpu_timer_begin_frame(&gi->volume.resources->timer, 0);
+    for (uint32_t i = 0; i < recording->list->count; i++) {
+        const struct work *work = &recording->list->items[i];
+        if (work->kind == WORK_CLEAR)
+            sdfgi_pass_record_clear(&recorder, work);
+        else
+            sdfgi_pass_record(&recorder, work);
+    }
+    sdfgi_pass_recorder_end(&recorder);
+}
+
+void pass_scene_run(struct gi_test *t, const struct work_list *list)
+{
+    struct recording recording = { t->gi, list };
+    gpu_test_submit(&t->gpu, record_list, &recording);
+}
+
 uint64_t pass_health_count(const struct gi_test *t, enum sdfgi_message code)
 {
     static struct sdfgi_report report;

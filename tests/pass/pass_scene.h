@@ -34,6 +34,9 @@ struct pass_distance_error {
 
 struct pass_distance_error pass_distance_error(struct gi_test *t, double y_scale);
 
+/* Records a list of work and runs it, beside the frames of the context. */
+void pass_scene_run(struct gi_test *t, const struct work_list *list);
+
 /* Number that the report gives for a health code; 0 if it is not in there. */
 uint64_t pass_health_count(const struct gi_test *t, enum sdfgi_message code);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Distances made in parts, after scrolls and edits, are those made as a whole, and only what a change reaches
  * is searched. Bits are written straight into the volume: what matters here is nothing but bits. */
+#include "frame/frame_work.h"
 #include "oracle_edt.h"
 #include "pass_scene.h"
 #include "require.h"
@@ -15,7 +16,7 @@ enum { N = 64, BLOCKS = N / 4, CELLS = N * N * N, MAX_EDITS = 20, ONE_BIT = 100 
 /* As stored. */
 enum { FARTHEST = SDFGI_DISTANCE_REACH * 32768 / N };
 
-/* A world of bits without end, and the window of it that the cascade covers. */
+/* A world of bits without end, and the part of it that the cascade covers. */
 struct world {
     int64_t origin[3];
     struct {
@@ -42,8 +43,9 @@ static uint64_t hash_at(int64_t x, int64_t y, int64_t z, uint64_t seed)
 /* Empty and sparse regions, 16 cells wide, and one in eight that is full of dust. */
 static uint64_t random_cell(int64_t x, int64_t y, int64_t z, uint32_t seed)
 {
-    const uint64_t kind =
-        hash_at(sdfgi_floor_div(x, 16), sdfgi_floor_div(y, 16), sdfgi_floor_div(z, 16), seed + UINT64_C(1000)) % 8;
+    const uint64_t kind = hash_at(sdfgi_floor_div(x, 16), sdfgi_floor_div(y, 16), sdfgi_floor_div(z, 16),
+                                  seed + UINT64_C(1000)) %
+                          8;
     const uint64_t cell = hash_at(x, y, z, seed), bits = hash(cell);
     if (kind < 4)
         return 0;
@@ -93,8 +95,8 @@ static void fill_buffer(struct gi_test *t, enum resource resource, uint8_t value
     free(data);
 }
 
-/* Where the window is stored, as upload.c has it. */
-static void write_window(struct gi_test *t, const struct world *w)
+/* Where cells are stored, as volume/params.c has it. */
+static void write_cells(struct gi_test *t, const struct world *w)
 {
     ivec3 *wrap = &t->gi->volume.state.params.cascades[0].wrap;
     *wrap = (ivec3){ (int32_t)sdfgi_floor_mod(w->origin[0], N), (int32_t)sdfgi_floor_mod(w->origin[1], N),
@@ -121,32 +123,44 @@ static void write_content(struct gi_test *t, const struct cell_box *changed, uin
     write_buffer(t, RESOURCE_BOUNDS, words, sizeof words);
 }
 
-struct recording {
-    struct gi_test *t;
-    struct distance_part part;
+/* A part of a change: layers of blocks along x. Without boxes all is dirty. */
+struct part {
+    uint32_t first, count;
+    const struct cell_box *changed;
+    uint32_t changed_count;
 };
 
-static void record_part(VkCommandBuffer cmd, uint32_t index, void *user)
+static void plan_part(const struct part *part, struct frame *frame)
 {
-    (void)index;
-    const struct recording *r = user;
-    struct frame frame = { .gi = r->t->gi };
-    gpu_recorder_begin(&frame.rec, &frame.gi->backend.device, cmd);
-    gpu_timer_begin_frame(&frame.gi->volume.resources->timer, 0);
-    distance_field_record(&frame, 0, &r->part);
-    gpu_recorder_end(&frame.rec);
+    static const struct frame_input input;
+    const struct situation_needs needs = { .holds = { [NEED_EXACT] = true } };
+    struct cascades *cascades = &frame->next.cascades;
+    memset(frame, 0, sizeof *frame);
+    cascades->count = 1;
+    cascades->resolution = N;
+    struct change *change = &cascades->at[0].change;
+    change->count = part->changed_count;
+    if (part->changed_count > 0) {
+        memcpy(change->boxes, part->changed, part->changed_count * sizeof *part->changed);
+        change->kept = sdfgi_cell_box_whole(N);
+    }
+    frame->scroll.piece_count = 1;
+    frame->scroll.pieces[0] =
+        (struct scroll_piece){ .kind = PIECE_DISTANCES, .first = part->first, .count = part->count };
+    sdfgi_stage_generate(&(struct plan_stage){ frame, &input, &needs });
 }
 
-static void make_part(struct gi_test *t, struct distance_part part)
+static void make_part(struct gi_test *t, struct part part)
 {
-    struct recording r = { t, part };
+    static struct frame frame;
+    plan_part(&part, &frame);
     fill_buffer(t, RESOURCE_SCRATCH, 0xa5);
-    gpu_test_submit(&t->gpu, record_part, &r);
+    pass_scene_run(t, &frame.work);
 }
 
 static void make_whole(struct gi_test *t)
 {
-    make_part(t, (struct distance_part){ .count = BLOCKS });
+    make_part(t, (struct part){ .count = BLOCKS });
 }
 
 /* In parts of so many layers of blocks, each in a submission of its own. Returns how many cells were
@@ -158,7 +172,7 @@ static uint32_t make_parts(struct gi_test *t, const struct cell_box *changed, ui
     fill_buffer(t, RESOURCE_COUNTERS, 0);
     write_content(t, changed, dirty_count);
     for (uint32_t i = 0; i < 3; first += layers[i++])
-        make_part(t, (struct distance_part){ first, layers[i], changed, dirty_count });
+        make_part(t, (struct part){ first, layers[i], changed, dirty_count });
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
     const uint32_t searched = counters[SDFGI_COUNTER_DISTANCE_CELLS];
     free(counters);
@@ -209,9 +223,9 @@ static void every_stored_bit_is_the_oracles(void **state)
     for (int scale = 0; scale < 3; scale++) {
         open_world(&t, (enum sdfgi_y_scale)scale);
         const struct world w = { .origin = { 24, -40, 8 } };
-        write_window(&t, &w);
+        write_cells(&t, &w);
         make_whole(&t);
-        require_exact(&t, y_scale_factor((enum sdfgi_y_scale)scale));
+        require_exact(&t, sdfgi_settings_y_scale(&t.gi->settings));
         gi_test_close(&t);
     }
 }
@@ -235,7 +249,7 @@ static void spoil_changed(struct gi_test *t, const struct cell_box *changed, uin
     free(stored);
 }
 
-/* Moves the window and names what went and what came, as boxes of the new window. */
+/* Moves the cascade and names what went and what came, as boxes of its new place. */
 static uint32_t scroll(struct world *w, const int32_t by[3], struct cell_box *changed)
 {
     uint32_t count = 0;
@@ -248,7 +262,7 @@ static uint32_t scroll(struct world *w, const int32_t by[3], struct cell_box *ch
         came.high[i] = by[i] > 0 ? N : -by[i];
         went.low[i] = by[i] > 0 ? -by[i] : N;
         went.high[i] = by[i] > 0 ? 0 : N - by[i];
-        for (int k = 0; k < 3; k++) /* what went was a box of the old window */
+        for (int k = 0; k < 3; k++) /* what went was a box of the old place */
             if (k != i) {
                 went.low[k] -= by[k];
                 went.high[k] -= by[k];
@@ -276,7 +290,7 @@ static struct cell_box edit(struct world *w, const int32_t low[3], const int32_t
 static void require_parts_equal_whole(struct gi_test *t, const struct world *w,
                                       const struct cell_box *changed, uint32_t count, const char *what)
 {
-    write_window(t, w);
+    write_cells(t, w);
     spoil_changed(t, changed, count);
     const uint32_t searched = make_parts(t, changed, count);
     uint16_t *parts = read_distances(t);
@@ -337,7 +351,7 @@ static void scrolls_and_edits_in_parts_equal_a_fresh_search(void **state)
     for (int scale = 0; scale < 3; scale++) {
         open_world(&t, (enum sdfgi_y_scale)scale);
         struct world w = { .origin = { 0, 0, 0 } };
-        write_window(&t, &w);
+        write_cells(&t, &w);
         make_whole(&t);
         play(&t, &w);
         gi_test_close(&t);
@@ -376,7 +390,7 @@ static void blocks_that_no_change_reaches_are_left_alone(void **state)
     static struct gi_test t;
     open_world(&t, SDFGI_Y_SCALE_100);
     const struct world w = { .origin = { 0, 0, 0 } };
-    write_window(&t, &w);
+    write_cells(&t, &w);
     fill_with_dust(&t);
     make_whole(&t);
     uint16_t *before = read_distances(&t);
@@ -399,21 +413,33 @@ static void blocks_that_no_change_reaches_are_left_alone(void **state)
     gi_test_close(&t);
 }
 
-static void without_a_change_nothing_is_searched(void **state)
+static void a_box_without_cells_reaches_nothing(void **state)
 {
     (void)state;
     static struct gi_test t;
     open_world(&t, SDFGI_Y_SCALE_75);
     const struct world w = { .origin = { 8, 0, 0 } };
-    write_window(&t, &w);
+    write_cells(&t, &w);
     make_whole(&t);
     uint16_t *before = read_distances(&t);
-    const struct cell_box empty = { { 3, 3, 3 }, { 3, 9, 9 } };
-    REQUIRE_CMP(make_parts(&t, &empty, 1), ==, 0u);
+    const struct cell_box changed[2] = { { { 3, 3, 3 }, { 3, 9, 9 } }, small_box };
+    const uint32_t searched = make_parts(&t, &changed[1], 1);
+    REQUIRE_CMP(searched, >, 0u);
+    REQUIRE_CMP(make_parts(&t, changed, 2), ==, searched);
     uint16_t *after = read_distances(&t);
     REQUIRE_BYTES((const uint8_t *)after, (const uint8_t *)before, CELLS * sizeof *before);
     free(before);
     free(after);
+    gi_test_close(&t);
+}
+
+static void where_nothing_is_kept_all_is_searched(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    open_world(&t, SDFGI_Y_SCALE_75);
+    const struct world w = { .origin = { 8, 0, 0 } };
+    write_cells(&t, &w);
     REQUIRE_CMP(make_parts(&t, NULL, 0), ==, (uint32_t)CELLS);
     gi_test_close(&t);
 }
@@ -426,7 +452,8 @@ int main(void)
         cmocka_unit_test(every_stored_bit_is_the_oracles),
         cmocka_unit_test(scrolls_and_edits_in_parts_equal_a_fresh_search),
         cmocka_unit_test(blocks_that_no_change_reaches_are_left_alone),
-        cmocka_unit_test(without_a_change_nothing_is_searched),
+        cmocka_unit_test(a_box_without_cells_reaches_nothing),
+        cmocka_unit_test(where_nothing_is_kept_all_is_searched),
     };
     return cmocka_run_group_tests_name("distance_parts", tests, NULL, NULL);
 }

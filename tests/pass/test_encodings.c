@@ -218,8 +218,8 @@ static double stored_channel(const struct light_trip *t)
                          : 0;
 }
 
-/* Hashed rounding moves a channel by at most one step, 1/255 of the largest where that is just above a power of two,
- * and a weight by one step, 1/31 of the brightest; both up or down. */
+/* Hashed rounding moves a channel by at most one step, 1/255 of the largest where that is just above a power
+ * of two, and a weight by one step, 1/31 of the brightest; both up or down. */
 static void require_light(const struct light_trip *t, bool uniform)
 {
     double brightest = 0;

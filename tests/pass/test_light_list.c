@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The list of light cells against one made here from the solid bits: which cells, in which order, and what
  * becomes of the light they had. */
+#include "frame/frame_work.h"
 #include "pass_scene.h"
 #include "require.h"
 #include "test_memory.h"
@@ -102,19 +103,24 @@ static void the_list_is_complete_and_in_the_order_of_blocks(void **state)
 
 /* ---- Listed again: what each cell held decides what it holds afterwards */
 
-static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
+/* As when the list was lost: all of it is made again, of what the volumes hold. Without light from the
+ * probes, which would take the place of what cells held. */
+static void list_again(struct gi_test *t)
 {
-    (void)index;
-    struct gi_test *t = user;
-    struct frame frame = { .gi = t->gi, .slot = 0 };
-    gpu_recorder_begin(&frame.rec, &t->gi->backend.device, cmd);
-    gpu_timer_begin_frame(&t->gi->volume.resources->timer, 0);
-    sdfgi_work_has(&t->gi->frame.work, PASS_LIGHT_BOUNCE) = false;
-    light_cache_clear_record(&frame);
-    light_cache_mark_record(&frame, 0);
-    light_cache_list_record(&frame, 0);
-    light_cache_renew_record(&frame, 0);
-    gpu_recorder_end(&frame.rec);
+    static struct frame frame;
+    const struct frame_input input = { .extent = t->gi->volume.resources->extent,
+                                       .counters = t->gi->volume.feedback.counters,
+                                       .threads_per_ray = 1 };
+    const struct situation_needs needs = {
+        .holds = { [NEED_LIST] = true, [NEED_MASKS] = true, [NEED_DIRECT] = true }
+    };
+    memset(&frame, 0, sizeof frame);
+    frame.next = t->gi->volume.state;
+    frame.situation.list_grew = true;
+    sdfgi_stage_complete(&(struct plan_stage){ &frame, &input, &needs });
+    REQUIRE_TRUE(sdfgi_work_has(&frame.work, PASS_LIGHT_LIST) &&
+                 !sdfgi_work_has(&frame.work, PASS_LIGHT_BOUNCE));
+    pass_scene_run(t, &frame.work);
 }
 
 struct held {
@@ -132,9 +138,9 @@ static void fill_light(struct held light[static CELLS])
 
 static void list_over(struct gi_test *t, const struct held light[static CELLS])
 {
-    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[RESOURCE_LIGHT].handle, 0, sizeof *light * CELLS,
-                          light);
-    gpu_test_submit(&t->gpu, record_list, t);
+    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[RESOURCE_LIGHT].handle, 0,
+                          sizeof *light * CELLS, light);
+    list_again(t);
 }
 
 static void require_light(struct gi_test *t, const struct held before[static CELLS], const uint32_t *list,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Where cascades are placed, without a device (HARD_CASES rows 22, 24 and 25). */
-#include "context.h"
 #include "require.h"
 #include "test_memory.h"
+#include "volume/change.h"
 
 static struct cascade cascade_of(double cell_size)
 {
@@ -207,6 +207,25 @@ static void boxes_cover_their_cells(void **state)
     REQUIRE_TRUE(!sdfgi_box_overlaps(&box, &apart) && !sdfgi_box_overlaps(&apart, &box));
 }
 
+/* An edit was noted, and then the cascade moved away from it. */
+static void an_edit_without_a_cell_begins_no_change(void **state)
+{
+    (void)state;
+    const struct box edit = { { -1, -1, -1 }, { 1, 1, 1 } };
+    for (int away = 0; away < 2; away++) {
+        struct cascade c = cascade_of(0.25);
+        place(&c, 0, 0, 0);
+        c.place = CASCADE_CURRENT;
+        c.valid = sdfgi_cell_box_whole(64);
+        REQUIRE_TRUE(sdfgi_cascade_add_edit(&c, 64, &edit));
+        c.origin[0] += 64 * away;
+        sdfgi_change_begin_edit(&c, 64);
+        REQUIRE_CMP((int)c.change.cause, ==, (int)(away ? CHANGE_NONE : CHANGE_EDIT));
+        REQUIRE_CMP(c.edit_count, ==, 0u);
+        REQUIRE_CMP(sdfgi_cell_box_cells(&c.valid), ==, 64ul * 64 * 64);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +240,7 @@ int main(void)
         cmocka_unit_test(cameras_beyond_all_cells_do_not_overflow),
         cmocka_unit_test(hard_25_negative_places_mirror_positive_ones_by_whole_spacings),
         cmocka_unit_test(boxes_cover_their_cells),
+        cmocka_unit_test(an_edit_without_a_cell_begins_no_change),
     };
     return cmocka_run_group_tests_name("placement", tests, NULL, NULL);
 }

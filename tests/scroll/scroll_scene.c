@@ -103,7 +103,8 @@ uint32_t scroll_settle(struct gi_test *t)
 {
     for (uint32_t frames = 1; frames <= 400; frames++) {
         gi_test_update(t, 1);
-        if (sdfgi_cascades_rest(&t->gi->volume.state.cascades) && !sdfgi_relight_is_due(&t->gi->volume.state.relight))
+        if (sdfgi_cascades_rest(&t->gi->volume.state.cascades) &&
+            !sdfgi_relight_is_due(&t->gi->volume.state.relight))
             return frames;
     }
     require_fail(__FILE__, __LINE__, "cascades are still at work after 400 frames");
@@ -122,8 +123,8 @@ static void require_same_bytes(struct gi_test *a, struct gi_test *b, enum resour
         }
     if (differ)
         require_fail(__FILE__, __LINE__, "%s: %s: %llu of %llu bytes differ, first at %llu: %#x and %#x",
-                     what, sdfgi_resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)size,
-                     (unsigned long long)first, x[first], y[first]);
+                     what, sdfgi_resource_row(resource)->name, (unsigned long long)differ,
+                     (unsigned long long)size, (unsigned long long)first, x[first], y[first]);
     free(x);
     free(y);
 }
@@ -141,8 +142,8 @@ static void require_same_words(struct gi_test *a, struct gi_test *b, enum resour
         }
     if (differ)
         require_fail(__FILE__, __LINE__, "%s: %s: %llu elements differ, first %llu: %#x and %#x", what,
-                     sdfgi_resource_row(resource)->name, (unsigned long long)differ, (unsigned long long)first,
-                     x[first * stride + word], y[first * stride + word]);
+                     sdfgi_resource_row(resource)->name, (unsigned long long)differ,
+                     (unsigned long long)first, x[first * stride + word], y[first * stride + word]);
     free(x);
     free(y);
 }
@@ -190,7 +191,8 @@ static void require_same_depths(struct gi_test *a, struct gi_test *b, const char
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what)
 {
     for (uint32_t c = 0; c < walked->gi->settings.cascades; c++)
-        REQUIRE_BYTES(walked->gi->volume.state.cascades.at[c].origin, fresh->gi->volume.state.cascades.at[c].origin,
+        REQUIRE_BYTES(walked->gi->volume.state.cascades.at[c].origin,
+                      fresh->gi->volume.state.cascades.at[c].origin,
                       sizeof walked->gi->volume.state.cascades.at[c].origin);
     static const enum resource whole[] = { RESOURCE_BITS, RESOURCE_DISTANCE, RESOURCE_ALBEDO,
                                            RESOURCE_EMISSION, RESOURCE_NORMALS };

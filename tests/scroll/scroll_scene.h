@@ -22,14 +22,15 @@ void scroll_colored_box(struct gi_test *t, const double center[static 3], double
 
 /* Moves the camera; the host's origin stays, so that lights are rounded alike. */
 void scroll_stand(struct gi_test *t, const double position[static 3]);
-/* Cascades of a context that was never updated begin where those of `walked` are: within their hysteresis,
- * the way decides which place they take. */
+/* All cascades are made anew, where those of `walked` are: within their hysteresis, the way decides which
+ * place they take. */
 void scroll_place_as(struct gi_test *fresh, const struct gi_test *walked);
 /* Updates until nothing is left to do for cascades; returns after how many frames. */
 uint32_t scroll_settle(struct gi_test *t);
 
 /* What cascades hold, light aside: bits, distances, albedo, emission, normals, masks, where probes stand,
- * which cells are light cells, their list with direct light, and, where there are any, depths around probes. */
+ * which cells are light cells, their list with direct light, and, where there are any, depths around probes.
+ */
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what);
 
 #endif

@@ -172,18 +172,18 @@ static double walk_behind_border(struct walk *w, double step_m)
 {
     w->worst_step = 0;
     for (int i = 0; i < 30; i++) {
-        const bool settled = w->t.gi->converged;
+        const bool settled = w->t.gi->volume.state.accumulation.phase == LIGHTING_CONVERGED;
         walk_steps(w, 1, step_m);
         w->worst_step = settled ? w->worst_step : 0;
         struct sdfgi_report report;
         sdfgi_get_report(w->t.gi, &report);
         REQUIRE_TRUE(!report.converged && report.converged_fraction < 1);
-        REQUIRE_TRUE(!settled || !w->t.work_has(&t->gi->frame.work, PASS_PROBE_TRACE));
+        REQUIRE_TRUE(!settled || !sdfgi_work_has(&w->t.gi->frame.work, PASS_PROBE_TRACE));
     }
     return w->worst_step;
 }
 
-/* What rings find while they are not complete is no more to be seen than how the border moves. */
+/* What sample cycles find while they are not complete is no more to be seen than how the border moves. */
 static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state)
 {
     (void)state;

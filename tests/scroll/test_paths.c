@@ -4,7 +4,7 @@
  *
  *     test_scroll_paths walk.json flight.json */
 #include "require.h"
-#include "schedule_drive.h"
+#include "scroll_drive.h"
 #include "walk/walk_path.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static void along(const void *user, uint32_t i, double camera[static 3])
 
 /* From a place where everything is there to the end of the way. The first second, in which cascades have yet
  * to start stepping, is not counted. */
-static struct journey travel(const char *file, double speed_m_s)
+static struct trip travel(const char *file, double speed_m_s)
 {
     struct walk_path path;
     char error[256];
@@ -33,12 +33,12 @@ static struct journey travel(const char *file, double speed_m_s)
     REQUIRE_NEAR(path.speed_m_s, speed_m_s, 0);
     struct sdfgi_settings defaults;
     sdfgi_settings_default(&defaults);
-    struct sdfgi *gi = schedule_drive_begin(defaults.max_scroll_cells);
+    struct scroll_drive drive = scroll_drive_begin(defaults.resolution, defaults.max_scroll_cells);
     along(&path, 0, camera);
-    schedule_drive_frame(gi, camera);
+    scroll_drive_frame(&drive, camera);
     const uint32_t frames = (uint32_t)(path.length_m / speed_m_s * FRAMES_PER_SECOND);
-    const struct journey j =
-        schedule_drive_journey(gi, file, FRAMES_PER_SECOND, frames - FRAMES_PER_SECOND, along, &path);
+    const struct trip j =
+        scroll_drive_trip(&drive, file, FRAMES_PER_SECOND, frames - FRAMES_PER_SECOND, along, &path);
     REQUIRE_CMP(j.most, <=, (uint64_t)defaults.max_scroll_cells);
     walk_path_finish(&path);
     return j;
@@ -47,7 +47,7 @@ static struct journey travel(const char *file, double speed_m_s)
 static void a_walk_through_the_world_costs_the_same_in_every_frame(void **state)
 {
     (void)state;
-    const struct journey j = travel(walk_file, 5);
+    const struct trip j = travel(walk_file, 5);
     REQUIRE_CMP((double)j.p99, <=, 1.2 * (double)j.median);
     REQUIRE_CMP(j.apart, >=, 4u);
     for (int c = 0; c < 4; c++)
@@ -58,7 +58,7 @@ static void a_walk_through_the_world_costs_the_same_in_every_frame(void **state)
 static void a_flight_over_the_world_costs_the_same_in_every_frame(void **state)
 {
     (void)state;
-    const struct journey j = travel(flight_file, 100);
+    const struct trip j = travel(flight_file, 100);
     REQUIRE_CMP((double)j.p99, <=, 1.2 * (double)j.median);
     for (int c = 1; c < 4; c++)
         REQUIRE_CMP(j.covered[c], ==, j.frames);
@@ -70,7 +70,7 @@ static double cells_read(const struct cascade *cascade, const double camera[stat
     double least = INFINITY;
     for (int i = 0; i < 3; i++) {
         const double at = camera[i] / cascade->cell_size[i] - (double)cascade->origin[i];
-        least = fmin(least, fmin(at - cascade->share_low[i], cascade->share_high[i] - at));
+        least = fmin(least, fmin(at - cascade->blend_low[i], cascade->blend_high[i] - at));
     }
     return least;
 }
@@ -84,14 +84,12 @@ static void jumps_along_the_walk_read_all_cascades(void **state)
     char error[256];
     double camera[3], least[4] = { INFINITY, INFINITY, INFINITY, INFINITY };
     REQUIRE_TRUE(walk_path_load(walk_file, &path, error, sizeof error));
-    struct sdfgi *gi = schedule_drive_begin(4194304);
-    gi->settings.resolution = 32;
+    struct scroll_drive drive = scroll_drive_begin(32, 4194304);
     for (uint32_t i = 0; i < (uint32_t)(path.length_m / 5); i++) {
         along(&path, i * FRAMES_PER_SECOND, camera);
-        schedule_drive_frame(gi, camera);
-        for (uint32_t c = 0; c < 4; c++) {
-            least[c] = fmin(least[c], cells_read(&gi->volume.state.cascades.at[c], camera));
-        }
+        scroll_drive_frame(&drive, camera);
+        for (uint32_t c = 0; c < 4; c++)
+            least[c] = fmin(least[c], cells_read(&drive.cascades.at[c], camera));
     }
     printf("one frame a second, 32 cells: at least %.1f %.1f %.1f %.1f cells are read around the camera\n",
            least[0], least[1], least[2], least[3]);

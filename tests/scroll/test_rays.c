@@ -26,7 +26,7 @@ static void open_at(struct gi_test *t, const double position[static 3])
     scroll_stand(t, position);
 }
 
-/* Until cascades are complete and every ray of the ring is remembered. */
+/* Until cascades are complete and every ray of the cycle is remembered. */
 static void trace_all(struct gi_test *t)
 {
     scroll_settle(t);
@@ -47,8 +47,8 @@ static struct comparison compare_rays(struct gi_test *walked, struct gi_test *fr
              *probes = gi_test_read(fresh, RESOURCE_PROBES, NULL);
     const struct extent *e = &fresh->gi->volume.resources->extent;
     struct comparison result = { 0 };
-    for (uint64_t i = 0; i < e->probes * e->cascades * e->ring_samples; i++) {
-        if (probes[i / e->ring_samples] & SDFGI_PROBE_DEAD)
+    for (uint64_t i = 0; i < e->probes * e->cascades * e->cycle_samples; i++) {
+        if (probes[i / e->cycle_samples] & SDFGI_PROBE_DEAD)
             continue;
         REQUIRE_CMP(a[i], !=, SDFGI_RAY_UNKNOWN);
         result.rays++;
@@ -141,7 +141,7 @@ static void rays_through_new_air_are_remembered(void **state)
     trace_all(&t);
     const uint64_t traced = traced_after(&t, (double[]){ 3, 0, 0 });
     const struct extent *e = &t.gi->volume.resources->extent;
-    const uint64_t rays = e->probes * e->cascades * e->ring_samples;
+    const uint64_t rays = e->probes * e->cascades * e->cycle_samples;
     printf("a step over a plain: %llu of %llu rays traced again\n", (unsigned long long)traced,
            (unsigned long long)rays);
     REQUIRE_CMP(traced, >, rays / e->probes_per_side / 2); /* those of new probes in one cascade at least */

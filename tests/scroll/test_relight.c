@@ -82,7 +82,7 @@ static void step_until_complete(struct gi_test *t, const double to[static 3])
     scroll_stand(t, to);
     for (uint32_t frames = 0; frames < 100; frames++) {
         gi_test_update(t, 1);
-        if (schedule_completes(t->gi, 0))
+        if (sdfgi_cascade_completes(&t->gi->frame.next.cascades.at[0]))
             return;
     }
     require_fail(__FILE__, __LINE__, "no step is complete after 100 frames");
@@ -144,7 +144,7 @@ static uint64_t renewed_work(const struct gi_test *t)
 {
     uint64_t cells = 0;
     for (uint32_t c = 0; c < t->gi->settings.cascades; c++)
-        if (schedule_completes(t->gi, c))
+        if (sdfgi_cascade_completes(&t->gi->frame.next.cascades.at[c]))
             cells += t->gi->volume.feedback.counters[SDFGI_COUNTER_LIGHT_DIRTY + c];
     return cells;
 }
@@ -168,18 +168,18 @@ static void a_walk_lights_cells_again_within_the_budget(void **state)
     t.gi->volume.state.relight.budget = BUDGET;
     uint32_t busy = 0, completed_on_the_way = 0, waited = 0, since_waited = 3;
     for (uint32_t frame = 0; frame < 60; frame++) {
-        const bool waiting = light_cache_relights(t.gi);
+        const bool waiting = sdfgi_relight_is_due(&t.gi->volume.state.relight);
         camera[0] += 0.3;
         scroll_stand(&t, camera);
         gi_test_update(&t, 1);
         const uint64_t again = t.gi->passes[PASS_LIGHT_DIRECT].tally.units - renewed_work(&t);
         REQUIRE_CMP(again, <=, (uint64_t)BUDGET);
-        REQUIRE_TRUE(sent_rays(&t) || schedule_has(t.gi, STEP_COMPLETE));
+        REQUIRE_TRUE(sent_rays(&t) || sdfgi_cascades_complete(&t.gi->frame.next.cascades));
         REQUIRE_TRUE(sent_rays(&t) || since_waited >= 3);
         waited += !sent_rays(&t);
         since_waited = sent_rays(&t) ? since_waited + 1 : 0;
         busy += again == BUDGET;
-        completed_on_the_way += waiting && schedule_has(t.gi, STEP_COMPLETE);
+        completed_on_the_way += waiting && sdfgi_cascades_complete(&t.gi->frame.next.cascades);
     }
     printf("%u of 60 frames lit as many cells as they may, %u completed a step meanwhile, %u sent no rays\n",
            busy, completed_on_the_way, waited);
@@ -214,7 +214,7 @@ static void changes_in_every_frame_keep_nobody_waiting(void **state)
             before[c] = t.gi->volume.state.relight.at[c].next;
         gi_test_update(&t, 1);
         REQUIRE_TRUE(sent_rays(&t));
-        completed += schedule_has(t.gi, STEP_COMPLETE);
+        completed += sdfgi_cascades_complete(&t.gi->frame.next.cascades);
         for (uint32_t c = 0; c < 2; c++)
             turns[c] += t.gi->volume.state.relight.at[c].next < before[c];
     }
@@ -255,7 +255,8 @@ static void a_change_while_cells_are_lit_again_starts_that_over(void **state)
     uint32_t count, end;
     do
         gi_test_update(&t, 1);
-    while (t.gi->volume.state.cascades.at[0].change.active || t.gi->volume.state.relight.at[0].next < 1500);
+    while (t.gi->volume.state.cascades.at[0].change.cause != CHANGE_NONE ||
+           t.gi->volume.state.relight.at[0].next < 1500);
     struct entry *before = read_list(&t, &count);
     REQUIRE_CMP(sdfgi_instance_destroy(t.gi, roof), ==, SDFGI_OK);
     scroll_settle(&t);

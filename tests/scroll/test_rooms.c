@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Rooms that a camera enters faster than rings end: their probes are new, and those of coarser cascades stand
- * outside under the sky. What the room settles at is shown from the first frames on. */
+ * Rooms that a camera enters faster than sample cycles end: their probes are new, and those of coarser
+ * cascades stand outside under the sky. What the room settles at is shown from the first frames on. */
 #include "light_scene.h"
 #include "require.h"
 #include "scroll_scene.h"

@@ -123,8 +123,9 @@ static void ten_thousand_operations_leave_no_trace(void **state)
         }
     }
     scroll_settle(&walked);
-    printf("%u steps, memory %llu bytes before and %llu after\n", (unsigned)walked.gi->volume.state.scroll.scrolls_begun,
-           (unsigned long long)before, (unsigned long long)held(&walked));
+    printf("%u steps, memory %llu bytes before and %llu after\n",
+           (unsigned)walked.gi->volume.state.scroll.scrolls_begun, (unsigned long long)before,
+           (unsigned long long)held(&walked));
     REQUIRE_CMP(held(&walked), ==, before);
     REQUIRE_CMP(walked.gi->volume.state.scroll.scrolls_begun, >, 5u);
 
@@ -142,7 +143,8 @@ static void ten_thousand_operations_leave_no_trace(void **state)
     gi_test_close(&walked);
 }
 
-/* Something static is deleted before a camera at rest: its shadow and its bounce go, in frames, not in rings.
+/* Something static is deleted before a camera at rest: its shadow and its bounce go, in frames, not in
+ * cycles.
  */
 static void a_deleted_instance_loses_its_shadow(void **state)
 {

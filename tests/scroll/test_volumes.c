@@ -223,8 +223,6 @@ static void hard_20_a_closed_loop_ends_where_it_began(void **state)
         walk_to(&t, way[i]);
     walk_to(&t, home);
     scroll_place_as(&start, &t);
-    for (uint32_t c = 0; c < settings.cascades; c++)
-        start.gi->volume.state.cascades.at[c].rebuild = true;
     scroll_settle(&start);
     scroll_require_equal(&t, &start, "loop");
     gi_test_close(&start);
@@ -278,7 +276,8 @@ static void only_depths_that_look_into_news_are_made_again(void **state)
              *expected = gi_test_read(&fresh, RESOURCE_OCCLUSION, NULL),
              *states = gi_test_read(&t, RESOURCE_PROBES, NULL);
     uint32_t probes = 0, whole = 0, texels = 0;
-    for (uint64_t probe = 0; probe < t.gi->volume.resources->extent.probes; probe++) { /* of the first cascade */
+    for (uint64_t probe = 0; probe < t.gi->volume.resources->extent.probes;
+         probe++) { /* of the first cascade */
         if (states[probe] & SDFGI_PROBE_DEAD)
             continue;
         uint32_t made = 0;

@@ -7,7 +7,7 @@
 
 #define PI 3.14159265358979323846
 
-/* Settles in few frames: a ring of 500 samples in 4 frames. */
+/* Settles in few frames: a cycle of 500 samples in 4 frames. */
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
 
 sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo, float emission);

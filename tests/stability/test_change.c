@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What is shown while rings are not complete: nothing where light stays, all of it soon where light changes
- * (PITFALLS: flicker, change). */
+ * What is shown while sample cycles are not complete: nothing where light stays, all of it soon where light
+ * changes (PITFALLS: flicker, change). */
 #include "light_scene.h"
 #include "require.h"
 
@@ -32,8 +32,8 @@ static void place_points(struct gi_test_point points[static POINTS])
     }
 }
 
-/* A box, red and green to the sides, open at the front, with a lamp; 25 rays a frame and 20 frames a ring, as
- * by default. */
+/* A box, red and green to the sides, open at the front, with a lamp; 25 rays a frame and 20 frames a cycle,
+ * as by default. */
 static void room_open(struct room *r, const struct sdfgi_light_desc *lamp)
 {
     struct sdfgi_settings settings = light_settings(32, 0.2f);
@@ -68,7 +68,7 @@ static void room_set_lamp(struct room *r, const struct sdfgi_light_desc *lamp)
     REQUIRE_CMP(sdfgi_light_update(r->t.gi, r->lamp, lamp), ==, SDFGI_OK);
 }
 
-/* Rings start over and over; their directions, and so what they find, are the same. */
+/* Cycles start over and over; their directions, and so what they find, are the same. */
 static void light_that_stays_is_shown_unchanged(void **state)
 {
     (void)state;
@@ -80,7 +80,7 @@ static void light_that_stays_is_shown_unchanged(void **state)
     for (int frame = 0; frame < 50; frame++) {
         float before[POINTS][3];
         memcpy(before, r.light, sizeof before);
-        light_disturb(r.t.gi);
+        sdfgi_accumulation_invalidate(&r.t.gi->volume.state.accumulation);
         gi_test_update(&r.t, 1);
         room_look(&r);
         for (int i = 0; i < 3 * POINTS; i++)

@@ -206,7 +206,7 @@ static void going_away_and_coming_back_restores_the_volumes(void **state)
     gi_test_close(&t);
 }
 
-/* The same ring in 4 frames of 125 rays and in 20 of 25: converged light differs by summing order alone. */
+/* The same cycle in 4 frames of 125 rays and in 20 of 25: converged light differs by summing order alone. */
 static void frame_slicing_does_not_change_converged_light(void **state)
 {
     (void)state;
@@ -226,7 +226,7 @@ static void frame_slicing_does_not_change_converged_light(void **state)
     }
     printf("in 4 frames (%.5f %.5f %.5f), in 20 (%.5f %.5f %.5f)\n", (double)found[0][0], (double)found[0][1],
            (double)found[0][2], (double)found[1][0], (double)found[1][1], (double)found[1][2]);
-    /* Both stop when a ring changes light by less than 1/512. */
+    /* Both stop when a cycle changes light by less than 1/512. */
     for (int k = 0; k < 3; k++)
         REQUIRE_NEAR((double)found[0][k] / (double)found[1][k], 1, 0.005);
 }

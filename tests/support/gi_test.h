@@ -54,7 +54,8 @@ uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uin
 /* Distances in cells, N^3, x fastest; the caller frees them. */
 float *gi_test_distances(struct gi_test *t, uint32_t cascade);
 
-/* Irradiance (W/m^2) by the host's lookup at points relative to the frame's origin, seen from 0.1 m in front of each. */
+/* Irradiance (W/m^2) by the host's lookup at points relative to the frame's origin, seen from 0.1 m in front
+ * of each. */
 struct gi_test_point {
     float position[3], normal[3];
 };
@@ -63,5 +64,9 @@ void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, u
 /* The same seen from one place. */
 void gi_test_irradiance_from(struct gi_test *t, const float *viewer, const struct gi_test_point *points,
                              uint32_t count, float (*irradiance)[3]);
+/* The same with a set of the library's, which may be that of a context without light; `viewer` may be NULL.
+ */
+void gi_test_lookup(struct gi_test *t, VkDescriptorSet set, const float *viewer,
+                    const struct gi_test_point *points, uint32_t count, float (*irradiance)[3]);
 
 #endif

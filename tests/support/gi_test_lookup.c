@@ -12,10 +12,9 @@
 
 enum { FLOATS_PER_POINT = 12 };
 
-void gi_test_irradiance_from(struct gi_test *t, const float *viewer, const struct gi_test_point *points,
-                             uint32_t count, float (*irradiance)[3])
+void gi_test_lookup(struct gi_test *t, VkDescriptorSet set, const float *viewer,
+                    const struct gi_test_point *points, uint32_t count, float (*irradiance)[3])
 {
-    REQUIRE_TRUE(sdfgi_is_active(t->gi));
     float(*rows)[FLOATS_PER_POINT] = test_array_alloc(count, sizeof *rows);
     for (uint32_t i = 0; i < count; i++) {
         memset(rows[i], 0, sizeof rows[i]);
@@ -27,12 +26,18 @@ void gi_test_irradiance_from(struct gi_test *t, const float *viewer, const struc
         rows[i][8] = rows[i][9] = rows[i][10] = NAN;
     }
     const struct gpu_test_shader shader = { gi_lookup_comp, sizeof gi_lookup_comp,
-                                            sdfgi_get_descriptor_set_layout(t->gi),
-                                            sdfgi_get_descriptor_set(t->gi) };
+                                            sdfgi_get_descriptor_set_layout(t->gi), set };
     gpu_test_compute(&t->gpu, &shader, count, rows, count * sizeof *rows);
     for (uint32_t i = 0; i < count; i++)
         memcpy(irradiance[i], &rows[i][8], sizeof irradiance[i]);
     free(rows);
+}
+
+void gi_test_irradiance_from(struct gi_test *t, const float *viewer, const struct gi_test_point *points,
+                             uint32_t count, float (*irradiance)[3])
+{
+    REQUIRE_TRUE(sdfgi_is_active(t->gi));
+    gi_test_lookup(t, sdfgi_get_descriptor_set(t->gi), viewer, points, count, irradiance);
 }
 
 void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, uint32_t count,

@@ -21,8 +21,8 @@ struct oracle_hit oracle_trace(const struct oracle_bits *bits, const double orig
 /* True if a set sub-voxel lies within `reach` (sub-voxels) of the point along each axis. */
 bool oracle_bits_near(const struct oracle_bits *bits, const double point[static 3], double reach);
 
-/* Where the ray first comes within `reach` (sub-voxels) of a set sub-voxel while it crosses a face: a ray that runs exactly
- * through an edge is stopped by any of those around it. INFINITY if nothing comes near. */
+/* Where the ray first comes within `reach` (sub-voxels) of a set sub-voxel while it crosses a face: a ray
+ * that runs exactly through an edge is stopped by any of those around it. INFINITY if nothing comes near. */
 double oracle_trace_touch(const struct oracle_bits *bits, const double origin[static 3],
                           const double direction[static 3], double limit, double reach);
 
