@@ -33,6 +33,16 @@ sdfgi_irradiance_texel sdfgi_irradiance_unpack(vec4 packed)
     return sdfgi_irradiance_texel(packed.rgb, has_gain ? 1.0 : -packed.a, has_gain ? packed.a : 1.0);
 }
 
+/* The nearest values towards zero that half floats hold, so that packHalf2x16 has nothing to round. Its
+ * rounding to nearest, which Vulkan leaves open, keeps light that fades where a step rounds to itself, and
+ * light that converges in a circle. */
+vec4 sdfgi_half4_truncate(vec4 v)
+{
+    const float NORMAL_MIN = 6.103515625e-5, SUBNORMAL_STEP = 5.9604644775390625e-8;
+    const vec4 normal = uintBitsToFloat(floatBitsToUint(v) & 0xffffe000u); /* 10 bits of mantissa */
+    return mix(normal, trunc(v / SUBNORMAL_STEP) * SUBNORMAL_STEP, lessThan(abs(v), vec4(NORMAL_MIN)));
+}
+
 /* Four half floats. */
 uvec2 sdfgi_half4_encode(vec4 v)
 {

@@ -42,7 +42,7 @@ float probe_confidence(float weight)
 /* Irradiance of a texel, packed by lib/irradiance_pack.glsl. */
 void probe_store_irradiance(uint slot, uint texel, vec4 value)
 {
-    sdfgi_irradiance_texels[probe_texel(slot, texel)] = sdfgi_half4_encode(value);
+    sdfgi_irradiance_texels[probe_texel(slot, texel)] = sdfgi_half4_encode(sdfgi_half4_truncate(value));
 }
 
 vec4 probe_load_irradiance(uint slot, uint texel)
