@@ -45,6 +45,11 @@ void frame_plan(struct frame *frame, const struct frame_input *input);
 /* Records a plan. Changes nothing but the command buffer and what the recorder counts. */
 void frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec, uint32_t slot);
 
+/* The state after a recorded plan: what completed is finished, and the sample cycle goes on. */
+void frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,
+                      struct volume_state *state);
+/* What will come back of a recorded plan. */
+struct feedback_slot frame_feedback(const struct frame *frame);
 /* Makes a recorded plan the volume's state. */
 void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume);
 

@@ -175,21 +175,36 @@ void frame_plan(struct frame *frame, const struct frame_input *input)
     plan_reasons(frame);
 }
 
-void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume)
+/* True if the plan is a frame of the sample cycle: rays are sent, or their cached hits are read. */
+static bool takes_samples(const struct frame *frame)
 {
-    struct volume_state *state = &volume->state;
-    const struct situation *s = &frame->situation;
-    struct feedback_slot *slot = &volume->feedback.slots[backend_slot(volume->backend)];
+    return !frame->situation.converged && !frame->situation.light_waits;
+}
+
+void frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,
+                      struct volume_state *state)
+{
     *state = frame->next;
     state->updates++;
-    slot->content = s->converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS;
     if (work_has(&frame->work, PASS_PROBE_BLEND))
         accumulation_show(&state->accumulation, frame->cycle_ends);
-    if (!s->converged && !s->light_waits) {
-        slot->ended_cycle = frame->cycle_ends ? state->accumulation.cycle : 0;
+    if (takes_samples(frame))
         accumulation_advance(&state->accumulation, settings_cycle_frames(settings),
                              cascades_rest(&state->cascades) && !relight_is_due(&state->relight));
-    }
     scroll_finish(&state->scroll, &state->cascades);
+}
+
+struct feedback_slot frame_feedback(const struct frame *frame)
+{
+    return (struct feedback_slot){
+        .content = frame->situation.converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS,
+        .ended_cycle = frame->cycle_ends && takes_samples(frame) ? frame->next.accumulation.cycle : 0,
+    };
+}
+
+void frame_commit(const struct frame *frame, const struct sdfgi_settings *settings, struct volume *volume)
+{
+    frame_next_state(frame, settings, &volume->state);
+    volume->feedback.slots[backend_slot(volume->backend)] = frame_feedback(frame);
     journal_clear(&volume->journal);
 }
