@@ -18,13 +18,35 @@ static union work_args region_args(const struct change *change, uint32_t c, cons
 }
 
 /* `cells_per_unit`: of what the pass counts as work. */
+static void add_region_part(const struct plan_stage *stage, enum pass pass, uint32_t c,
+                            const struct cell_box *box, uint32_t cells_per_unit)
+{
+    struct work *work = stage_add(stage, pass, c);
+    work->box = *box;
+    work->units = cell_box_cells(box) / cells_per_unit;
+    work->args = region_args(&stage->frame->next.cascades.at[c].change, c, box);
+}
+
+/* Whole slices, as many as fit the workgroups that every device takes: a cascade of 256^3 cells is one
+ * workgroup too many for region_clear. */
+static int32_t region_part_length(enum pass pass, const struct cell_box *box, int axis)
+{
+    const uint64_t most = (uint64_t)pass_row(pass)->group * SDFGI_MAX_GROUPS;
+    const uint64_t layer = cell_box_cells(box) / (uint64_t)(box->high[axis] - box->low[axis]);
+    const uint64_t length = most / layer / SDFGI_PROBE_SPACING * SDFGI_PROBE_SPACING;
+    return length < SDFGI_MAX_GROUPS ? (int32_t)length : SDFGI_MAX_GROUPS;
+}
+
 static void add_region(const struct plan_stage *stage, enum pass pass, const struct scroll_piece *piece,
                        uint32_t cells_per_unit)
 {
-    struct work *work = stage_add(stage, pass, piece->cascade);
-    work->box = piece->box;
-    work->units = cell_box_cells(&piece->box) / cells_per_unit;
-    work->args = region_args(&stage->frame->next.cascades.at[piece->cascade].change, piece->cascade, &piece->box);
+    const int axis = cell_box_longest_axis(&piece->box);
+    const int32_t length = region_part_length(pass, &piece->box, axis), high = piece->box.high[axis];
+    struct cell_box part = piece->box;
+    for (; part.low[axis] < high; part.low[axis] = part.high[axis]) {
+        part.high[axis] = high - part.low[axis] > length ? part.low[axis] + length : high;
+        add_region_part(stage, pass, piece->cascade, &part, cells_per_unit);
+    }
 }
 
 static void add_voxelizer(const struct plan_stage *stage, enum pass pass, const struct scroll_piece *piece)
