@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
 #include "light_blocks.glsl"
+#include "workgroup.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -32,7 +33,7 @@ bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = light_workgroup() * CELLS + lane / 8u;
+    const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = workgroup_index() * CELLS + lane / 8u;
     const bool listed = n < sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] &&
                         sdfgi_scratch[light_dirty_slot(n)] < sdfgi_frame.light_cell_room;
     const ivec3 cell =

@@ -69,12 +69,6 @@ uint light_dirty_slot(uint n)
     return sdfgi_scratch_light_dirty(sdfgi_frame.resolution_log2, sdfgi_frame.light_cell_room) + 2u * n;
 }
 
-/* The number of this workgroup. Indirect dispatches spread over y what exceeds SDFGI_MAX_GROUPS along x. */
-uint light_workgroup()
-{
-    return gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
-}
-
 /* Finds the n-th entry to light: of the light cells in dirty blocks, or of the range [first, end). False if
  * there is none. */
 bool light_entry(uint cascade, bool only_dirty, uint first, uint end, uint n, out uint entry)

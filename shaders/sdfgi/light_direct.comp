@@ -9,6 +9,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
+#include "workgroup.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_SURFACES) in;
@@ -166,7 +167,7 @@ void main()
     const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
     uint entry;
     bool lit = light_entry(args.cascade, args.only_dirty != 0u, args.first, args.end,
-                           light_workgroup() * CELLS + own, entry);
+                           workgroup_index() * CELLS + own, entry);
     const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
     const ivec3 cell = light_cell_from_index(args.cascade, sdfgi_light_cells[slot]);
     lit = lit && sdfgi_cell_is_valid(args.cascade, cell);

@@ -9,6 +9,7 @@
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_MASKS
 #include "dirty_bounds.glsl"
+#include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -36,7 +37,7 @@ void add_removed(ivec3 first, int held)
 void main()
 {
     const uvec3 size = uvec3(args.high - args.low) / uvec3(8u, 4u, 1u);
-    const uint i = gl_GlobalInvocationID.x, row = i >> 3u;
+    const uint i = workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex, row = i >> 3u;
     if (row >= size.x * size.y * size.z)
         return;
     const ivec3 first =

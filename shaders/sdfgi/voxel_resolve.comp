@@ -9,6 +9,7 @@
 #define SDFGI_WRITES_SURFACE
 #include "dirty_bounds.glsl"
 #include "surface.glsl"
+#include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -182,7 +183,7 @@ void resolve(ivec3 cell)
 void main()
 {
     const uvec3 size = uvec3(args.high - args.low) / 2u;
-    const uint i = gl_GlobalInvocationID.x;
+    const uint i = workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     if (gl_LocalInvocationIndex == 0u)
         voxels = 0u;
     barrier();

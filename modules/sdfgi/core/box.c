@@ -27,16 +27,24 @@ double sdfgi_box_volume(const struct box *box)
     return (box->max[0] - box->min[0]) * (box->max[1] - box->min[1]) * (box->max[2] - box->min[2]);
 }
 
+static bool contains(const struct box *box, const struct box *other)
+{
+    for (int i = 0; i < 3; i++)
+        if (other->min[i] < box->min[i] || other->max[i] > box->max[i])
+            return false;
+    return true;
+}
+
 void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
 {
     assert(*count <= room && room > 0);
     uint32_t best = 0;
     double least = INFINITY;
     for (uint32_t i = 0; i < *count; i++) {
+        if (contains(&list[i], box))
+            return;
         const struct box both = sdfgi_box_around(&list[i], box);
         const double growth = sdfgi_box_volume(&both) - sdfgi_box_volume(&list[i]);
-        if (growth <= 0)
-            return;
         if (growth < least) {
             least = growth;
             best = i;

@@ -15,7 +15,8 @@ bool sdfgi_box_overlaps(const struct box *a, const struct box *b);
 struct box sdfgi_box_around(const struct box *a, const struct box *b);
 double sdfgi_box_volume(const struct box *box);
 
-/* A list of boxes with room for `room`. With no room left, the box that grows least takes the new one in. */
+/* A list of boxes with room for `room`. Leaves out a box that another one contains, flat ones too. With no
+ * room left, the box that grows least takes the new one in. */
 void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box);
 
 /* Local cells [low, high) of a cascade; empty if low >= high along an axis. */

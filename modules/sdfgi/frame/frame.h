@@ -47,6 +47,11 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input);
 void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec,
                         uint32_t slot);
 
+/* The state after a recorded plan: what completed is finished, and the sample cycle goes on. */
+void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,
+                            struct volume_state *state);
+/* What will come back of a recorded plan. */
+struct feedback_slot sdfgi_frame_feedback(const struct frame *frame);
 /* Makes a recorded plan the volume's state. */
 void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,
                         struct volume *volume);

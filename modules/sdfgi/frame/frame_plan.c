@@ -179,23 +179,38 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
     plan_reasons(frame);
 }
 
-void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,
-                        struct volume *volume)
+/* True if the plan is a frame of the sample cycle: rays are sent, or their cached hits are read. */
+static bool takes_samples(const struct frame *frame)
 {
-    struct volume_state *state = &volume->state;
-    const struct situation *s = &frame->situation;
-    struct feedback_slot *slot = &volume->feedback.slots[sdfgi_backend_slot(volume->backend)];
+    return !frame->situation.converged && !frame->situation.light_waits;
+}
+
+void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,
+                            struct volume_state *state)
+{
     *state = frame->next;
     state->updates++;
-    slot->content = s->converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS;
     if (sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))
         sdfgi_accumulation_show(&state->accumulation, frame->cycle_ends);
-    if (!s->converged && !s->light_waits) {
-        slot->ended_cycle = frame->cycle_ends ? state->accumulation.cycle : 0;
+    if (takes_samples(frame))
         sdfgi_accumulation_advance(&state->accumulation, sdfgi_settings_cycle_frames(settings),
                                    sdfgi_cascades_rest(&state->cascades) &&
                                        !sdfgi_relight_is_due(&state->relight));
-    }
     sdfgi_scroll_finish(&state->scroll, &state->cascades);
+}
+
+struct feedback_slot sdfgi_frame_feedback(const struct frame *frame)
+{
+    return (struct feedback_slot){
+        .content = frame->situation.converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS,
+        .ended_cycle = frame->cycle_ends && takes_samples(frame) ? frame->next.accumulation.cycle : 0,
+    };
+}
+
+void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,
+                        struct volume *volume)
+{
+    sdfgi_frame_next_state(frame, settings, &volume->state);
+    volume->feedback.slots[sdfgi_backend_slot(volume->backend)] = sdfgi_frame_feedback(frame);
     sdfgi_journal_clear(&volume->journal);
 }

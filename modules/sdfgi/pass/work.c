@@ -59,7 +59,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_INSTANCES:
         break;
     case DOMAIN_BOX:
-        return (struct work_groups){ groups_for(sdfgi_cell_box_cells(&work->box), group), 1, 1 };
+        return in_rows(groups_for(sdfgi_cell_box_cells(&work->box), group));
     case DOMAIN_CELLS:
         return (struct work_groups){ n / group, n / group, n / group };
     case DOMAIN_DISTANCE_ROWS:

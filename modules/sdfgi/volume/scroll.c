@@ -89,7 +89,8 @@ static enum cascade_pace pace_of(const struct cascade *cascade, bool moved, bool
     return moved && !scrolls ? CASCADE_LEFT_BEHIND : CASCADE_WAITS;
 }
 
-/* Begins what a cascade needs that is not being changed. Scrolls and edits take turns. */
+/* Begins what a cascade needs that is not being changed, or whose change is out of date. Scrolls and edits
+ * take turns. */
 static void begin(struct run *run, struct cascade *cascade)
 {
     const uint32_t resolution = run->cascades->resolution;
@@ -125,7 +126,7 @@ static void begin_all(struct run *run)
             cascade->pace = CASCADE_KEEPS_UP;
         else if (cascade->pace == CASCADE_KEEPS_UP)
             cascade->pace = CASCADE_WAITS;
-        if (cascade->change.cause == CHANGE_NONE)
+        if (cascade->change.cause == CHANGE_NONE || cascade->place == CASCADE_OUTDATED)
             begin(run, cascade);
     }
 }

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT
+ * Light changes: lamps, sky, exposure, seed, and the length of light lists. */
+#include "situations.h"
+
+static void light_created(struct show *show)
+{
+    const struct sdfgi_settings settings = drive_settings(2, 32);
+    const struct sdfgi_light_desc lamp = drive_lamp();
+    show_begin_unlit(show, &settings);
+    drive_converge(&show->d);
+    drive_add_light(&show->d, &lamp);
+    show_frames(show, 2);
+}
+
+static void light_updated_and_removed(struct show *show)
+{
+    const struct sdfgi_settings settings = drive_settings(2, 32);
+    struct sdfgi_light_desc lamp = drive_lamp();
+    show_begin_unlit(show, &settings);
+    const sdfgi_light light = drive_add_light(&show->d, &lamp);
+    drive_converge(&show->d);
+    lamp.position[0] = 1;
+    sdfgi_scene_light_update(&show->d.scene, light, &lamp);
+    show_frames(show, 1);
+    drive_converge(&show->d);
+    sdfgi_scene_light_destroy(&show->d.scene, light);
+    show_frames(show, 2);
+}
+
+/* How many cells a list has is not known in the frame after it was written: all that it has room for. */
+static void light_updated_in_the_second_frame(struct show *show)
+{
+    show_begin(show);
+    drive_frame(&show->d);
+    const struct sdfgi_light_desc lamp = drive_lamp();
+    drive_add_light(&show->d, &lamp);
+    show_frames(show, 1);
+}
+
+/* Light cells that the scroll listed are lit twice, those before it once. */
+static void light_updated_while_a_scroll_completes(struct show *show)
+{
+    const struct sdfgi_settings settings = drive_settings(1, 32);
+    const struct sdfgi_light_desc lamp = drive_lamp();
+    show_begin_with(show, &settings);
+    drive_converge(&show->d);
+    drive_move(&show->d, 2.25, 0, 0);
+    drive_frames(&show->d, 3);
+    drive_add_light(&show->d, &lamp);
+    show_frames(show, 1);
+}
+
+static void sky_changed(struct show *show)
+{
+    const struct sdfgi_sky sky = { .zenith = { 0, 0, 1 } };
+    show_begin(show);
+    drive_converge(&show->d);
+    sdfgi_scene_set_sky(&show->d.scene, &sky);
+    show_frames(show, 2);
+}
+
+static void exposure_changed(struct show *show)
+{
+    show_begin(show);
+    drive_converge(&show->d);
+    show->d.desc.exposure = 2;
+    show_frames(show, 2);
+}
+
+static void seed_changed(struct show *show)
+{
+    show_begin(show);
+    drive_converge(&show->d);
+    show->d.desc.seed = 7;
+    show_frames(show, 2);
+}
+
+/* Energy enters lookups alone. */
+static void energy_changed(struct show *show)
+{
+    show_begin(show);
+    drive_converge(&show->d);
+    show->d.settings.energy = 2;
+    show_frames(show, 1);
+}
+
+static void list_grew(struct show *show)
+{
+    show_begin(show);
+    drive_converge(&show->d);
+    show->d.list_grew = true;
+    show->d.extent.light_cells *= 2;
+    show_frames(show, 2);
+}
+
+static void list_grew_in_the_dark(struct show *show)
+{
+    const struct sdfgi_settings settings = drive_settings(1, 32);
+    show_begin_unlit(show, &settings);
+    drive_frames(&show->d, 2);
+    show->d.list_grew = true;
+    show_frames(show, 1);
+}
+
+static void list_grew_while_a_scroll_completes(struct show *show)
+{
+    const struct sdfgi_settings settings = drive_settings(1, 32);
+    show_begin_with(show, &settings);
+    drive_converge(&show->d);
+    drive_move(&show->d, 2.25, 0, 0);
+    drive_frames(&show->d, 3);
+    show->d.list_grew = true;
+    show_frames(show, 2);
+}
+
+static const struct situation_row rows[] = {
+    { "a_new_light_lights_all_cells", light_created },
+    { "a_light_is_updated_and_removed", light_updated_and_removed },
+    { "a_light_in_the_second_frame_lights_all_that_lists_have_room_for", light_updated_in_the_second_frame },
+    { "a_light_while_a_scroll_completes", light_updated_while_a_scroll_completes },
+    { "a_changed_sky_begins_to_converge_again", sky_changed },
+    { "a_changed_exposure_lights_all_cells", exposure_changed },
+    { "a_changed_seed_rebuilds_everything", seed_changed },
+    { "a_changed_energy_is_uploaded", energy_changed },
+    { "a_longer_light_list_is_written_anew", list_grew },
+    { "a_longer_light_list_in_the_first_cycle", list_grew_in_the_dark },
+    { "a_longer_light_list_while_a_scroll_is_under_way", list_grew_while_a_scroll_completes },
+};
+
+const struct situation_table situations_light = SITUATIONS(rows);
