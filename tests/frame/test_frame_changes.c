@@ -158,6 +158,20 @@ static void an_edit_makes_its_boxes_and_keeps_all(void **state)
     REQUIRE_CMP(sdfgi_change_bounds_axis(change), ==, 2);
 }
 
+/* Triangles set sub-voxels that they touch, and those are a quarter of a cell wide. */
+static void an_edit_a_sub_voxel_outside_counts(void **state)
+{
+    (void)state;
+    struct cascade cascade = current();
+    const struct box beside = { { 16.2, 1, 1 }, { 17, 2, 2 } }, apart = { { 16.3, 1, 1 }, { 17, 2, 2 } };
+    REQUIRE_TRUE(!sdfgi_cascade_add_edit(&cascade, N, &apart));
+    REQUIRE_TRUE(sdfgi_cascade_add_edit(&cascade, N, &beside));
+    sdfgi_change_begin_edit(&cascade, N);
+    const struct cell_box expected = { { 24, 16, 16 }, { 32, 24, 24 } };
+    REQUIRE_CMP(cascade.change.count, ==, 1u);
+    REQUIRE_BYTES(&cascade.change.boxes[0], &expected, sizeof expected);
+}
+
 static void an_edit_without_a_cell_changes_nothing(void **state)
 {
     (void)state;
@@ -315,6 +329,7 @@ int main(void)
         cmocka_unit_test(strips_lie_across_z_unless_a_scroll_is_along_z_alone),
         cmocka_unit_test(a_scroll_that_can_keep_nothing_is_a_rebuild),
         cmocka_unit_test(an_edit_makes_its_boxes_and_keeps_all),
+        cmocka_unit_test(an_edit_a_sub_voxel_outside_counts),
         cmocka_unit_test(an_edit_without_a_cell_changes_nothing),
         cmocka_unit_test(a_change_goes_on_to_any_later_stage),
         cmocka_unit_test(a_finished_change_is_none),

@@ -191,18 +191,21 @@ static void hard_25_negative_places_mirror_positive_ones_by_whole_spacings(void 
     }
 }
 
+/* And a sub-voxel more on either side. */
 static void boxes_cover_their_cells(void **state)
 {
     (void)state;
     struct cascade c = cascade_of(0.25);
     c.cell_size[1] = 0.125;
     place(&c, 0, 0, 0);
-    const struct box box = sdfgi_cascade_box(&c, 64);
-    REQUIRE_CMP(box.min[0], ==, -8.0);
-    REQUIRE_CMP(box.max[0], ==, 8.0);
-    REQUIRE_CMP(box.min[1], ==, -4.0);
-    REQUIRE_CMP(box.max[1], ==, 4.0);
-    const struct box touching = { { 8, -1, -1 }, { 9, 1, 1 } }, apart = { { -1, 4.001, -1 }, { 1, 5, 1 } };
+    const struct cell_box whole = sdfgi_cell_box_whole(64);
+    const struct box box = sdfgi_cascade_world_box(&c, &whole);
+    REQUIRE_CMP(box.min[0], ==, -8.0625);
+    REQUIRE_CMP(box.max[0], ==, 8.0625);
+    REQUIRE_CMP(box.min[1], ==, -4.03125);
+    REQUIRE_CMP(box.max[1], ==, 4.03125);
+    const struct box touching = { { 8.0625, -1, -1 }, { 9, 1, 1 } },
+                     apart = { { -1, 4.032, -1 }, { 1, 5, 1 } };
     REQUIRE_TRUE(sdfgi_box_overlaps(&box, &touching) && sdfgi_box_overlaps(&touching, &box));
     REQUIRE_TRUE(!sdfgi_box_overlaps(&box, &apart) && !sdfgi_box_overlaps(&apart, &box));
 }

@@ -46,16 +46,6 @@ bool sdfgi_cascade_place(struct cascade *cascade, uint32_t resolution, const dou
     return moves;
 }
 
-struct box sdfgi_cascade_box(const struct cascade *cascade, uint32_t resolution)
-{
-    struct box box;
-    for (int i = 0; i < 3; i++) {
-        box.min[i] = (double)cascade->origin[i] * cascade->cell_size[i];
-        box.max[i] = (double)(cascade->origin[i] + resolution) * cascade->cell_size[i];
-    }
-    return box;
-}
-
 struct cell_box sdfgi_cascade_cells(const struct cascade *cascade, uint32_t resolution, const struct box *box)
 {
     const double n = (double)resolution;
@@ -102,7 +92,8 @@ void sdfgi_cascade_outdate(struct cascade *cascade)
 
 bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box)
 {
-    const struct box own = sdfgi_cascade_box(cascade, resolution);
+    const struct cell_box whole = sdfgi_cell_box_whole(resolution);
+    const struct box own = sdfgi_cascade_world_box(cascade, &whole);
     if (cascade->place == CASCADE_UNPLACED || !sdfgi_box_overlaps(&own, box))
         return false;
     sdfgi_box_list_add(cascade->edits, &cascade->edit_count, SDFGI_MAX_CHANGES, box);

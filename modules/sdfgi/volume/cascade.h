@@ -85,7 +85,6 @@ void sdfgi_cascades_init(struct cascades *cascades, const struct sdfgi_settings 
  * axes move in the same step if `spare` has reserved room for it. A camera that oscillates around a point
  * causes one step at most. Returns true if it moved. */
 bool sdfgi_cascade_place(struct cascade *cascade, uint32_t resolution, const double camera[static 3]);
-struct box sdfgi_cascade_box(const struct cascade *cascade, uint32_t resolution);
 /* Cells that a box in the world touches, widened to whole probe spacings, clipped to the cascade. */
 struct cell_box sdfgi_cascade_cells(const struct cascade *cascade, uint32_t resolution,
                                     const struct box *box);

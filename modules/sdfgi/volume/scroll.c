@@ -268,11 +268,13 @@ static uint64_t frame_budget(const struct run *run)
     return (uint64_t)fmin(fmax(ceil(called_for / layer) * layer, (double)slice_cells(run->cascades)), limit);
 }
 
-/* Fine cascades first, but before all the coarsest if it falls behind: behind that there is nothing. */
+/* Fine cascades first, but before all the coarsest if it falls behind: behind that there is nothing. An edit
+ * leaves what is there, so it waits its turn. */
 static void advance_all(struct run *run, uint64_t budget)
 {
-    const uint32_t count = run->cascades->count,
-                   first = hurries(run, &run->cascades->at[count - 1]) ? count - 1 : 0;
+    const uint32_t count = run->cascades->count;
+    const struct cascade *coarsest = &run->cascades->at[count - 1];
+    const uint32_t first = hurries(run, coarsest) && coarsest->change.cause != CHANGE_EDIT ? count - 1 : 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t c = (first + i) % count;
         if (run->cascades->at[c].change.cause != CHANGE_NONE)
