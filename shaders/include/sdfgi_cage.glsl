@@ -125,8 +125,8 @@ vec3 sdfgi_cage_extrapolate(sdfgi_cage_samples samples)
     return clamp(mean + samples.gradient_numerator * to_point, 0.5 * mean, 2.0 * mean);
 }
 
-/* Irradiance in rgb, 1 in a, at a point that is `height` metric cell widths above its surface; all 0 if no
- * probe is visible. */
+/* Irradiance / pi * exposure in rgb, 1 in a, at a point that is `height` metric cell widths above its
+ * surface; all 0 if no probe is visible. */
 vec4 sdfgi_cage_irradiance(uint cascade, ivec3 cage, vec3 pos, vec3 normal, float height,
                            sdfgi_visibility visibility)
 {

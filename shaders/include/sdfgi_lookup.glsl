@@ -21,8 +21,8 @@ vec3 sdfgi_lookup_ray_radiance(sdfgi_trace_hit hit, vec3 dir)
     return sdfgi_light_unpack_axis(sdfgi_light[sdfgi_cell_index(hit.cascade, hit.cell)], hit.axis);
 }
 
-/* Irradiance over pi by rays in a spiral around the normal, distributed by the cosine. It serves the few
- * points that see none of the eight probes, behind a pillar or in a niche. `pos` must be in the open. */
+/* Irradiance / pi * exposure by rays in a spiral around the normal, distributed by the cosine. It serves the
+ * few points that see none of the eight probes, behind a pillar or in a niche. `pos` must be in the open. */
 vec4 sdfgi_lookup_by_rays(uint cascade, vec3 pos, vec3 normal)
 {
     const int RAYS = 16;
@@ -39,9 +39,9 @@ vec4 sdfgi_lookup_by_rays(uint cascade, vec3 pos, vec3 normal)
     return vec4(sum / float(RAYS), 1.0);
 }
 
-/* Irradiance over pi in rgb, 1 in a, from one cascade. The point is biased off the surface along its normal
- * and, half as far, towards the viewer, who is known to be on the open side of the surface (Majercik et al.
- * 2021, "Scaling Probe-Based Real-Time Dynamic Global Illumination", section 3.2). `to_eye` is in cell
+/* Irradiance / pi * exposure in rgb, 1 in a, from one cascade. The point is biased off the surface along its
+ * normal and, half as far, towards the viewer, who is known to be on the open side of the surface (Majercik
+ * et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global Illumination", section 3.2). `to_eye` is in cell
  * widths. */
 vec4 sdfgi_lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
 {
@@ -70,9 +70,9 @@ vec4 sdfgi_lookup_surface(uint cascade, vec3 pos, vec3 normal, vec3 to_eye)
     return light.a > 0.0 ? light : sdfgi_lookup_by_rays(cascade, rays_from, normal);
 }
 
-/* The weight of a cascade at a position: 1 inside its blend region, falling to 0 in the cascade blend, a band
- * one probe spacing wide along the edge of that region. The region moves smoothly while the cascade scrolls,
- * so the weight does not jump. */
+/* The weight of a cascade at a position. It falls from 1 to 0 across the cascade blend: a band along the edge
+ * of the blend region, one probe spacing wide, that ends one cell before that edge. The region moves smoothly
+ * while the cascade scrolls, so the weight does not jump. */
 float sdfgi_lookup_cascade_weight(uint cascade, vec3 pos)
 {
     const vec3 to_edge =
@@ -80,8 +80,9 @@ float sdfgi_lookup_cascade_weight(uint cascade, vec3 pos)
     return clamp((min(to_edge.x, min(to_edge.y, to_edge.z)) - 1.0) / float(SDFGI_PROBE_SPACING), 0.0, 1.0);
 }
 
-/* Irradiance over pi times exposure at a position in cell space of cascade 0. The finest cascade answers. In
- * its cascade blend the next coarser one takes over, and beyond the last cascade the sky does. */
+/* Irradiance / pi * exposure at a position in cell space of cascade 0. `to_eye` leads to the viewer, in
+ * metres. The finest cascade answers. In its cascade blend the next coarser one takes over, and beyond the
+ * last cascade the sky does. */
 vec3 sdfgi_lookup_irradiance(vec3 pos_first, vec3 normal, vec3 to_eye)
 {
     const vec3 eye_first = to_eye / sdfgi_frame.cascades[0].cell_m;

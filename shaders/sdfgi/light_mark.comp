@@ -4,8 +4,8 @@
  *
  * In a dirty light block all cells are tested, and those that are no light cells lose their light. In
  * every other block the light cells are those of the previous list; their direct light is copied from it,
- * because light_list overwrites the list. The threads share the entries of the previous list. The workgroups
- * share the dirty blocks, with a thread per cell. */
+ * because light_list overwrites the list. The layout of lists and marks is in light_blocks.glsl. The threads
+ * share the entries of the previous list. The workgroups share the dirty blocks, with a thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -45,8 +45,8 @@ uint block_of_entry(uint entry)
     return light_block_from_coords(sdfgi_texel_from_index(index) / SDFGI_GROUP_CELLS);
 }
 
-/* A list that was too short lacks cells of its last entry's block and of all blocks after it. The list may
- * have grown since, so these blocks are dirty. */
+/* A list that was too short may lack cells of its last entry's block, and lacks all blocks after it. Its
+ * entries cannot tell which cells those are, so these blocks are tested again. */
 bool previous_was_cut_before(uint block)
 {
     return previous_was_too_short() && block >= block_of_entry(sdfgi_frame.light_cell_room - 1u);
@@ -61,8 +61,8 @@ bool is_dirty(uint block)
            previous_was_cut_before(block);
 }
 
-/* Without a usable previous list, or with one that was too short, any block may be dirty. */
-bool any_block_may_be_dirty()
+/* True if dirty blocks may lie anywhere, not only around dirty boxes. */
+bool tests_all_blocks()
 {
     return args.rebuild != 0u || previous_was_too_short();
 }
@@ -86,14 +86,14 @@ bool is_around_earlier_box(int box, ivec3 cell)
     return false;
 }
 
-/* Finds the n-th block that may be dirty: of all blocks, or else of the blocks around dirty boxes, box by
- * box. Returns false if that block is not dirty, or belongs to an earlier box. `more` is false beyond the
- * last one. */
+/* Finds candidate n: one of all blocks, or of the blocks around dirty boxes, box by box. Returns true if the
+ * block is to be marked. A block around two boxes is marked for the first of them only. `more` is false if
+ * there is no candidate n. */
 bool dirty_block(uint n, out uint block, out bool more)
 {
     block = n;
     more = false;
-    if (any_block_may_be_dirty()) {
+    if (tests_all_blocks()) {
         more = n < light_block_count();
         return more && is_dirty(n);
     }
@@ -157,8 +157,8 @@ shared uint found[2]; /* a bit per light cell of the workgroup's block */
 bool is_light_cell(ivec3 cell)
 {
     const float distance = sdfgi_cell_distance(args.cascade, cell);
-    /* Beyond this distance no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2), and the
-     * flood's 0.1. The test spares the bits of most cells. */
+    /* Beyond this distance no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2), and
+     * the 0.1 by which a flood's distances may be too large. So the bits of most cells are not read. */
     return distance < 1.6 && sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) &&
            light_cell_facing(args.cascade, cell) != 0u;
 }

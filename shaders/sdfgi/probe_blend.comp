@@ -23,11 +23,13 @@
  * Lookups read D. Light cells read E, because light then converges sooner: alpha holds E over D.
  *
  * That is the filter of a STEADY probe. A probe that is WARMING_UP displays E, because its d is unknown. So
- * does a NEW probe, whose estimate becomes P in every frame, and whose m is at most w: its history counts for
- * no more than the samples that it has just read. In both states alpha holds the confidence, negated.
+ * does a NEW probe, whose estimate becomes P in every frame. Its m is at most w, so its history counts for no
+ * more than the samples that it has just read; a texel that no ray has reached in this frame keeps its
+ * history. In both states alpha holds the confidence, negated. A probe is NEW until its second cycle after a
+ * history reset ends, and STEADY when its fourth has ended.
  *
- * All texels of a probe share d, and the history of a probe is reset when its light is sure to change by
- * half. The probe is NEW again then. Both follow from C, the largest c of its texels in a frame:
+ * All texels of a probe share d, and the history of a STEADY probe is reset when its light is sure to change
+ * by half. The probe is NEW again then. Both follow from C, the largest c of its texels in a frame:
  *
  *     deviation        d = max(sqrt(M^2 - L^2), DEVIATION_KEPT * previous d)
  *                      M is the largest C of a cycle, and L its last C: a change that stays is no deviation
@@ -96,7 +98,7 @@ bool cycle_ends()
     return args.cycle_ends != 0u;
 }
 
-/* Without a complete cycle no probe is steady. */
+/* No probe is STEADY before a first sample cycle is complete, counted from when the cascades were empty. */
 uint filter_state(probe_history history)
 {
     const uint state = probe_history_state(history);
@@ -197,19 +199,19 @@ void texel_start_cycle(uint slot, texel t, bool resets)
 
 probe_history next_history(probe_history h, float change, bool resets)
 {
-    h.deviation = max(h.deviation, change);
+    h.largest_change = max(h.largest_change, change);
     h.cycles = resets ? 0.0 : h.cycles;
     if (!cycle_ends())
         return h;
-    const float deviation = sqrt(max(h.deviation * h.deviation - change * change, 0.0));
-    h.previous_deviation = max(deviation, DEVIATION_KEPT * h.previous_deviation);
-    h.deviation = 0.0;
+    const float deviation = sqrt(max(h.largest_change * h.largest_change - change * change, 0.0));
+    h.deviation = max(deviation, DEVIATION_KEPT * h.deviation);
+    h.largest_change = 0.0;
     h.cycles = min(h.cycles + 1.0, PROBE_STEADY_CYCLES);
     return h;
 }
 
-/* Tells the host how far light is from converged. The change counts as 1 if the cycle before was not
- * complete, because it is not known. */
+/* Tells the host how far light is from converged. Where the cycle before was not complete, the change is
+ * unknown. It counts as 1 then, so that light is not taken for converged. */
 void count_change(probe_history history)
 {
     const bool known = history.cycles >= PROBE_COMPLETE_CYCLES;
@@ -232,7 +234,7 @@ void main()
         t = texel_load(slot, state == PROBE_NEW);
 
     measure_probe(t);
-    const float change = uintBitsToFloat(group_change), deviation = history.previous_deviation;
+    const float change = uintBitsToFloat(group_change), deviation = history.deviation;
     const bool resets = state == PROBE_STEADY && needs_reset(change, deviation);
     const uint new_state = resets ? PROBE_NEW : state;
 

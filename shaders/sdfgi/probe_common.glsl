@@ -41,9 +41,9 @@ ivec3 probe_from_index(uint index, out uint cascade)
 /* A deviation says how far the light of a partial cycle differs from the mean of the cycle before. It is
  * relative, and the largest of all texels. */
 struct probe_history {
-    float deviation;          /* of this cycle so far */
-    float previous_deviation; /* of the cycle before */
-    float cycles;             /* history length: ends of cycles since the history reset, 4 at most */
+    float largest_change; /* of any texel in this cycle so far, relative */
+    float deviation;      /* of the cycle before */
+    float cycles;         /* history length: ends of cycles since the history reset, 4 at most */
 };
 
 /* States of a history. NEW: the probe is new or its light has changed by half, so its history counts for
@@ -66,7 +66,7 @@ const uint PROBE_NEW_FRAMES = 5u;
 /* The length is stored less PROBE_NEW_CYCLES, so that NEW probes are those below 0. */
 vec4 probe_history_pack(probe_history h)
 {
-    return vec4(h.deviation, h.previous_deviation, h.cycles - PROBE_NEW_CYCLES, 0.0);
+    return vec4(h.largest_change, h.deviation, h.cycles - PROBE_NEW_CYCLES, 0.0);
 }
 
 probe_history probe_history_unpack(vec4 packed)

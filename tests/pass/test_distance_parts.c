@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Distances made in parts, after scrolls and edits, are those made as a whole, and only what a change reaches
  * is searched. Bits are written straight into the volume: what matters here is nothing but bits. */
-#include "frame/frame_work.h"
+#include "frame/stage.h"
 #include "oracle_edt.h"
 #include "pass_scene.h"
 #include "require.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The list of light cells against one made here from the solid bits: which cells, in which order, and what
  * becomes of the light they had. */
-#include "frame/frame_work.h"
+#include "frame/stage.h"
 #include "pass_scene.h"
 #include "require.h"
 #include "test_memory.h"

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Decides what a frame does, in the order in which it happens. */
 #include "frame_work.h"
-
-#include "volume/change.h"
+#include "stage.h"
 
 #include <string.h>
 
@@ -91,16 +90,6 @@ static void plan_cycle(struct frame *frame, const struct frame_input *input)
     frame->situation.converged = a->phase == LIGHTING_CONVERGED;
     const bool due = (a->frame + 1) % input->settings->frames_to_update_lights == 0;
     frame->situation.shows = due || frame->cycle_ends || a->phase == LIGHTING_DARK;
-}
-
-enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t c)
-{
-    const struct cascade *cascade = &frame->next.cascades.at[c];
-    if (frame->situation.list_grew)
-        return RELIST_NEW;
-    if (!sdfgi_cascade_completes(cascade))
-        return RELIST_NOT;
-    return sdfgi_cell_box_empty(&cascade->change.kept) ? RELIST_NEW : RELIST_DIRTY;
 }
 
 /* Decides whose direct light is to be made again. */

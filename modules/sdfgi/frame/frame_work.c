@@ -1,29 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "frame_work.h"
 
-#include <assert.h>
-
-struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade)
-{
-    const enum need need = sdfgi_pass_row(pass)->need;
-    return stage->needs->holds[need]
-               ? sdfgi_work_add(&stage->frame->work, pass, cascade, sdfgi_need_reason(need))
-               : NULL;
-}
-
-uint32_t sdfgi_stage_begin_group(const struct plan_stage *stage)
-{
-    return stage->frame->work.count;
-}
-
-void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first)
-{
-    struct work_list *list = &stage->frame->work;
-    assert(first <= list->count);
-    list->groups++;
-    for (uint32_t i = first; i < list->count; i++)
-        list->items[i].group = list->groups;
-}
+#include "stage.h"
 
 /* When counters start again. */
 enum cleared { CLEARED_CHANGE, CLEARED_CYCLE };

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
- * The parts of a plan that share its work list. */
+/* SPDX-License-Identifier: MIT */
 #ifndef SDFGI_FRAME_WORK_H
 #define SDFGI_FRAME_WORK_H
 
@@ -8,39 +7,5 @@
 /* Adds all passes that the needs call for, in the order in which they run. */
 void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
                           const struct situation_needs *needs);
-
-/* What a stage needs to add its items. */
-struct plan_stage {
-    struct frame *frame;
-    const struct frame_input *input;
-    const struct situation_needs *needs;
-};
-
-/* What items are about: a cascade, or a piece of its change. */
-struct plan_target {
-    uint32_t cascade;
-    const struct scroll_piece *piece; /* NULL: all of the cascade */
-};
-
-/* Adds the passes of a phase that the needs call for, in the order of the table. */
-void sdfgi_stage_add_phase(const struct plan_stage *stage, enum pass_phase phase,
-                           const struct plan_target *target);
-
-/* Adds an item by hand. NULL if nothing calls for the pass in this frame. */
-struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade);
-/* Items added from here on, until `sdfgi_stage_end_group`, run side by side. They touch nothing in common,
- * except that light_direct of two cascades touches the same buffers. */
-uint32_t sdfgi_stage_begin_group(const struct plan_stage *stage);
-void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first);
-
-/* Stages 3 and 4: voxels and distances that are due. */
-void sdfgi_stage_generate(const struct plan_stage *stage);
-/* Stages 5 to 7 for cascades whose change completes, or whose light list was lost. */
-void sdfgi_stage_complete(const struct plan_stage *stage);
-/* Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
-void sdfgi_stage_light(const struct plan_stage *stage);
-
-/* What happens to the light list of a cascade. */
-enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t cascade);
 
 #endif

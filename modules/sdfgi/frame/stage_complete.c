@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Stages 5 to 7 where a change completes: probes, light cells and their light. */
-#include "frame_work.h"
+#include "stage.h"
 
 #include "shaders/shared/scratch.h"
 

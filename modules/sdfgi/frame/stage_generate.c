@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Stages 3 and 4: voxels and distances. */
-#include "frame_work.h"
+#include "stage.h"
 
 #include "volume/change.h"
 

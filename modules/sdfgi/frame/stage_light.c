@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
-#include "frame_work.h"
+#include "stage.h"
 
 static void add_direct(const struct plan_stage *stage, const struct relight_range *range)
 {

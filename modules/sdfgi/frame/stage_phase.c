@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Items of passes that are planned by their row alone: what they run over follows from the domain, their
  * arguments from the argument struct. */
-#include "frame_work.h"
+#include "stage.h"
 
 #include "volume/change.h"
 

@@ -8,16 +8,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Weight of a new direction in the running mean, and of a slower pace in that of the pace: a path that winds
- * keeps the pace of its fastest parts. */
+/* Weights of the newest frame in the running means of the heading and of the pace. The pace falls slowly, so
+ * that on a winding path it stays that of the fastest parts. */
 #define HEADING_WEIGHT 0.125
 #define PACE_WEIGHT    0.015625
 /* How much more is done than the camera's pace calls for. */
 #define HEADROOM 1.15
 /* Scrolls per frame from which on one frame may complete several. */
 #define BUSY_SCROLLS 0.5
-/* Probe spacings that a valid region may lack on a side before its cascade falls behind: one that is not due
- * yet, one that is being made, one more. */
+/* A cascade falls behind if its valid region ends more than this many probe spacings short of half the
+ * cascade's width from the camera: one spacing is not due yet, one is being made, one is to spare. */
 #define LAG 3.0
 /* Fraction of the budget that cascades may claim before finer ones wait. */
 #define CLAIM_FRACTION 0.9
@@ -49,8 +49,8 @@ static uint64_t distance_cells(const struct cascades *cascades)
 /* ---- The camera */
 
 /* The pace is that along the fastest axis, because the other axes scroll with it. It goes up at once, so that
- * work does not fall behind, and down slowly. A jump is no pace: of two frames in a row, the shorter way
- * counts. */
+ * work does not fall behind, and down slowly. Of two frames in a row the shorter distance counts, so that a
+ * single jump of the camera does not raise the pace. */
 static void follow_camera(struct scroll *s, const struct cascade *first, const double camera[static 3])
 {
     double moved[3], longest = 0;
@@ -60,8 +60,8 @@ static void follow_camera(struct scroll *s, const struct cascade *first, const d
         longest = fmax(longest, fabs(moved[i]));
         s->camera[i] = camera[i];
     }
-    const double lasting = fmin(longest, s->moved);
-    s->pace = fmax(lasting, s->pace + PACE_WEIGHT * (lasting - s->pace));
+    const double sustained = fmin(longest, s->moved);
+    s->pace = fmax(sustained, s->pace + PACE_WEIGHT * (sustained - s->pace));
     for (int i = 0; i < 3; i++)
         s->heading[i] += HEADING_WEIGHT * ((isnormal(longest) ? moved[i] / longest : 0) - s->heading[i]);
     s->moved = longest;
@@ -111,7 +111,8 @@ static void begin(struct run *run, struct cascade *cascade)
     run->plan->begins = run->plan->begins || cascade->change.cause != CHANGE_NONE;
 }
 
-/* Cascades that the budget can keep at the camera, coarse ones first; the coarsest always may try. */
+/* Decides which cascades may scroll: they share the budget from the coarsest on, which may always scroll.
+ * Then begins a change in each cascade that has none, or whose change is out of date. */
 static void begin_all(struct run *run)
 {
     struct cascades *all = run->cascades;
@@ -142,7 +143,8 @@ static struct scroll_piece *add_piece(struct run *run, enum piece_kind kind, uin
     return &plan->pieces[plan->piece_count++];
 }
 
-/* Takes slices of the next box, as many as `cells` allow; returns the cells taken. */
+/* Takes slices of the next box, as many as `cells` allow; returns the cells taken. Boxes begin and end at
+ * multiples of SDFGI_PROBE_SPACING, so slices fill them. */
 static uint64_t take_voxels(struct run *run, uint32_t c, uint64_t cells)
 {
     struct change *change = &run->cascades->at[c].change;
@@ -189,7 +191,7 @@ static uint64_t take_distances(struct run *run, uint32_t c, uint64_t cells)
 
 /* ---- What is urgent */
 
-/* True if a valid region ends too near to the camera, although its cascade could keep up. */
+/* True if the valid region of a cascade that may scroll ends too near the camera. */
 static bool falls_behind(const struct run *run, const struct cascade *cascade)
 {
     const double half = run->cascades->resolution / 2.0;
@@ -201,7 +203,8 @@ static bool falls_behind(const struct run *run, const struct cascade *cascade)
     return cascade->pace == CASCADE_KEEPS_UP && nearest < fmax(half - LAG * SDFGI_PROBE_SPACING, 0);
 }
 
-/* True if a change cannot wait for its turn: geometry changed in sight, or the camera runs away. */
+/* True if a change calls for the whole budget: geometry changed in sight, nothing is shown yet, or the camera
+ * runs away. */
 static bool hurries(const struct run *run, const struct cascade *cascade)
 {
     return cascade->change.cause != CHANGE_NONE &&
@@ -216,7 +219,7 @@ static bool any_hurries(const struct run *run)
     return false;
 }
 
-/* Scrolls of all cascades per frame, but of those that wait. */
+/* Scrolls of all cascades per frame, except those that wait. */
 static double scrolls_of_all(const struct run *run)
 {
     double scrolls = 0;
@@ -225,8 +228,8 @@ static double scrolls_of_all(const struct run *run)
     return scrolls;
 }
 
-/* To complete a cascade is work of its own. Some frames lie between one and the next, as many as the pace
- * leaves time for, unless they hurry. */
+/* To complete a cascade is extra work. Up to SCROLL_CALM_FRAMES frames without it lie in between: fewer if
+ * the camera is fast, and none if a change hurries. */
 static bool may_complete(const struct run *run)
 {
     const double scrolls = scrolls_of_all(run);
@@ -254,9 +257,9 @@ static void advance(struct run *run, uint32_t c, uint64_t *budget)
         sdfgi_change_enter(change, CHANGE_COMPLETES);
 }
 
-/* What all changes together do in this frame: as much as the camera's pace calls for, in whole layers, so
- * that one frame costs as much as the next; a slice at least, and never more than the setting allows, unless
- * there is nothing to show. */
+/* The cells that all changes together may do in this frame. The camera's pace with HEADROOM calls for so
+ * many, in whole layers, so that one frame costs as much as the next. It is a slice at least. If a change
+ * hurries, it is all that the setting allows; if nothing is shown yet, there is no limit. */
 static uint64_t frame_budget(const struct run *run)
 {
     const double limit = (double)run->limits->max_cells, layer = (double)layer_cells(run->cascades);
@@ -268,8 +271,8 @@ static uint64_t frame_budget(const struct run *run)
     return (uint64_t)fmin(fmax(ceil(called_for / layer) * layer, (double)slice_cells(run->cascades)), limit);
 }
 
-/* Fine cascades first, but before all the coarsest if it falls behind: behind that there is nothing. An edit
- * leaves what is there, so it waits its turn. */
+/* Fine cascades go first. The coarsest one goes before them if it hurries, because no other cascade covers
+ * its place. An edit there stays in order, because the old cells can be read until it is done. */
 static void advance_all(struct run *run, uint64_t budget)
 {
     const uint32_t count = run->cascades->count;

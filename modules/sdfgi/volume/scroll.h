@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Which part of what cascades need is done in this frame.
+ * Decides which part of the pending work of cascades this frame does.
  *
  * A cascade that scrolls keeps serving the cells that its old and its new place share. All volumes are
  * toroidal, so the cells that enter take the storage of those that leave, and nothing is held twice. The work
@@ -7,8 +7,9 @@
  * cells and light. With that the valid region opens.
  *
  * Each frame does as much as keeps all cascades just ahead of the camera, near ones first, so that work is
- * even from frame to frame. The budget is a hard limit: where the camera is faster, fine cascades wait and
- * coarser ones answer. */
+ * even from frame to frame. A frame never exceeds the budget, except while nothing is shown yet, or for
+ * distances by a flood, which cannot be cut. Where the camera is faster than the budget allows, fine cascades
+ * wait and coarser ones answer. */
 #ifndef SDFGI_SCROLL_H
 #define SDFGI_SCROLL_H
 
@@ -19,7 +20,8 @@ enum { SCROLL_CALM_FRAMES = 3 }; /* at a slow pace, between frames in which casc
 /* How the camera moves, and what that asks for. */
 struct scroll {
     double camera[3];       /* m */
-    double moved, pace;     /* probe spacings of cascade 0 along the fastest axis: in this frame, lasting */
+    double moved;           /* in the last frame: probe spacings of cascade 0 along the fastest axis */
+    double pace;            /* the same, sustained over frames */
     double heading[3];      /* fraction of that along each axis: a running mean */
     uint64_t frames;        /* that the camera has been followed */
     uint64_t scrolls_begun; /* since the start */
