@@ -94,7 +94,7 @@ static void report_scroll(const struct sdfgi *gi, struct sdfgi_scroll_report *sc
     for (uint32_t c = 0; c < cascades->count; c++) {
         scroll->pending_cells += cascades->at[c].change.cells_left;
         scroll->cascades_changing += cascades->at[c].change.cause != CHANGE_NONE;
-        scroll->cascades_waiting += cascades->at[c].pace != CASCADE_KEEPS_UP;
+        scroll->cascades_waiting += cascades->at[c].following != CASCADE_KEEPS_UP;
     }
 }
 

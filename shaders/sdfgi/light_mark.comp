@@ -115,7 +115,8 @@ bool dirty_block(uint n, out uint block, out bool more)
 
 /* ---- Cells of the previous list */
 
-/* First word of the row that holds a block: the number of the row's light cells. */
+/* A row is SDFGI_GROUP_LINEAR blocks in sequence. The slot of the first word of the row that holds a block:
+ * how many light cells the row has. */
 uint row_slot_of_block(uint block)
 {
     return light_row_slot(block / SDFGI_GROUP_LINEAR);

@@ -155,12 +155,12 @@ static void add_cascade(struct text *text, const struct cascade *cascade, uint32
 {
     static const char *const causes[] = { "none", "rebuild", "scroll", "edit" };
     static const char *const stages[] = { "idle", "begun", "voxels", "distances", "ready", "completes" };
-    static const char *const paces[] = { "keeps up", "waits", "is left behind" };
+    static const char *const following_names[] = { "keeps up", "waits", "is left behind" };
     const struct change *change = &cascade->change;
     if (change->cause != CHANGE_NONE)
         text_add(text, "; c%u %s %s", c, causes[change->cause], stages[change->stage]);
-    if (cascade->pace != CASCADE_KEEPS_UP)
-        text_add(text, "; c%u %s", c, paces[cascade->pace]);
+    if (cascade->following != CASCADE_KEEPS_UP)
+        text_add(text, "; c%u %s", c, following_names[cascade->following]);
 }
 
 void plan_text_add(struct text *text, const struct frame *frame, uint32_t cycle_frames)

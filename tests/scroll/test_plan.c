@@ -130,7 +130,7 @@ static void a_cascade_that_waits_is_work_to_do(void **state)
         camera[1] -= 2.4;
         scroll_drive_frame(&drive, camera);
     }
-    REQUIRE_TRUE(drive.cascades.at[0].pace != CASCADE_KEEPS_UP);
+    REQUIRE_TRUE(drive.cascades.at[0].following != CASCADE_KEEPS_UP);
     uint32_t frames = 0;
     for (; !sdfgi_cascades_rest(&drive.cascades) && frames < 200; frames++)
         scroll_drive_frame(&drive, camera);

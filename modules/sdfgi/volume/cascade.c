@@ -116,7 +116,7 @@ bool sdfgi_cascades_complete(const struct cascades *cascades)
 bool sdfgi_cascades_rest(const struct cascades *cascades)
 {
     for (uint32_t c = 0; c < cascades->count; c++)
-        if (cascades->at[c].change.cause != CHANGE_NONE || cascades->at[c].pace == CASCADE_LEFT_BEHIND)
+        if (cascades->at[c].change.cause != CHANGE_NONE || cascades->at[c].following == CASCADE_LEFT_BEHIND)
             return false;
     return true;
 }

@@ -51,8 +51,8 @@ enum cascade_place {
     CASCADE_CURRENT,  /* what is stored is right, or being changed */
 };
 
-/* This frame's verdict of the budget. */
-enum cascade_pace {
+/* Whether a cascade follows the camera in this frame: the budget decides. */
+enum cascade_following {
     CASCADE_KEEPS_UP,
     CASCADE_WAITS,       /* the camera is too fast for it to scroll */
     CASCADE_LEFT_BEHIND, /* it waits, and the camera is off its centre */
@@ -62,7 +62,7 @@ struct cascade {
     int64_t origin[3];   /* world index of the low corner's cell, a multiple of SDFGI_PROBE_SPACING */
     double cell_size[3]; /* metres */
     enum cascade_place place;
-    enum cascade_pace pace;
+    enum cascade_following following;
     enum change_cause last_turn; /* SCROLL or EDIT: they take turns */
     struct change change;
     struct cell_box valid;              /* valid region: complete cells, which shaders may read */

@@ -16,8 +16,8 @@
 #define HEADROOM 1.15
 /* Scrolls per frame from which on one frame may complete several. */
 #define BUSY_SCROLLS 0.5
-/* A cascade falls behind if its valid region ends more than this many probe spacings short of half the
- * cascade's width from the camera: one spacing is not due yet, one is being made, one is to spare. */
+/* A cascade falls behind if, on some side, its valid region reaches less far from the camera than half the
+ * cascade's width less LAG probe spacings. One of these is not due yet, one is being made, one is spare. */
 #define LAG 3.0
 /* Fraction of the budget that cascades may claim before finer ones wait. */
 #define CLAIM_FRACTION 0.9
@@ -82,15 +82,15 @@ static double cells_per_scroll(const struct cascades *cascades)
 
 /* ---- Changes begin */
 
-static enum cascade_pace pace_of(const struct cascade *cascade, bool moved, bool scrolls)
+static enum cascade_following following_of(const struct cascade *cascade, bool moved, bool scrolls)
 {
-    if (cascade->pace == CASCADE_KEEPS_UP)
+    if (cascade->following == CASCADE_KEEPS_UP)
         return CASCADE_KEEPS_UP;
     return moved && !scrolls ? CASCADE_LEFT_BEHIND : CASCADE_WAITS;
 }
 
-/* Begins what a cascade needs that is not being changed, or whose change is out of date. Scrolls and edits
- * take turns. */
+/* For a cascade that is not being changed, or whose change is out of date: begins the change that it needs,
+ * if any. Scrolls and edits take turns. */
 static void begin(struct run *run, struct cascade *cascade)
 {
     const uint32_t resolution = run->cascades->resolution;
@@ -98,8 +98,8 @@ static void begin(struct run *run, struct cascade *cascade)
     const bool moved = sdfgi_cascade_place(&next, resolution, run->scroll->camera);
     cascade->place = next.place;
     const bool outdated = cascade->place == CASCADE_OUTDATED;
-    const bool scrolls = moved && (cascade->pace == CASCADE_KEEPS_UP || outdated);
-    cascade->pace = pace_of(cascade, moved, scrolls);
+    const bool scrolls = moved && (cascade->following == CASCADE_KEEPS_UP || outdated);
+    cascade->following = following_of(cascade, moved, scrolls);
     if (cascade->edit_count > 0 && !outdated && !(scrolls && cascade->last_turn == CHANGE_EDIT)) {
         sdfgi_change_begin_edit(cascade, resolution);
     } else if (scrolls) {
@@ -124,9 +124,9 @@ static void begin_all(struct run *run)
         const bool waits =
             cascade->place != CASCADE_UNPLACED && claimed > budget * CLAIM_FRACTION && c + 1 < all->count;
         if (!waits)
-            cascade->pace = CASCADE_KEEPS_UP;
-        else if (cascade->pace == CASCADE_KEEPS_UP)
-            cascade->pace = CASCADE_WAITS;
+            cascade->following = CASCADE_KEEPS_UP;
+        else if (cascade->following == CASCADE_KEEPS_UP)
+            cascade->following = CASCADE_WAITS;
         if (cascade->change.cause == CHANGE_NONE || cascade->place == CASCADE_OUTDATED)
             begin(run, cascade);
     }
@@ -200,7 +200,7 @@ static bool falls_behind(const struct run *run, const struct cascade *cascade)
         const double at = run->scroll->camera[i] / cascade->cell_size[i] - (double)cascade->origin[i];
         nearest = fmin(nearest, fmin(at - cascade->valid.low[i], cascade->valid.high[i] - at));
     }
-    return cascade->pace == CASCADE_KEEPS_UP && nearest < fmax(half - LAG * SDFGI_PROBE_SPACING, 0);
+    return cascade->following == CASCADE_KEEPS_UP && nearest < fmax(half - LAG * SDFGI_PROBE_SPACING, 0);
 }
 
 /* True if a change calls for the whole budget: geometry changed in sight, nothing is shown yet, or the camera
@@ -224,12 +224,12 @@ static double scrolls_of_all(const struct run *run)
 {
     double scrolls = 0;
     for (uint32_t c = 0; c < run->cascades->count; c++)
-        scrolls += run->cascades->at[c].pace == CASCADE_KEEPS_UP ? scrolls_per_frame(run->scroll, c) : 0;
+        scrolls += run->cascades->at[c].following == CASCADE_KEEPS_UP ? scrolls_per_frame(run->scroll, c) : 0;
     return scrolls;
 }
 
-/* To complete a cascade is extra work. Up to SCROLL_CALM_FRAMES frames without it lie in between: fewer if
- * the camera is fast, and none if a change hurries. */
+/* Completing a cascade is extra work, so up to SCROLL_CALM_FRAMES frames lie between two completions, fewer
+ * if the camera is fast. From BUSY_SCROLLS on, or if a change hurries, one frame may complete several. */
 static bool may_complete(const struct run *run)
 {
     const double scrolls = scrolls_of_all(run);
@@ -307,7 +307,7 @@ void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const s
     sdfgi_blend_reserve(cascades, scroll);
     begin_all(&run);
     plan->from_nothing = !any_valid(cascades);
-    /* With nothing to show, there is nothing to wait for. */
+    /* A teleport says nothing of the camera's speed: later frames do not keep its pace. */
     if (plan->from_nothing)
         scroll->pace = 0;
     advance_all(&run, frame_budget(&run));

@@ -4,7 +4,7 @@
  * A cascade that scrolls keeps serving the cells that its old and its new place share. All volumes are
  * toroidal, so the cells that enter take the storage of those that leave, and nothing is held twice. The work
  * of a change is cut into whole slices and layers: voxels, then distances, then, in one frame, probes, light
- * cells and light. With that the valid region opens.
+ * cells and light. In that frame the valid region becomes the whole cascade again.
  *
  * Each frame does as much as keeps all cascades just ahead of the camera, near ones first, so that work is
  * even from frame to frame. A frame never exceeds the budget, except while nothing is shown yet, or for
