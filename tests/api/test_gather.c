@@ -46,21 +46,6 @@ static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
     g->result = sdfgi_gather(g->t->gi, cmd, &g->desc);
 }
 
-static struct gpu_test_image image_create(struct gi_test *t, VkFormat format, uint32_t texel_size,
-                                          const void *texels)
-{
-    const bool output = format == VK_FORMAT_R16G16B16A16_SFLOAT;
-    const struct gpu_test_image_desc desc = {
-        .format = format,
-        .extent = { WIDTH, HEIGHT, 1 },
-        .usage = output ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT,
-        .layout = output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-        .texels = texels,
-        .texel_size = texel_size,
-    };
-    return gpu_test_image_create(&t->gpu, &desc);
-}
-
 static void open_scene(struct gi_test *t)
 {
     struct sdfgi_settings settings = gi_test_settings();
@@ -137,9 +122,11 @@ static void gather_equals_the_lookup_in_a_shader(void **state)
     open_scene(&t);
     screen_fill(&s);
     gi_test_irradiance(&t, s.points, PIXELS, expected);
-    struct gpu_test_image depth = image_create(&t, VK_FORMAT_R32_SFLOAT, 4, s.depth);
-    struct gpu_test_image normal = image_create(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, s.normals);
-    struct gpu_test_image output = image_create(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    struct gpu_test_image depth = gi_test_gather_image(&t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, s.depth);
+    struct gpu_test_image normal =
+        gi_test_gather_image(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, WIDTH, HEIGHT, s.normals);
+    struct gpu_test_image output =
+        gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, WIDTH, HEIGHT, NULL);
     struct gather g = { .t = &t, .desc = floor_desc(&depth, &normal, &output) };
     gpu_test_submit(&t.gpu, gather_record, &g);
     REQUIRE_CMP((int)g.result, ==, (int)SDFGI_OK);
@@ -175,15 +162,15 @@ static void pictures_open(struct pictures *p, struct gi_test *t, const struct sc
 {
     p->t = t;
     p->turn = 0;
-    p->normal = image_create(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, s->normals);
+    p->normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, WIDTH, HEIGHT, s->normals);
     for (uint32_t i = 0; i < PICTURES; i++) {
         memcpy(p->depth[i], s->depth, sizeof s->depth);
         uint32_t pixel = 6 * i;
         while (s->depth[pixel] >= 1)
             pixel++;
         p->depth[i][pixel] = 1;
-        p->depths[i] = image_create(t, VK_FORMAT_R32_SFLOAT, 4, p->depth[i]);
-        p->outputs[i] = image_create(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+        p->depths[i] = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, p->depth[i]);
+        p->outputs[i] = gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, WIDTH, HEIGHT, NULL);
     }
 }
 
@@ -252,8 +239,9 @@ static void gather_refuses_bad_descriptors(void **state)
     struct gi_test t;
     open_scene(&t);
     t.gpu.messages.quiet = true;
-    struct gpu_test_image depth = image_create(&t, VK_FORMAT_R32_SFLOAT, 4, NULL);
-    struct gpu_test_image output = image_create(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    struct gpu_test_image depth = gi_test_gather_image(&t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, NULL);
+    struct gpu_test_image output =
+        gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, WIDTH, HEIGHT, NULL);
     const struct sdfgi_gather_desc good = { .depth = depth.view,
                                             .normal = depth.view,
                                             .output = output.view,

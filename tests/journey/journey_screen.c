@@ -5,20 +5,6 @@
 
 enum { PIXELS = JOURNEY_SCREEN_WIDTH * JOURNEY_SCREEN_HEIGHT };
 
-static struct gpu_test_image image_create(struct gi_test *t, VkFormat format, uint32_t texel_size,
-                                          const void *texels)
-{
-    const struct gpu_test_image_desc desc = {
-        .format = format,
-        .extent = { JOURNEY_SCREEN_WIDTH, JOURNEY_SCREEN_HEIGHT, 1 },
-        .usage = texels ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_STORAGE_BIT,
-        .layout = texels ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL,
-        .texels = texels,
-        .texel_size = texel_size,
-    };
-    return gpu_test_image_create(&t->gpu, &desc);
-}
-
 void journey_screen_open(struct journey_screen *screen, struct gi_test *t)
 {
     static float depth[PIXELS], normals[PIXELS][4];
@@ -26,9 +12,12 @@ void journey_screen_open(struct journey_screen *screen, struct gi_test *t)
         depth[i] = i % 17 == 3 ? 1.0f : 0.25f + 0.001f * (float)i;
         normals[i][1] = 1;
     }
-    screen->depth = image_create(t, VK_FORMAT_R32_SFLOAT, 4, depth);
-    screen->normal = image_create(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, normals);
-    screen->output = image_create(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, NULL);
+    screen->depth =
+        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, JOURNEY_SCREEN_WIDTH, JOURNEY_SCREEN_HEIGHT, depth);
+    screen->normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, JOURNEY_SCREEN_WIDTH,
+                                          JOURNEY_SCREEN_HEIGHT, normals);
+    screen->output = gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, JOURNEY_SCREEN_WIDTH,
+                                          JOURNEY_SCREEN_HEIGHT, NULL);
     screen->made = true;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Runs gi_lookup.comp, a host's shader, over a list of points. */
+ * What a host does to look light up: gi_lookup.comp, a host's shader, over a list of points, and images for
+ * sdfgi_gather. */
 #include "gi_test.h"
 
 #include "gpu_test_compute.h"
@@ -44,4 +45,19 @@ void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, u
                         float (*irradiance)[3])
 {
     gi_test_irradiance_from(t, NULL, points, count, irradiance);
+}
+
+struct gpu_test_image gi_test_gather_image(struct gi_test *t, VkFormat format, uint32_t texel_size,
+                                           uint32_t width, uint32_t height, const void *texels)
+{
+    const bool output = format == VK_FORMAT_R16G16B16A16_SFLOAT;
+    const struct gpu_test_image_desc desc = {
+        .format = format,
+        .extent = { width, height, 1 },
+        .usage = output ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT,
+        .layout = output ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        .texels = texels,
+        .texel_size = texel_size,
+    };
+    return gpu_test_image_create(&t->gpu, &desc);
 }

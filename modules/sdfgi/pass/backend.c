@@ -28,6 +28,20 @@ void sdfgi_backend_buffer_finish(struct backend *backend, struct gpu_buffer *buf
     gpu_buffer_finish(&backend->device, buffer);
 }
 
+VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
+                                   const VkDescriptorPoolSize sizes[static 2],
+                                   VkDescriptorPoolCreateFlags flags, VkDescriptorPool *pool)
+{
+    return backend->device.fn.CreateDescriptorPool(
+        backend->device.handle,
+        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .flags = flags,
+                                       .maxSets = sets,
+                                       .poolSizeCount = 2,
+                                       .pPoolSizes = sizes },
+        backend->device.callbacks, pool);
+}
+
 VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
                                     VkDescriptorSetLayout layout, VkDescriptorSet *set)
 {

@@ -47,6 +47,10 @@ VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32
 VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
                                 VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline);
 
+/* A pool for `sets` descriptor sets, with room for descriptors of two types in all. */
+VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
+                                   const VkDescriptorPoolSize sizes[static 2],
+                                   VkDescriptorPoolCreateFlags flags, VkDescriptorPool *pool);
 /* One set from a pool. */
 VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
                                     VkDescriptorSetLayout layout, VkDescriptorSet *set);

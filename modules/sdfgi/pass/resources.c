@@ -39,13 +39,7 @@ static VkResult create_pool(const struct backend *backend, uint32_t sets, uint32
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
     };
-    return backend->device.fn.CreateDescriptorPool(
-        backend->device.handle,
-        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .maxSets = sets,
-                                       .poolSizeCount = 2,
-                                       .pPoolSizes = sizes },
-        backend->device.callbacks, pool);
+    return sdfgi_backend_pool_create(backend, sets, sizes, 0, pool);
 }
 
 static VkResult create_sets(const struct backend *backend, VkDescriptorPool *pool,

@@ -9,7 +9,6 @@ enum { SETS_PER_POOL = 128 };
 
 static VkResult add_pool(struct scene *scene)
 {
-    const struct gpu_device *device = &scene->backend->device;
     struct set_pool *pool = sdfgi_hooks_alloc_zeroed(&scene->backend->hooks, sizeof *pool);
     if (!pool)
         return VK_ERROR_OUT_OF_HOST_MEMORY;
@@ -17,14 +16,9 @@ static VkResult add_pool(struct scene *scene)
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * SETS_PER_POOL },
         { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * SETS_PER_POOL },
     };
-    const VkResult result = device->fn.CreateDescriptorPool(
-        device->handle,
-        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                                       .maxSets = SETS_PER_POOL,
-                                       .poolSizeCount = 2,
-                                       .pPoolSizes = sizes },
-        device->callbacks, &pool->handle);
+    const VkResult result =
+        sdfgi_backend_pool_create(scene->backend, SETS_PER_POOL, sizes,
+                                  VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT, &pool->handle);
     if (result != VK_SUCCESS) {
         sdfgi_hooks_free(&scene->backend->hooks, pool);
         return result;

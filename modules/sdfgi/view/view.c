@@ -17,13 +17,7 @@ static VkResult create_pool(const struct backend *backend, VkDescriptorPool *poo
         { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * sets },
         { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets },
     };
-    return backend->device.fn.CreateDescriptorPool(
-        backend->device.handle,
-        &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .maxSets = sets,
-                                       .poolSizeCount = 2,
-                                       .pPoolSizes = sizes },
-        backend->device.callbacks, pool);
+    return sdfgi_backend_pool_create(backend, sets, sizes, 0, pool);
 }
 
 static void destroy(struct backend *backend, struct view *view)
