@@ -76,8 +76,8 @@ static sdfgi *make_gi(void)
     sdfgi *gi;
     struct sdfgi_settings settings;
     sdfgi_settings_default(&settings);
-    settings.enabled = true; /* the one switch; sdfgi_set_settings throws it later */
-    settings.cascades = 2, settings.ray_count = 125, settings.frames_to_converge = 4; /* few long frames */
+    settings.enabled = true, settings.frames_to_converge = 4; /* the first is the one switch */
+    settings.cascades = 2, settings.ray_count = 125, settings.cell_rays = 128; /* few long frames */
     CHECK(sdfgi_create(&(struct sdfgi_desc){ vk, 1, &settings, { print_message, stderr }, { 0 }, 0 }, &gi));
     static const float vertices[2][6][3] = {
         { { -6, 0, 6 }, { 6, 0, 6 }, { 6, 0, -6 }, { -6, 0, 6 }, { 6, 0, -6 }, { -6, 0, -6 } },

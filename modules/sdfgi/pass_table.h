@@ -25,15 +25,13 @@
 /* clang-format off */
 #define SDFGI_PASSES(X)                                                                                      \
     X(REGION_CLEAR, COMPUTE, region_clear, CELLS, GENERATE, VOXELS, CREATED,                                 \
-      BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, 0, R(BITS) | R(LIGHT) | R(MASKS) | R(SCRATCH) |             \
-      R(BOUNDS))                                                                                             \
+      BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, 0, R(BITS) | R(MASKS) | R(SCRATCH) | R(BOUNDS))             \
     X(VOXELIZE, COMPUTE_TEXTURED, voxelize, TRIANGLES, VOXELS, VOXELS, CREATED,                              \
-      INSTANCES, voxelize, SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) |       \
-      R(COUNTERS))                                                                                           \
+      INSTANCES, voxelize, SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(COUNTERS))     \
     X(VOXELIZE_RASTER, RASTER_TEXTURED, voxelize_raster, TRIANGLES, VOXELS_RASTER, VOXELS, RASTER,           \
-      INSTANCES, voxelize, 1, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(LIGHT) | R(COUNTERS))             \
+      INSTANCES, voxelize, 1, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(COUNTERS))                        \
     X(VOXEL_RESOLVE, COMPUTE, voxel_resolve, BLOCKS, GENERATE, VOXELS, CREATED,                              \
-      BOX, region, 8 * SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(SCRATCH), R(LIGHT) | R(ALBEDO) |                \
+      BOX, region, 8 * SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(SCRATCH), R(ALBEDO) |                           \
       R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS))                                                    \
     X(DISTANCE_PREPARE, COMPUTE, distance_prepare, CELLS, EXACT, DISTANCES, CREATED,                         \
       DISTANCE_ROWS, distance_prepare, SDFGI_GROUP_COLUMNS, NONE, R(BITS) | R(DISTANCE) | R(BOUNDS),         \
@@ -50,12 +48,12 @@
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(SCRATCH), R(DISTANCE))                                        \
     X(LIGHT_MARK, COMPUTE, light_mark, CELLS, LIST, MARK, CREATED,                                           \
       LIGHT_BLOCKS, light_mark, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) |           \
-      R(INDIRECT), R(LIGHT) | R(MASKS) | R(SCRATCH))                                                         \
+      R(LIGHT_BLOCKS) | R(LIGHT) | R(SURFACES) | R(GATHERED) | R(INDIRECT), R(MASKS) | R(SCRATCH))           \
     X(PROBE_PLACE, COMPUTE, probe_place, PROBES, COMPLETE, PLACE, CREATED,                                   \
       PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS))                              \
     X(LIGHT_LIST, COMPUTE, light_list, LIGHT_CELLS, LIST, LIST, CREATED,                                     \
-      LIGHT_ROWS, cascade, SDFGI_GROUP_LINEAR, NONE, 0, R(LIGHT) | R(LIGHT_CELLS) | R(SCRATCH) |             \
-      R(COUNTERS) | R(INDIRECT))                                                                             \
+      LIGHT_ROWS, cascade, SDFGI_GROUP_LINEAR, NONE, R(BITS), R(LIGHT) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |  \
+      R(SURFACES) | R(GATHERED) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT))                                    \
     X(LIGHT_DIRECT, COMPUTE, light_direct, LIGHT_CELLS, DIRECT, OWN, CREATED,                                \
       LIGHT_CELLS, light_direct, SDFGI_CELLS_OF_SURFACES, NONE, R(BITS) | R(DISTANCE) | R(LIGHTS) |          \
       R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS))                                     \
@@ -71,20 +69,27 @@
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(BOUNDS), R(RAYS))                                             \
     X(LIGHT_BOUNCE, COMPUTE, light_bounce, LIGHT_CELLS, LIGHT, OWN, CREATED,                                 \
       ALL_LIGHT_CELLS, light_bounce, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(PROBES) | R(MASKS) |              \
-      R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(SCRATCH) | R(IRRADIANCE),     \
-      R(LIGHT) | R(COUNTERS))                                                                                \
+      R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SCRATCH) |  \
+      R(IRRADIANCE), R(LIGHT) | R(SURFACES) | R(GATHERED) | R(COUNTERS))                                     \
+    X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
+      ALL_LIGHT_CELLS, cell_gather, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
+      R(GATHERED) | R(COUNTERS), R(SURFACES))                                                                \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
       ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                 \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
       ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS)      \
       | R(INDIRECT))                                                                                         \
+    X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
+      ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(NORMALS)   \
+      | R(LIGHT_CELLS) | R(LIGHT_BLOCKS), R(GATHERED) | R(COUNTERS))                                         \
     X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, PROBES, CREATED,                                           \
-      ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(INDIRECT), R(SUMS) | R(COUNTERS))        \
+      ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(INDIRECT), R(SUMS)     \
+      | R(COUNTERS))                                                                                         \
     X(PROBE_BLEND, COMPUTE, probe_blend, PROBES, BLEND, PROBES, CREATED,                                     \
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
-      PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(LIGHT) | R(PROBES) | R(MASKS)      \
-      | R(OCCLUSION) | R(IRRADIANCE), 0)
+      PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \
+      R(LIGHT_BLOCKS) | R(SURFACES), 0)
 /* clang-format on */
 
 enum pass {

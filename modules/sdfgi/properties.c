@@ -19,6 +19,7 @@ struct row {
 /* Enums are read and written as int. */
 _Static_assert(sizeof(enum sdfgi_y_scale) == sizeof(int), "enum size");
 _Static_assert(sizeof(enum sdfgi_visibility) == sizeof(int), "enum size");
+_Static_assert(sizeof(enum sdfgi_surface_light) == sizeof(int), "enum size");
 _Static_assert(sizeof(enum sdfgi_sdf_method) == sizeof(int), "enum size");
 _Static_assert(sizeof(enum sdfgi_voxelizer) == sizeof(int), "enum size");
 
@@ -49,8 +50,9 @@ static const struct row rows[] = {
         "indirect light", "memory and GPU time; off costs neither",
         "The one switch. Off, the library records no command and holds no device memory."),
     RECREATE(use_occlusion, "sdfgi_use_occlusion", BOOL, 1, 0, 1, "", "",
-        "no light through walls", "a visibility test per probe in every lookup, and its data",
-        "Weighs the probes around a point by what they can see of it. Off, light leaks through walls "
+        "no light through walls",
+        "a visibility test per light cell and probe when geometry changes, and its data",
+        "Weighs the probes around a light cell by what they can see of it. Off, light leaks through walls "
         "thinner than the distance between probes."),
     LIVE(read_sky_light, "sdfgi_read_sky_light", BOOL, 1, 0, 1, "", "",
         "light from the sky", "one evaluation of the sky for each ray that leaves the cascades",
@@ -83,7 +85,7 @@ static const struct row rows[] = {
         "Factor on what lookups return. It does not enter the bounces."),
     LIVE(normal_bias_cells, "sdfgi_normal_bias", FLOAT, 1, 0, 4, "cells", "",
         "fewer dark specks where a surface hides from its own cells", "light leaks and contact detail",
-        "How far a lookup moves along the surface normal before it reads the probes."),
+        "How far a lookup moves along the surface normal before it reads light cells."),
     LIVE(probe_bias_cells, "sdfgi_probe_bias", FLOAT, 1, 0, 4, "cells", "",
         "no self-shadowing where sdfgi_visibility is probe_depth", "light leaks through thin walls there",
         "How much further than a probe's mean depth a point may be without counting as hidden. Only "
@@ -108,14 +110,25 @@ static const struct row rows[] = {
     RECREATE(resolution, "sdfgi_resolution", INT, 128, 32, 256, "cells", "32,64,128,256",
         "range at the same cell size, or detail at the same range", "memory and time with the third power",
         "Cells along a side of each cascade, a power of two."),
-    RECREATE(visibility, "sdfgi_visibility", ENUM, SDFGI_VISIBILITY_CELL_MASK, 0, 2, "",
-        "cell_mask,probe_depth,traced",
+    RECREATE(visibility, "sdfgi_visibility", ENUM, SDFGI_VISIBILITY_CELL_MASK, 0, 1, "",
+        "cell_mask,probe_depth",
         "nothing: they differ in kind",
-        "probe_depth needs 16x16 depths per probe and leaks more behind thin walls; traced needs eight "
-        "rays per lookup",
-        "How a lookup learns which probes see a point: cell_mask traces a ray from each cell to each of its "
-        "eight probes once; probe_depth compares with mean depths around each probe; traced sends the eight "
-        "rays in every lookup."),
+        "probe_depth needs 16x16 depths per probe and leaks more behind thin walls",
+        "How a light cell learns which probes it sees: cell_mask traces a ray to each of its eight probes "
+        "once; probe_depth compares with mean depths around each probe."),
+    RECREATE(surface_light, "sdfgi_surface_light", ENUM, SDFGI_SURFACE_LIGHT_CELLS, 0, 1, "", "probes,cells",
+        "accuracy on surfaces: contact shadows, and light that changes within the distance between probes",
+        "cells: sdfgi_cell_rays_per_frame rays in each frame until light has converged, and 100 bytes per "
+        "light cell",
+        "What lights surfaces. cells: each light cell gathers light with rays of its own. probes: light "
+        "cells read the probes around them, and send no rays."),
+    RECREATE(cell_rays, "sdfgi_cell_rays", INT, 512, 16, 2048, "rays per surface", "",
+        "less noise between neighbouring light cells", "frames until light has settled, in proportion",
+        "Rays that a light cell sends for each of its surfaces in a gather cycle. Every cycle repeats the "
+        "same directions."),
+    LIVE(cell_rays_per_frame, "sdfgi_cell_rays_per_frame", INT, 131072, 1024, 16777216, "rays", "",
+        "light on surfaces that follows changes sooner", "tracing time in proportion",
+        "Rays that light cells send in a frame, until light has converged. Near cascades get most of them."),
     RECREATE(sdf_method, "sdfgi_sdf_method", ENUM, SDFGI_SDF_EXACT, 0, 1, "", "exact,flood",
         "nothing: the two differ in kind",
         "flood oversteps by up to 0.14 cell, and its cost does not fall where a cascade is empty",

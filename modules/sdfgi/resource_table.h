@@ -15,8 +15,11 @@
  *
  * FRAME, LIGHTS, MATERIALS  written by the host when anything in them changes
  * BITS .. NORMALS           valid until the cascade moves or its geometry changes
- * LIGHT                     outgoing light; holds emissive bits between voxelize and voxel_resolve
+ * LIGHT                     outgoing light per light cell and axis, in the order of the list, and as long
  * LIGHT_CELLS               the light list: grows when it is too short; direct light is kept
+ * LIGHT_BLOCKS              where in the list the light cells of a block are
+ * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
+ * GATHERED                  what light cells gathered with rays of their own, in the order of the list
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes
  * SUMS                      of this sample cycle; and each probe's history
  * PREVIOUS                  the sample cycle before
@@ -44,26 +47,32 @@
     X(FRAME,       UNIFORM, FRAME_PARAMS,    LISTS,   VOLUME, LOOKUP, 1,                            DERIVED) \
     X(BITS,        STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       DERIVED) \
     X(DISTANCE,    STORAGE, U16,             VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       DERIVED) \
-    X(LIGHT,       STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       SAVED)   \
-    X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, LOOKUP, e->cells * e->cascades,       DERIVED) \
+    X(LIGHT,       STORAGE, U32,             LISTS,   VOLUME, LOOKUP, 6 * ENTRY_COUNT(e),           SAVED)   \
     X(PROBES,      STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->probes * e->cascades,      DERIVED) \
-    X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->occlusion,                 DERIVED) \
     X(IRRADIANCE,  STORAGE, F16X4,           PROBES,  VOLUME, LOOKUP, TEXEL_COUNT(e),               SAVED)   \
+    X(LIGHT_BLOCKS, STORAGE, U32X4,          LISTS,   VOLUME, LOOKUP, e->cells / 64 * e->cascades,  DERIVED) \
+    X(SURFACES,    STORAGE, U32,             LISTS,   VOLUME, LOOKUP, 6 * ENTRY_COUNT(e),           SAVED)   \
     X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,             DERIVED) \
     X(MATERIALS,   STORAGE, MATERIAL_PARAMS, LISTS,   VOLUME, WORK,   SDFGI_MAX_MATERIALS,          DERIVED) \
     X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                   SCRATCH) \
     X(ALBEDO,      STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
-    X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   e->light_cells * e->cascades, DERIVED) \
+    X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED) \
     X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   RAY_COUNT(e),                 DERIVED) \
     X(SUMS,        STORAGE, F32X4,           PROBES,  VOLUME, WORK,   SUM_COUNT(e),                 SAVED)   \
     X(PREVIOUS,    STORAGE, F16X4,           PROBES,  VOLUME, WORK,   TEXEL_COUNT(e),               SAVED)   \
     X(COUNTERS,    STORAGE, U32,             LISTS,   VOLUME, WORK,   SDFGI_COUNTER_COUNT,          DERIVED) \
     X(INDIRECT,    STORAGE, U32X4,           LISTS,   VOLUME, WORK,   SDFGI_INDIRECT_RECORDS,       DERIVED) \
-    X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   BOUNDS_BYTES,                 DERIVED)
+    X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   BOUNDS_BYTES,                 DERIVED) \
+    X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, WORK,   e->cells * e->cascades,       DERIVED) \
+    X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, WORK,   e->occlusion,                 DERIVED) \
+    X(GATHERED,    STORAGE, U32,             LISTS,   VOLUME, WORK,   GATHERED_COUNT(e),            SAVED)
 /* clang-format on */
 
+#define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
+/* None where light cells read probes alone; a binding needs a word. */
+#define GATHERED_COUNT(e) ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) : 1)
 #define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
 #define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
 #define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)

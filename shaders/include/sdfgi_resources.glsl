@@ -28,11 +28,6 @@
 #else
 #define SDFGI_ACCESS_LIGHT readonly
 #endif
-#ifdef SDFGI_WRITES_MASKS
-#define SDFGI_ACCESS_MASKS
-#else
-#define SDFGI_ACCESS_MASKS readonly
-#endif
 #ifdef SDFGI_WRITES_PROBES
 #define SDFGI_ACCESS_PROBES
 #else
@@ -43,10 +38,15 @@
 #else
 #define SDFGI_ACCESS_IRRADIANCE readonly
 #endif
-#ifdef SDFGI_WRITES_OCCLUSION
-#define SDFGI_ACCESS_OCCLUSION
+#ifdef SDFGI_WRITES_LIGHT_BLOCKS
+#define SDFGI_ACCESS_LIGHT_BLOCKS
 #else
-#define SDFGI_ACCESS_OCCLUSION readonly
+#define SDFGI_ACCESS_LIGHT_BLOCKS readonly
+#endif
+#ifdef SDFGI_WRITES_SURFACES
+#define SDFGI_ACCESS_SURFACES
+#else
+#define SDFGI_ACCESS_SURFACES readonly
 #endif
 
 /* All members are vec4-sized: std140 lays them out as C does. */
@@ -69,16 +69,11 @@ layout(std430, set = SDFGI_SET,
     uint sdfgi_distances[];
 };
 
-/* Outgoing radiance per light cell, packed by lib/light_pack.glsl. */
+/* Outgoing radiance of light cells times exposure, as RGB9E5: per cascade and axis a value per entry of the
+ * light list. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_LIGHT) SDFGI_ACCESS_LIGHT buffer sdfgi_light_buffer
 {
-    uvec2 sdfgi_light[];
-};
-
-/* Visibility bits: eight per cell, which probes of its cage a light cell sees. Four cells per word. */
-layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_MASKS) SDFGI_ACCESS_MASKS buffer sdfgi_masks_buffer
-{
-    uint sdfgi_masks[];
+    uint sdfgi_light[];
 };
 
 /* The state of each probe: where it stands, whether it is dead, and its links. See sdfgi_space.glsl. */
@@ -87,20 +82,30 @@ layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_PROBES) SDFGI_ACCESS_PRO
     uint sdfgi_probes[];
 };
 
-/* Mean and mean of squares of depth as unorm16 of SDFGI_OCCLUSION_RANGE, 18 x 18 texels per probe. Empty
- * unless the visibility method is PROBE_DEPTH. */
-layout(std430, set = SDFGI_SET,
-       binding = SDFGI_BINDING_OCCLUSION) SDFGI_ACCESS_OCCLUSION buffer sdfgi_occlusion_buffer
-{
-    uint sdfgi_occlusion[];
-};
-
 /* The irradiance atlas: irradiance over pi times exposure, packed by lib/irradiance_pack.glsl,
  * SDFGI_IRRADIANCE_COUNT texels per probe. */
 layout(std430, set = SDFGI_SET,
        binding = SDFGI_BINDING_IRRADIANCE) SDFGI_ACCESS_IRRADIANCE buffer sdfgi_irradiance_buffer
 {
     uvec2 sdfgi_irradiance_texels[];
+};
+
+/* Per light block (4^3 texels) where its light cells are in the light list. x, y: a bit per light cell, x + 4
+ * y
+ * + 16 z. z: the entry of the first; the others follow in the order of their bits. */
+layout(std430, set = SDFGI_SET,
+       binding = SDFGI_BINDING_LIGHT_BLOCKS) SDFGI_ACCESS_LIGHT_BLOCKS buffer sdfgi_light_blocks_buffer
+{
+    uvec4 sdfgi_light_blocks[];
+};
+
+/* The irradiance that arrives at the surfaces of light cells, over pi and times exposure, as RGB9E5: per
+ * cascade and axis a value per entry of the light list. SDFGI_SURFACE_NONE where no surface faces the axis,
+ * SDFGI_SURFACE_UNKNOWN where nothing is known yet. */
+layout(std430, set = SDFGI_SET,
+       binding = SDFGI_BINDING_SURFACES) SDFGI_ACCESS_SURFACES buffer sdfgi_surfaces_buffer
+{
+    uint sdfgi_surfaces[];
 };
 
 #endif

@@ -116,13 +116,6 @@ float sdfgi_cell_distance(uint cascade, ivec3 cell)
     return sdfgi_stored_distance(sdfgi_cell_index(cascade, cell));
 }
 
-/* A bit per probe of the cage: whether the light cell sees it. */
-uint sdfgi_cell_visibility_bits(uint cascade, ivec3 cell)
-{
-    const uint index = sdfgi_cell_index(cascade, cell);
-    return sdfgi_masks[index >> 2u] >> (8u * (index & 3u)) & 0xffu;
-}
-
 /* To the cell space of a cascade from that of cascade 0, and back. */
 vec3 sdfgi_cascade_from_first(uint cascade, vec3 pos_first)
 {

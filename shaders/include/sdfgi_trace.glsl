@@ -21,9 +21,6 @@ struct sdfgi_trace_hit {
     float distance; /* cell widths of the cascade in which the ray began; the range if nothing was hit */
 };
 
-/* A stored distance leads from a cell's centre to the centre of a sub-voxel, whose corner is up to sqrt(3) /
- * 8 closer. The flood may store 0.1 too much. */
-#define SDFGI_TRACE_MARGIN 0.32
 /* A cell with a greater stored distance has no sub-voxel of its own: sqrt(3) 3 / 8, and the flood's 0.1. */
 #define SDFGI_TRACE_OCCUPIED_DISTANCE 0.75
 /* Walking through a cell is cheaper than a step of the distance field that is shorter than this. */
@@ -212,12 +209,6 @@ sdfgi_trace_hit sdfgi_trace_result(sdfgi_trace_query query, sdfgi_trace_state ra
 }
 
 /* ---- The light cell in front of a hit */
-
-bool sdfgi_trace_is_light_cell(uint cascade, ivec3 cell)
-{
-    return sdfgi_cell_is_valid(cascade, cell) &&
-           (sdfgi_light[sdfgi_cell_index(cascade, cell)].y & SDFGI_LIGHT_VALID) != 0u;
-}
 
 bool sdfgi_trace_is_empty(uint cascade, ivec3 cell)
 {

@@ -6,6 +6,9 @@
 
 #include "sdfgi_space.glsl"
 
+/* A stored distance leads from a cell's centre to the centre of a sub-voxel, whose corner is up to sqrt(3) /
+ * 8 closer. The flood may store 0.1 too much. */
+#define SDFGI_TRACE_MARGIN 0.32
 /* Rounding may misplace a ray that runs exactly along an edge by so many sub-voxels. */
 #define SDFGI_TRACE_EDGE 0.00025
 

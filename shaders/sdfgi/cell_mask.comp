@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
 #include "light_blocks.glsl"
+#include "visibility.glsl"
 #include "workgroup.glsl"
 #include "../include/sdfgi_trace.glsl"
 

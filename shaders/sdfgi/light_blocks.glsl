@@ -5,11 +5,12 @@
  *
  * In the scratch buffer (shared/scratch.h has the offsets):
  *
- * - per block four words: two with a bit per light cell, x + 4 y + 16 z; 1 if the block is dirty; and
- *   otherwise the first entry of its cells in the previous list;
+ * - per block six words, of eight: two with a bit per light cell, x + 4 y + 16 z; 1 if the block is dirty;
+ * the first entry of its cells in the previous list; and, of dirty blocks, two with the bits of that list;
  * - per row of SDFGI_GROUP_LINEAR blocks two words: how many light cells it has, and how many in dirty
  * blocks;
- * - per entry of the previous list two words: its direct light;
+ * - per entry of the previous list SDFGI_LIGHT_KEPT_WORDS words: its direct light, its outgoing light and its
+ *   irradiance along six axes, and what it has gathered;
  * - per light cell in a dirty block, in the order of the list, two words: its entry and its texel index.
  *
  * The host clears blocks and rows to 0 before light_mark. */
@@ -35,10 +36,16 @@ uvec3 light_block_coords(uint block)
     return uvec3(block & mask, block >> bits & mask, block >> (2u * bits));
 }
 
-/* First of a block's four words. */
+/* First of a block's words. */
 uint light_block_slot(uint block)
 {
-    return 4u * block;
+    return 8u * block;
+}
+
+/* Index of a block's record in sdfgi_light_blocks. */
+uint light_block_record(uint cascade, uint block)
+{
+    return block | cascade << (3u * light_block_side_bits());
 }
 
 uint light_block_count()
@@ -57,10 +64,13 @@ uint light_row_slot(uint row)
     return sdfgi_scratch_light_rows(sdfgi_frame.resolution_log2) + 2u * row;
 }
 
-/* First of the two words with the direct light of an entry of the previous list. */
-uint light_previous_slot(uint entry)
+const uint LIGHT_KEPT_DIRECT = 0u, LIGHT_KEPT_LIGHT = 2u, LIGHT_KEPT_SURFACES = 8u, LIGHT_KEPT_GATHERED = 14u;
+
+/* Word `k` of what an entry of the previous list held, from LIGHT_KEPT_* on. Threads that follow one another
+ * take entries that do. */
+uint light_previous_slot(uint entry, uint k)
 {
-    return sdfgi_scratch_light_before(sdfgi_frame.resolution_log2) + 2u * entry;
+    return sdfgi_scratch_light_before(sdfgi_frame.resolution_log2) + k * sdfgi_frame.light_cell_room + entry;
 }
 
 /* First of the two words of the n-th light cell in dirty blocks. */

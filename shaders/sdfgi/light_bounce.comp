@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Outgoing radiance of each light cell, per axis along which a surface faces: direct light, the surface's
- * emission, and the irradiance from the probes times bounce gain. A thread per light cell that args names, in
- * the cascade args.cascade + gl_WorkGroupID.y. */
+ * Per light cell, and per axis along which a surface faces: the irradiance that arrives, which lookups read;
+ * and outgoing radiance, that is, direct light, the surface's emission, and the irradiance times bounce gain.
+ * A thread per light cell that args names, in the cascade args.cascade + gl_WorkGroupID.y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
+#define SDFGI_WRITES_SURFACES
 #include "light_blocks.glsl"
+#include "gathered.glsl"
 #include "bounce.glsl"
+#include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -23,11 +26,46 @@ vec3 bounce_gain(vec3 albedo)
     return min(gain, vec3(SDFGI_MAX_BOUNCE_GAIN));
 }
 
+/* Irradiance over pi times exposure at a surface. */
+struct surface_light {
+    bool known;
+    vec3 estimate;  /* what its outgoing light follows */
+    vec3 displayed; /* what lookups show */
+};
+
+surface_light light_from_probes(uint cascade, ivec3 cell, vec3 normal)
+{
+    if (args.without_probes != 0u)
+        return surface_light(false, vec3(0.0), vec3(0.0));
+    const bounce_light light =
+        bounce_light_cell(cascade, cell, normal, visibility_bits_of_cell(cascade, cell));
+    return surface_light(light.weight > 0.0, light.estimate, light.displayed);
+}
+
+/* What the cell has gathered itself, or what probes tell as long as that is little or nothing. */
+surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, vec3 normal)
+{
+    if (!gathers())
+        return light_from_probes(cascade, cell, normal);
+    const gathered_state state = gathered_load_state(cascade, entry);
+    const gathered_light gathered = gathered_load(cascade, entry, axis);
+    surface_light probes = surface_light(false, vec3(0.0), vec3(0.0));
+    if (state.mean == GATHERED_NOTHING)
+        probes = light_from_probes(cascade, cell, normal);
+    surface_light light;
+    light.known =
+        gathered_irradiance(state, gathered, vec4(probes.displayed, float(probes.known)), light.displayed);
+    light.known =
+        gathered_irradiance(state, gathered, vec4(probes.estimate, float(probes.known)), light.estimate);
+    return light;
+}
+
 void main()
 {
     const uint cascade = args.cascade + gl_WorkGroupID.y;
     uint entry;
-    if (!light_entry(cascade, args.only_dirty != 0u, args.first, args.end, gl_GlobalInvocationID.x, entry))
+    if (!light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
+                     gl_GlobalInvocationID.x, entry))
         return;
     const uint slot = light_cell_slot(cascade, entry);
     const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[slot]);
@@ -35,22 +73,29 @@ void main()
         return;
     const uint facing = light_cell_facing(cascade, cell);
     const uvec2 direct = light_cell_direct(slot);
-    const uint visibility_bits = sdfgi_cell_visibility_bits(cascade, cell);
 
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++)
         axes[a] = vec3(0.0);
-    for (uint rest = facing; rest != 0u; rest &= rest - 1u) {
-        const uint a = uint(findLSB(rest));
-        const uint block = surface_block_index(cascade, cell - surface_axis_direction(a));
-        axes[a] = sdfgi_light_unpack_axis(direct, a) + surface_emission(block, a);
-        if (args.without_probes == 0u) {
-            const vec4 sum = bounce_light_cell(cascade, cell, surface_normal(block, a), visibility_bits);
-            axes[a] += bounce_gain(surface_albedo(block)) * sum.rgb / max(sum.a, 1e-6);
+    for (uint a = 0u; a < 6u; a++) {
+        uint arriving = SDFGI_SURFACE_NONE;
+        if ((facing >> a & 1u) != 0u) {
+            const uint block = surface_block_index(cascade, cell - surface_axis_direction(a));
+            const surface_light light = light_arriving(cascade, entry, cell, a, surface_normal(block, a));
+            axes[a] = sdfgi_light_unpack_axis(direct, a) + surface_emission(block, a) +
+                      bounce_gain(surface_albedo(block)) * light.estimate;
+            arriving = light.known ? min(sdfgi_rgbe_encode(light.displayed), SDFGI_SURFACE_UNKNOWN - 1u)
+                                   : SDFGI_SURFACE_UNKNOWN;
+            if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
+                counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
         }
-        if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
-            counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
+        if (gathers())
+            sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + a, entry)] = arriving;
+        if (!gathers() || args.only_dirty != 0u)
+            sdfgi_surfaces[sdfgi_surface_index(cascade, entry, a)] = arriving;
     }
     light_fill_axes(facing, axes);
-    sdfgi_light[sdfgi_cell_index(cascade, cell)] = sdfgi_light_pack(axes, light_cell_hash(cascade, cell));
+    const float rounding = float(light_cell_hash(cascade, cell) >> 8u) / 16777216.0;
+    for (uint a = 0u; a < 6u; a++)
+        sdfgi_light[sdfgi_surface_index(cascade, entry, a)] = sdfgi_rgbe_encode_rounded(axes[a], rounding);
 }

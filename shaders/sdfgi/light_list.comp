@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: MIT
  * Writes the list of light cells that light_mark has marked, in the order of their blocks and of the bits in
  * a block; and apart from it the list of those in dirty blocks, with the indirect arguments of the passes
- * that light them. A cell that was a light cell before keeps its light; outside dirty blocks it keeps its
- * direct light and its visibility bits, too. A new light cell begins dark.
+ * that light them. A cell that was a light cell before, with the same surfaces, keeps its light and what it
+ * has gathered; outside dirty blocks it keeps its direct light and its visibility bits, too. A new light cell
+ * begins dark.
  *
  * The workgroups of a column, which have the same gl_WorkGroupID.x, share the cells of one row of blocks. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
+#define SDFGI_WRITES_LIGHT_BLOCKS
+#define SDFGI_WRITES_SURFACES
+#include "gathered.glsl"
 #include "light_blocks.glsl"
+#include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -98,48 +103,92 @@ uint find_bit(uvec2 bits, uint n)
     return high ? bit + 32u : bit;
 }
 
-/* Index of a cell in its cascade, and among the cells of all cascades. */
-uvec2 cell_indices(uvec3 texel)
+/* Takes over what an entry of the previous list held. */
+void take_over(uint entry, uint previous)
+{
+    for (uint axis = 0u; axis < 6u; axis++) {
+        const uint index = sdfgi_surface_index(args.cascade, entry, axis);
+        sdfgi_light[index] = sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_LIGHT + axis)];
+        sdfgi_surfaces[index] = sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis)];
+    }
+    for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
+        sdfgi_gathered[gathered_word(args.cascade, k, entry)] =
+            sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_GATHERED + k)];
+}
+
+void begin_dark(uint entry)
+{
+    for (uint axis = 0u; axis < 6u; axis++) {
+        const uint index = sdfgi_surface_index(args.cascade, entry, axis);
+        sdfgi_light[index] = 0u;
+        sdfgi_surfaces[index] = SDFGI_SURFACE_NONE;
+    }
+    for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
+        sdfgi_gathered[gathered_word(args.cascade, k, entry)] = 0u;
+}
+
+/* True if surfaces face along the same axes as before: otherwise the cell knows nothing of some of them. */
+bool faces_as_before(ivec3 cell, uint previous)
+{
+    uint before = 0u;
+    for (uint axis = 0u; axis < 6u; axis++)
+        if (sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis)] != SDFGI_SURFACE_NONE)
+            before |= 1u << axis;
+    return before == light_cell_facing(args.cascade, cell);
+}
+
+/* The entry in the previous list of a cell of a dirty block. False if it was no light cell, or another cell
+ * was stored in its texel. */
+bool find_previous(uint block, uvec3 texel, out uint previous)
+{
+    const uint slot = light_block_slot(block);
+    const uvec4 before =
+        uvec4(sdfgi_scratch[slot + 4u], sdfgi_scratch[slot + 5u], sdfgi_scratch[slot + 3u], 0u);
+    const ivec3 cell = sdfgi_cell_from_texel(args.cascade, texel);
+    return sdfgi_light_block_entry(before, texel, previous) &&
+           all(greaterThanEqual(cell, sdfgi_frame.cascades[args.cascade].kept_low)) &&
+           all(lessThan(cell, sdfgi_frame.cascades[args.cascade].kept_high));
+}
+
+/* Lists the n-th light cell in dirty blocks. A cell for which the list has no room is counted, but nothing
+ * lights it. */
+void list_dirty_cell(uint block, uint entry, uint n, uvec3 texel)
 {
     const uint index = sdfgi_texel_index(texel);
-    return uvec2(index, index | args.cascade << (3u * sdfgi_frame.resolution_log2));
-}
-
-/* A cell for which the list has no room is counted, but nothing lights it, so it loses its light. */
-bool has_room(uint entry, uint cell)
-{
-    const bool room = entry < sdfgi_frame.light_cell_room;
-    if (!room)
-        sdfgi_light[cell] = uvec2(0u);
-    return room;
-}
-
-/* Lists the n-th light cell in dirty blocks. */
-void list_dirty_cell(uint entry, uint n, uvec3 texel)
-{
-    const uvec2 indices = cell_indices(texel);
     if (n < sdfgi_frame.light_cell_room) {
         sdfgi_scratch[light_dirty_slot(n)] = entry;
-        sdfgi_scratch[light_dirty_slot(n) + 1u] = indices.x;
+        sdfgi_scratch[light_dirty_slot(n) + 1u] = index;
     }
-    if (!has_room(entry, indices.y))
+    if (entry >= sdfgi_frame.light_cell_room)
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
-    sdfgi_light_cells[slot] = indices.x;
+    sdfgi_light_cells[slot] = index;
     light_cell_store_direct(slot, uvec2(0u, SDFGI_LIGHT_VALID));
-    if ((sdfgi_light[indices.y].y & SDFGI_LIGHT_VALID) == 0u)
-        sdfgi_light[indices.y] = uvec2(0u, SDFGI_LIGHT_VALID);
+    uint previous;
+    if (find_previous(block, texel, previous) &&
+        faces_as_before(sdfgi_cell_from_texel(args.cascade, texel), previous))
+        take_over(entry, previous);
+    else
+        begin_dark(entry);
 }
 
 /* Lists a light cell that was entry `previous` of the previous list. */
 void list_kept_cell(uint entry, uint previous, uvec3 texel)
 {
-    const uvec2 indices = cell_indices(texel);
-    if (!has_room(entry, indices.y))
+    if (entry >= sdfgi_frame.light_cell_room)
         return;
-    const uint slot = light_cell_slot(args.cascade, entry), from = light_previous_slot(previous);
-    sdfgi_light_cells[slot] = indices.x;
-    light_cell_store_direct(slot, uvec2(sdfgi_scratch[from], sdfgi_scratch[from + 1u]));
+    const uint slot = light_cell_slot(args.cascade, entry);
+    sdfgi_light_cells[slot] = sdfgi_texel_index(texel);
+    light_cell_store_direct(slot,
+                            uvec2(sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT)],
+                                  sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT + 1u)]));
+    take_over(entry, previous);
+}
+
+/* Tells lookups which cells of a block are light cells, and the entry of the first. */
+void publish_block(uint block, uvec2 bits, uint first)
+{
+    sdfgi_light_blocks[light_block_record(args.cascade, block)] = uvec4(bits, first, 0u);
 }
 
 void main()
@@ -156,6 +205,8 @@ void main()
     const uvec2 start = sums[SDFGI_GROUP_LINEAR - 1].zw, count = sums[SDFGI_GROUP_LINEAR - 1].xy;
     if (is_last_row && i == 0u && gl_WorkGroupID.y == 0u)
         write_totals(start + count);
+    if (gl_WorkGroupID.y == 0u)
+        publish_block(row * SDFGI_GROUP_LINEAR + i, blocks[i].xy, start.x + sums[i].x - own);
     for (uint n = i + SDFGI_GROUP_LINEAR * gl_WorkGroupID.y; n < count.x;
          n += SDFGI_GROUP_LINEAR * gl_NumWorkGroups.y) {
         const uint block = find_block(n);
@@ -165,7 +216,7 @@ void main()
         const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
         const uvec3 texel = 4u * light_block_coords(row * SDFGI_GROUP_LINEAR + block) + inside;
         if (blocks[block].z != 0u)
-            list_dirty_cell(start.x + n, start.y + earlier.y + rank, texel);
+            list_dirty_cell(row * SDFGI_GROUP_LINEAR + block, start.x + n, start.y + earlier.y + rank, texel);
         else
             list_kept_cell(start.x + n, blocks[block].w + rank, texel);
     }

@@ -8,10 +8,12 @@
  * share the entries of the previous list. The workgroups share the dirty blocks, with a thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_MASKS
 #include "dirty.glsl"
 #include "light_blocks.glsl"
+#include "gathered.glsl"
+#include "visibility.glsl"
+#include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 layout(push_constant) uniform sdfgi_push
@@ -122,18 +124,34 @@ uint row_slot_of_block(uint block)
     return light_row_slot(block / SDFGI_GROUP_LINEAR);
 }
 
-/* Marks an entry of the previous list again, unless its block is dirty. */
+/* Keeps what an entry of the previous list held. */
+void keep_light(uint entry)
+{
+    const uint slot = light_cell_slot(args.cascade, entry);
+    const uvec2 direct = light_cell_direct(slot);
+    sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT)] = direct.x;
+    sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT + 1u)] = direct.y;
+    for (uint axis = 0u; axis < 6u; axis++) {
+        const uint index = sdfgi_surface_index(args.cascade, entry, axis);
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_LIGHT + axis)] = sdfgi_light[index];
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_SURFACES + axis)] = sdfgi_surfaces[index];
+    }
+    for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_GATHERED + k)] =
+            sdfgi_gathered[gathered_word(args.cascade, k, entry)];
+}
+
+/* Keeps an entry of the previous list, and marks it again unless its block is dirty. */
 void keep_entry(uint entry)
 {
     const uint count = min(previous_count(), sdfgi_frame.light_cell_room);
     if (args.rebuild != 0u || entry >= count)
         return;
+    keep_light(entry);
     const uint block = block_of_entry(entry);
     if (is_dirty(block))
         return;
-    const uint slot = light_cell_slot(args.cascade, entry), previous = light_previous_slot(entry);
-    sdfgi_scratch[previous] = sdfgi_light_cells[slot + 1u];
-    sdfgi_scratch[previous + 1u] = sdfgi_light_cells[slot + 2u];
+    const uint slot = light_cell_slot(args.cascade, entry);
     const uvec3 inside = sdfgi_texel_from_index(sdfgi_light_cells[slot]) & 3u;
     const uint bit = inside.x | inside.y << 2u | inside.z << 4u;
     atomicOr(sdfgi_scratch[light_block_slot(block) + (bit >> 5u)], 1u << (bit & 31u));
@@ -164,11 +182,23 @@ bool is_light_cell(ivec3 cell)
            light_cell_facing(args.cascade, cell) != 0u;
 }
 
-/* Clears the light and the visibility bits of a cell that is no light cell any more. */
+/* Clears the visibility bits of a cell that is no light cell any more. */
 void clear_cell(uint index)
 {
-    sdfgi_light[index] = uvec2(0u);
-    atomicAnd(sdfgi_masks[index >> 2u], ~(0xffu << (8u * (index & 3u))));
+    const uint bits = 0xffu << (8u * (index & 3u));
+    if ((sdfgi_masks[index >> 2u] & bits) != 0u)
+        atomicAnd(sdfgi_masks[index >> 2u], ~bits);
+}
+
+/* Notes which light cells a dirty block had in the previous list: they may keep their light. */
+void note_previous(uint block)
+{
+    const uint slot = light_block_slot(block);
+    const uvec4 before =
+        args.rebuild != 0u ? uvec4(0u) : sdfgi_light_blocks[light_block_record(args.cascade, block)];
+    sdfgi_scratch[slot + 3u] = before.z;
+    sdfgi_scratch[slot + 4u] = before.x;
+    sdfgi_scratch[slot + 5u] = before.y;
 }
 
 /* Finds the light cells of a dirty block. Called by the whole workgroup, a thread per cell. */
@@ -183,7 +213,7 @@ void mark_block(uint block)
     const uint index = sdfgi_cell_index(args.cascade, cell);
     if (is_light_cell(cell))
         atomicOr(found[bit >> 5u], 1u << (bit & 31u));
-    else if (sdfgi_light[index] != uvec2(0u))
+    else
         clear_cell(index);
     barrier();
     const uint count = bitCount(found[0]) + bitCount(found[1]);
@@ -193,6 +223,7 @@ void mark_block(uint block)
     sdfgi_scratch[slot] = found[0];
     sdfgi_scratch[slot + 1u] = found[1];
     sdfgi_scratch[slot + 2u] = 1u;
+    note_previous(block);
     atomicAdd(sdfgi_scratch[row_slot_of_block(block)], count);
     atomicAdd(sdfgi_scratch[row_slot_of_block(block) + 1u], count);
 }

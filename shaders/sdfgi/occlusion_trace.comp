@@ -8,6 +8,7 @@
 #define SDFGI_WRITES_OCCLUSION
 #include "dirty.glsl"
 #include "probe_common.glsl"
+#include "visibility.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_OCCLUSION) in;

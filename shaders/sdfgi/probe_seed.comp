@@ -10,6 +10,7 @@
 #include "probe_common.glsl"
 #include "probe_store.glsl"
 #include "bounce.glsl"
+#include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform sdfgi_push
@@ -33,7 +34,7 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
     }
     barrier();
     if (k == 0u)
-        visible = sdfgi_visibility_from_bits(seen_by);
+        visible = visibility_from_bits(seen_by);
     barrier();
 }
 
@@ -52,10 +53,11 @@ float visible_weight(ivec3 cage, vec3 pos)
 /* Light in rgb, its weight among the samples of a cycle in a. */
 vec4 seed_from_coarser(uint coarser, ivec3 cage, vec3 pos, vec3 normal)
 {
-    const vec4 sum = bounce_sum(coarser, cage, pos, normal, visible);
-    if (sum.a <= 1e-6)
+    const bounce_light sum = bounce_sum(coarser, cage, pos, normal, visible);
+    if (sum.weight <= 1e-6)
         return vec4(0.0);
-    return vec4(sum.rgb / sum.a, visible_weight(cage, pos) * PROBE_SEED_FRACTION * probe_cycle_weight());
+    return vec4(sum.estimate / sum.weight,
+                visible_weight(cage, pos) * PROBE_SEED_FRACTION * probe_cycle_weight());
 }
 
 void store_seed(uint slot, uint texel, vec4 seed)

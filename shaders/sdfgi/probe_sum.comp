@@ -9,8 +9,8 @@
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"
+#include "../include/sdfgi_cells.glsl"
 #include "../lib/rgbe.glsl"
-#include "../lib/light_pack.glsl"
 #include "../lib/sky.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PROBE) in;
@@ -29,10 +29,13 @@ bool hit_light(uint code, vec3 dir, out vec3 light)
             sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground);
     if (code >= SDFGI_RAY_UNLIT)
         return true;
-    uint axis;
-    const uvec2 cell = sdfgi_light[ray_light_index(code, axis)];
-    light = sdfgi_light_unpack_axis(cell, axis);
-    return (cell.y & SDFGI_LIGHT_VALID) != 0u;
+    uint axis, entry;
+    const uint index = ray_light_index(code, axis), cascade = index >> (3u * sdfgi_frame.resolution_log2);
+    const uvec3 texel = sdfgi_texel_from_index(index);
+    if (!sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, entry))
+        return false;
+    light = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(cascade, entry, axis)]);
+    return true;
 }
 
 /* Rays that a probe sends in a frame. */

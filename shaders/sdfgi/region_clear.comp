@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: occupancy bits, light, visibility bits and the accumulators
- * of its albedo blocks. Adds the cells that held bits to the dirty bounds. One thread per four cells along y.
- * Threads follow one another along x, because cells are stored side by side along x. The box begins and ends
- * at multiples of 8 cells. */
+ * Empties a box of cells before it is voxelised: occupancy bits, visibility bits, emissive bits and the
+ * accumulators of its albedo blocks. Adds the cells that held bits to the dirty bounds. One thread per four
+ * cells along y. Threads follow one another along x, because cells are stored side by side along x. The box
+ * begins and ends at multiples of 8 cells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
-#define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_MASKS
 #include "dirty_bounds.glsl"
+#include "visibility.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -22,6 +22,13 @@ void clear_accumulators(ivec3 cell)
     const uint block = sdfgi_albedo_block_index(args.cascade, cell);
     for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
         sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] = 0u;
+}
+
+void clear_emissive_bits(ivec3 cell)
+{
+    const uint word = sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) +
+                      2u * sdfgi_texel_index(sdfgi_cell_texel(args.cascade, cell));
+    sdfgi_scratch[word] = sdfgi_scratch[word + 1u] = 0u;
 }
 
 /* Adds those of four cells that hold bits to the dirty bounds; `held` has a bit per cell. Volumes are
@@ -49,7 +56,8 @@ void main()
         add_removed(first, held);
     for (int k = 0; k < 4; k++) {
         const uint index = sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0));
-        sdfgi_bits[index] = sdfgi_light[index] = uvec2(0u);
+        sdfgi_bits[index] = uvec2(0u);
+        clear_emissive_bits(first + ivec3(0, k, 0));
         if ((first.x & 3) == 0)
             sdfgi_masks[index >> 2u] = 0u;
     }

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * Resolves the accumulators of each albedo block (2x2x2 cells) to mean albedo, emission and normals. Until
- * then the light volume holds the emissive bits: which sub-voxels emit. This pass clears them. One thread per
- * albedo block of the box. */
+ * Resolves the accumulators of each albedo block (2x2x2 cells) to mean albedo, emission and normals. The
+ * emissive bits tell which sub-voxels emit. One thread per albedo block of the box. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACE
 #include "dirty_bounds.glsl"
 #include "surface.glsl"
@@ -117,7 +115,7 @@ float covered_fraction(float covered, int bits, uint facing)
                : min(covered / (float(max(bits, 1)) * SDFGI_EMISSION_STEPS), 1.0);
 }
 
-/* Loads a block's bits, and clears its emissive bits in the light volume. Returns their number. */
+/* Loads a block's bits and emissive bits. Returns the number of the latter. */
 int load_block(uvec3 block_texel)
 {
     int count = 0;
@@ -126,8 +124,9 @@ int load_block(uvec3 block_texel)
         const uvec3 texel = 2u * block_texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
         const uint index = sdfgi_texel_index(texel) | args.cascade << (3u * sdfgi_frame.resolution_log2);
         block_bits[i] = sdfgi_bits[index];
-        block_emissive[i] = sdfgi_light[index];
-        sdfgi_light[index] = uvec2(0u);
+        const uint word =
+            sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) + 2u * sdfgi_texel_index(texel);
+        block_emissive[i] = uvec2(sdfgi_scratch[word], sdfgi_scratch[word + 1u]);
         count += bitCount(block_emissive[i].x) + bitCount(block_emissive[i].y);
     }
     return count;

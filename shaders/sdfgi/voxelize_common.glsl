@@ -351,8 +351,8 @@ void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
     accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered + 0.5));
 }
 
-/* Sets an emissive bit, and notes which sides the emission is seen from. The light volume holds the emissive
- * bits until voxel_resolve has read them. */
+/* Sets an emissive bit, and notes which sides the emission is seen from. `cell` is an index within the
+ * cascade. */
 void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s)
 {
     uint facing = 0u;
@@ -362,10 +362,8 @@ void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s
             facing |= 1u << axis;
     }
     atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_albedo_block_count() + block], facing);
-    if (bit < 32u)
-        atomicOr(sdfgi_light[cell].x, 1u << bit);
-    else
-        atomicOr(sdfgi_light[cell].y, 1u << (bit - 32u));
+    const uint word = sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) + 2u * cell + (bit >> 5u);
+    atomicOr(sdfgi_scratch[word], 1u << (bit & 31u));
 }
 
 /* The test spares an atomic, because many triangles may share a sub-voxel and their atomics would wait for
@@ -407,5 +405,5 @@ void triangle_store_column(triangle t, ivec2 column)
     store_bit(index, bit);
     accumulate_surface(t, block, s);
     if (s.emission != vec3(0.0))
-        store_emitter(t, block, index, bit, s);
+        store_emitter(t, block, sdfgi_texel_index(sdfgi_cell_texel(args.cascade, cell)), bit, s);
 }

@@ -91,13 +91,22 @@ struct sdfgi_light_direct_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 20);
 
+/* Per cascade entries [first, end) of the light list, or those in dirty blocks. */
 struct sdfgi_light_bounce_args {
-    uint cascade;    /* of workgroups with y = 0; the next one follows at y = 1, and so on */
-    uint only_dirty; /* as in sdfgi_light_direct_args */
-    uint first, end;
+    uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
+    uint cascade;        /* of workgroups with y = 0; the next one follows at y = 1, and so on */
+    uint only_dirty;     /* as in sdfgi_light_direct_args */
     uint without_probes; /* 1: no probe holds light */
 };
-SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 20);
+SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 76);
+
+/* cell_gather, cell_filter: per cascade entries [first, end) of the light list. */
+struct sdfgi_cell_gather_args {
+    uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
+    uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */
+    uint epoch;                      /* of the lights, 8 bits: it changes with them */
+};
+SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 100);
 
 struct sdfgi_probe_blend_args {
     uint cycle_ends;      /* 1: this is the last frame of a sample cycle */

@@ -11,14 +11,14 @@
 #define SDFGI_SET_VIEW     2
 
 /* LOOKUP: all that the lookups of sdfgi.glsl read. */
-#define SDFGI_BINDING_FRAME      0
-#define SDFGI_BINDING_BITS       1
-#define SDFGI_BINDING_DISTANCE   2
-#define SDFGI_BINDING_LIGHT      3
-#define SDFGI_BINDING_MASKS      4
-#define SDFGI_BINDING_PROBES     5
-#define SDFGI_BINDING_OCCLUSION  6
-#define SDFGI_BINDING_IRRADIANCE 7
+#define SDFGI_BINDING_FRAME        0
+#define SDFGI_BINDING_BITS         1
+#define SDFGI_BINDING_DISTANCE     2
+#define SDFGI_BINDING_LIGHT        3
+#define SDFGI_BINDING_PROBES       4
+#define SDFGI_BINDING_IRRADIANCE   5
+#define SDFGI_BINDING_LIGHT_BLOCKS 6
+#define SDFGI_BINDING_SURFACES     7
 
 /* WORK: what only passes bind. */
 #define SDFGI_BINDING_LIGHTS      0
@@ -34,6 +34,9 @@
 #define SDFGI_BINDING_COUNTERS    10
 #define SDFGI_BINDING_INDIRECT    11
 #define SDFGI_BINDING_BOUNDS      12
+#define SDFGI_BINDING_MASKS       13
+#define SDFGI_BINDING_OCCLUSION   14
+#define SDFGI_BINDING_GATHERED    15
 
 /* MESH. */
 #define SDFGI_BINDING_MESH_POSITIONS 0

@@ -54,8 +54,22 @@
 #define SDFGI_PROBE_NEW        0x20000000u
 #define SDFGI_PROBE_LINK_SHIFT 15u /* three bits: it sees the next probe along x, y, z */
 
-/* Set in the second word of every light cell. */
+/* Set in the second word of the direct light of every light cell. */
 #define SDFGI_LIGHT_VALID 0x40000000u
+/* Irradiance of a light cell along an axis that no surface faces, and of a surface of which nothing is known.
+ * As RGB9E5 they are the largest whites. */
+#define SDFGI_SURFACE_NONE    0xffffffffu
+#define SDFGI_SURFACE_UNKNOWN 0xfffffffeu
+/* Words of what a light cell has gathered: see sdfgi/gathered.glsl. */
+#define SDFGI_GATHERED_WORDS 25
+/* Words of a light cell that are kept when the light list is written again: its direct light; its outgoing
+ * light and its irradiance along six axes each; and what it has gathered. */
+#define SDFGI_LIGHT_KEPT_WORDS (2 + 6 + 6 + SDFGI_GATHERED_WORDS)
+/* Visits in a rough gather cycle, rays that a visit sends from a light cell along one axis, and cells that a
+ * workgroup visits. */
+#define SDFGI_ROUGH_VISITS 8
+#define SDFGI_VISIT_RAYS   16
+#define SDFGI_VISIT_CELLS  8
 
 /* Bounce gain is capped below 1, so that light between white surfaces converges (HARD_CASES row 34). */
 #define SDFGI_MAX_BOUNCE_GAIN 0.95
@@ -95,7 +109,6 @@
 /* Visibility methods, as enum sdfgi_visibility; NONE when sdfgi_use_occlusion is off. */
 #define SDFGI_SHADER_VISIBILITY_CELL_MASK   0u
 #define SDFGI_SHADER_VISIBILITY_PROBE_DEPTH 1u
-#define SDFGI_SHADER_VISIBILITY_TRACED      2u
-#define SDFGI_SHADER_VISIBILITY_NONE        3u
+#define SDFGI_SHADER_VISIBILITY_NONE        2u
 
 #endif

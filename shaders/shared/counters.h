@@ -21,7 +21,9 @@
  * in the list. */
 #define SDFGI_COUNTER_LIGHT_CELLS 16
 #define SDFGI_COUNTER_LIGHT_DIRTY 24
-#define SDFGI_COUNTER_COUNT       32
+/* Per cascade: float bits of the largest relative change of a light cell over a gather cycle. */
+#define SDFGI_COUNTER_CELL_CHANGE 32
+#define SDFGI_COUNTER_COUNT       40
 
 /* X(id, cleared, health): the counters that are not per cascade.
  *   cleared  CHANGE: in a frame that voxelises anything; CYCLE: then, and at the start of every sample cycle

@@ -76,8 +76,10 @@ struct sdfgi_frame_params {
     uint first_sample;     /* this frame's first sample in the sample cycle */
     uint cycle_samples;    /* samples of a probe in a sample cycle */
     float brightest_texel; /* of all probes, in the last sample cycle that the host has read back */
+    uint cycle_visits;     /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
+    uint padding_3, padding_4, padding_5;
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 8 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 9 * 16);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

@@ -2,7 +2,8 @@
  * The scratch buffer. Its tenants use it in turn within a frame. Each begins at word 0, and none keeps
  * anything for a later one. Offsets are in words (4 bytes); `bits` is the logarithm of the resolution N.
  *
- * - Accumulators (region_clear, voxelize, voxel_resolve): SDFGI_ACCUM_PLANES words per albedo block.
+ * - Accumulators (region_clear, voxelize, voxel_resolve): SDFGI_ACCUM_PLANES words per albedo block, and the
+ *   emissive bits of each cell.
  * - Distance search (distance_prepare, _plane, _exact): planes, runs, layers and dirty blocks, see
  *   occupancy.glsl.
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
@@ -16,9 +17,15 @@
 #include "constants.h"
 
 /* Accumulators of albedo blocks (2^3 cells). */
-SDFGI_FUNCTION uint sdfgi_scratch_accumulators_end(uint bits)
+SDFGI_FUNCTION uint sdfgi_scratch_emissive_bits(uint bits)
 {
     return SDFGI_ACCUM_PLANES << (3u * bits - 3u);
+}
+
+/* Emissive bits: two words per cell. */
+SDFGI_FUNCTION uint sdfgi_scratch_accumulators_end(uint bits)
+{
+    return sdfgi_scratch_emissive_bits(bits) + (2u << (3u * bits));
 }
 
 /* Distance search: planes from word 0. Two cells share a word, four layers of sub-voxels per cell. */
@@ -50,14 +57,14 @@ SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
     return 2u << (3u * bits);
 }
 
-/* Light list: four words per light block (4^3 cells) from word 0, then two per row of SDFGI_GROUP_LINEAR
+/* Light list: eight words per light block (4^3 cells) from word 0, then two per row of SDFGI_GROUP_LINEAR
  * blocks. */
 SDFGI_FUNCTION uint sdfgi_scratch_light_rows(uint bits)
 {
-    return 4u << (3u * bits - 6u);
+    return 8u << (3u * bits - 6u);
 }
 
-/* Two words of direct light per entry of the previous list, */
+/* SDFGI_LIGHT_KEPT_WORDS times `room` words of what the previous list held, */
 SDFGI_FUNCTION uint sdfgi_scratch_light_before(uint bits)
 {
     return sdfgi_scratch_light_rows(bits) + (2u << (3u * bits - 6u)) / SDFGI_GROUP_LINEAR;
@@ -66,7 +73,7 @@ SDFGI_FUNCTION uint sdfgi_scratch_light_before(uint bits)
 /* then two words per dirty light cell. `room` is the number of entries that a list has room for. */
 SDFGI_FUNCTION uint sdfgi_scratch_light_dirty(uint bits, uint room)
 {
-    return sdfgi_scratch_light_before(bits) + 2u * room;
+    return sdfgi_scratch_light_before(bits) + SDFGI_LIGHT_KEPT_WORDS * room;
 }
 
 SDFGI_FUNCTION uint sdfgi_scratch_light_end(uint bits, uint room)

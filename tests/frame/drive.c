@@ -112,6 +112,9 @@ static void read_back(struct drive *d)
         memcpy(d->counters, slot->counters, sizeof d->counters);
     if (slot->feedback.ended_cycle > 0)
         sdfgi_accumulation_add_known(&d->state.accumulation, slot->feedback.ended_cycle, d->change, 1);
+    for (uint32_t c = 0; c < d->state.cascades.count; c++)
+        if (slot->feedback.ended_gathers[c] > 0)
+            sdfgi_gathering_add_known(&d->state.gathering, c, slot->feedback.ended_gathers[c], d->change);
     memset(slot, 0, sizeof *slot);
 }
 

@@ -34,13 +34,6 @@ static void probe_depth(struct show *show)
     start_and_scroll(show, &settings);
 }
 
-static void traced(struct show *show)
-{
-    struct sdfgi_settings settings = drive_settings(1, 32);
-    settings.visibility = SDFGI_VISIBILITY_TRACED;
-    start_and_scroll(show, &settings);
-}
-
 static void without_occlusion(struct show *show)
 {
     struct sdfgi_settings settings = drive_settings(1, 32);
@@ -71,7 +64,6 @@ static const struct situation_row rows[] = {
     { "raster_voxelises_by_drawing", raster },
     { "flood_makes_distances_by_jumps", flood },
     { "probe_depth_traces_depths", probe_depth },
-    { "traced_visibility_reads_masks_for_bounces", traced },
     { "without_occlusion_nothing_is_traced_for_visibility", without_occlusion },
     { "probe_depth_without_occlusion_traces_no_depths", probe_depth_without_occlusion },
     { "a_cycle_of_one_frame_ends_in_every_frame", cycle_of_one_frame },

@@ -28,8 +28,9 @@ trap 'rm -rf "$work"' EXIT
 scene=$(find "$folder" -name '*.glb')
 view=$folder/$name.view.json
 
-# A ring of 500 rays in 4 frames settles in few frames, which a software driver needs.
-options="--set sdfgi_ray_count=125 --set sdfgi_frames_to_converge=4"
+# Light settles in few frames, which a software driver needs: a ring of 500 rays in 4 frames, and a visit to each
+# light cell in each frame.
+options="--set sdfgi_ray_count=125 --set sdfgi_frames_to_converge=4 --set sdfgi_cell_rays_per_frame=1048576"
 for setting in "$@"; do
     options="$options --set $setting"
 done
@@ -57,7 +58,7 @@ judge() {
 
 case $kind in
 picture)
-    render 320x180 28
+    render 320x180 56
     indirect=$(mean "$work/indirect.exr" "$folder/$name.reference.exr" mean)
     truth=$(awk -v color="$(mean "$work/color.exr" "$folder/$name.reference.exr" mean)" \
         -v direct="$(mean "$work/direct.exr" "$folder/$name.direct.exr" mean)" -v indirect="$indirect" \

@@ -20,6 +20,9 @@ static struct sdfgi_settings short_cycles(uint32_t cascades)
     struct sdfgi_settings settings = light_settings(32, 0.25f);
     settings.cascades = cascades;
     settings.ray_count = 25;
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = 128;
+    settings.cell_rays_per_frame = 1 << 15;
     return settings;
 }
 
@@ -226,7 +229,8 @@ static void settle(struct journey *j, const double camera[static 3], struct sdfg
     REQUIRE_CMP(sdfgi_set_settings(j->t.gi, settings), ==, SDFGI_OK);
     journey_stay(j, camera, 1);
     settings->enabled = true;
-    settings->visibility = SDFGI_VISIBILITY_TRACED;
+    settings->visibility = SDFGI_VISIBILITY_PROBE_DEPTH;
+    settings->surface_light = SDFGI_SURFACE_LIGHT_PROBES;
     settings->frames_to_converge = 1;
     settings->bounce_feedback = 0;
     REQUIRE_CMP(sdfgi_set_settings(j->t.gi, settings), ==, SDFGI_OK);

@@ -78,12 +78,17 @@ static uint32_t counted(struct gi_test *t)
 
 static void require_list(struct gi_test *t, const uint32_t *expected, uint32_t count)
 {
-    uint32_t *list = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL),
-             *groups = gi_test_read(t, RESOURCE_INDIRECT, NULL);
+    uint32_t *list = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL);
     for (uint32_t i = 0; i < count; i++)
         REQUIRE_CMP(list[3 * i] & 0xffffff, ==, expected[i]);
-    REQUIRE_CMP(groups[0], ==, (count + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR);
     free(list);
+}
+
+/* After a build all light cells are dirty. */
+static void require_dirty_groups(struct gi_test *t, uint32_t count)
+{
+    uint32_t *groups = gi_test_read(t, RESOURCE_INDIRECT, NULL);
+    REQUIRE_CMP(groups[0], ==, (count + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR);
     free(groups);
 }
 
@@ -98,14 +103,24 @@ static void the_list_is_complete_and_in_the_order_of_blocks(void **state)
     REQUIRE_CMP(count, >, 2000u);
     REQUIRE_CMP(counted(&t), ==, count);
     require_list(&t, expected, count);
+    require_dirty_groups(&t, count);
     gi_test_close(&t);
 }
 
-/* ---- Listed again: what each cell held decides what it holds afterwards */
+/* ---- Listed again after a change: where a cell stands decides whether it keeps what it held */
 
-/* As when the list was lost: all of it is made again, of what the volumes hold. Without light from the
+/* A value for each entry, along the first axis. */
+static void fill_light(struct gi_test *t, uint32_t light[static CELLS], uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        light[i] = 77 + i;
+    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[RESOURCE_LIGHT].handle, 0,
+                          sizeof *light * count, light);
+}
+
+/* As when the cells [low, N) along x have been made again: those below are kept. Without light from the
  * probes, which would take the place of what cells held. */
-static void list_again(struct gi_test *t)
+static void list_again(struct gi_test *t, int32_t low)
 {
     static struct frame frame;
     const struct frame_input input = { .extent = t->gi->volume.resources->extent,
@@ -116,45 +131,39 @@ static void list_again(struct gi_test *t)
     };
     memset(&frame, 0, sizeof frame);
     frame.next = t->gi->volume.state;
-    frame.situation.list_grew = true;
+    frame.situation.from_nothing = true; /* no cached ray is looked at */
+    struct change *change = &frame.next.cascades.at[0].change;
+    *change = (struct change){ .cause = CHANGE_SCROLL,
+                               .stage = CHANGE_COMPLETES,
+                               .boxes = { { { low, 0, 0 }, { N, N, N } } },
+                               .count = 1,
+                               .kept = { { 0, 0, 0 }, { low, N, N } } };
+    struct sdfgi_frame_params params = frame.next.params;
+    params.cascades[0].dirty_count = 1;
+    params.cascades[0].dirty[0] = (struct sdfgi_dirty_box){ .low = { low, 0, 0 }, .high = { N, N, N } };
+    params.cascades[0].kept_low = (ivec3){ 0, 0, 0 };
+    params.cascades[0].kept_high = (ivec3){ low, N, N };
+    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[RESOURCE_FRAME].handle, 0, sizeof params,
+                          &params);
     sdfgi_stage_complete(&(struct plan_stage){ &frame, &input, &needs });
     REQUIRE_TRUE(sdfgi_work_has(&frame.work, PASS_LIGHT_LIST) &&
                  !sdfgi_work_has(&frame.work, PASS_LIGHT_BOUNCE));
     pass_scene_run(t, &frame.work);
 }
 
-struct held {
-    uint32_t color, weights;
-};
-
-/* A third of the cells held light, a third something without the valid bit, a third nothing. */
-static void fill_light(struct held light[static CELLS])
+/* Returns how many cells keep their light. */
+static uint32_t require_light(struct gi_test *t, const uint32_t before[static CELLS], const uint32_t *list,
+                              uint32_t count, int32_t low)
 {
-    for (uint32_t i = 0; i < CELLS; i++)
-        light[i] = i % 3 == 0   ? (struct held){ 77 + i, SDFGI_LIGHT_VALID | i }
-                   : i % 3 == 1 ? (struct held){ 5 + i, 0 }
-                                : (struct held){ 0, 0 };
-}
-
-static void list_over(struct gi_test *t, const struct held light[static CELLS])
-{
-    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[RESOURCE_LIGHT].handle, 0,
-                          sizeof *light * CELLS, light);
-    list_again(t);
-}
-
-static void require_light(struct gi_test *t, const struct held before[static CELLS], const uint32_t *list,
-                          uint32_t count)
-{
-    struct held *after = gi_test_read(t, RESOURCE_LIGHT, NULL);
-    struct held *wanted = test_array_alloc(CELLS, sizeof *wanted);
-    memset(wanted, 0, sizeof *wanted * CELLS);
-    for (uint32_t i = 0; i < count; i++)
-        wanted[list[i]] = before[list[i]].weights & SDFGI_LIGHT_VALID ? before[list[i]]
-                                                                      : (struct held){ 0, SDFGI_LIGHT_VALID };
-    REQUIRE_BYTES(after, wanted, sizeof *wanted * CELLS);
-    free(wanted);
+    uint32_t *after = gi_test_read(t, RESOURCE_LIGHT, NULL), kept = 0;
+    const int32_t wrap = t->gi->volume.state.params.cascades[0].wrap.x;
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t x = ((int32_t)(list[i] % N) - wrap) & (N - 1);
+        REQUIRE_CMP(after[i], ==, x < low ? before[i] : 0u);
+        kept += x < low;
+    }
     free(after);
+    return kept;
 }
 
 static void cells_that_stay_keep_their_light_and_others_forget_it(void **state)
@@ -162,30 +171,61 @@ static void cells_that_stay_keep_their_light_and_others_forget_it(void **state)
     (void)state;
     static struct gi_test t;
     static uint32_t expected[CELLS];
-    static struct held light[CELLS];
+    static uint32_t light[CELLS];
+    for (int32_t low = 8; low <= N; low += 8) {
+        open_scene(&t, 0);
+        gi_test_update(&t, 2);
+        const uint32_t count = expected_list(&t, expected);
+        fill_light(&t, light, count);
+        list_again(&t, low);
+        require_list(&t, expected, count);
+        REQUIRE_CMP(require_light(&t, light, expected, count, low), >, 0u);
+        gi_test_close(&t);
+    }
+}
+
+/* A bit per light cell of a block, and the entry of the first, as lookups find them. */
+static void require_blocks(struct gi_test *t, const uint32_t *expected, uint32_t count)
+{
+    uint32_t(*blocks)[4] = gi_test_read(t, RESOURCE_LIGHT_BLOCKS, NULL), entry = 0;
+    for (uint32_t b = 0; b < CELLS / 64; b++)
+        for (uint32_t bit = 0; bit < 64; bit++) {
+            if ((blocks[b][bit / 32] >> bit % 32 & 1) == 0)
+                continue;
+            const uint32_t side = N / 4, x = 4 * (b % side) + bit % 4,
+                           y = 4 * (b / side % side) + bit / 4 % 4, z = 4 * (b / side / side) + bit / 16;
+            REQUIRE_CMP(entry, <, count);
+            REQUIRE_CMP(x + N * (y + N * z), ==, expected[entry]);
+            REQUIRE_CMP(blocks[b][2], <=, entry);
+            entry++;
+        }
+    REQUIRE_CMP(entry, ==, count);
+    free(blocks);
+}
+
+static void lookups_find_each_cell_by_its_block(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static uint32_t expected[CELLS];
     open_scene(&t, 0);
     const uint32_t count = expected_list(&t, expected);
-    fill_light(light);
-    list_over(&t, light);
-    require_light(&t, light, expected, count);
-    require_list(&t, expected, count);
+    require_blocks(&t, expected, count);
+    list_again(&t, 16);
+    require_blocks(&t, expected, count);
     gi_test_close(&t);
 }
 
-static void without_room_the_first_cells_are_lit_and_the_others_are_dark(void **state)
+static void without_room_the_first_cells_are_listed_and_the_others_counted(void **state)
 {
     (void)state;
     enum { ROOM = 777 };
     static struct gi_test t;
     static uint32_t expected[CELLS];
-    static struct held light[CELLS];
     open_scene(&t, ROOM);
     const uint32_t count = expected_list(&t, expected);
     REQUIRE_CMP(counted(&t), ==, count);
     require_list(&t, expected, ROOM);
-    fill_light(light);
-    list_over(&t, light);
-    require_light(&t, light, expected, ROOM);
     gi_test_update(&t, 6);
     REQUIRE_CMP(pass_health_count(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, count - ROOM);
     REQUIRE_CMP(t.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
@@ -199,7 +239,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_list_is_complete_and_in_the_order_of_blocks),
         cmocka_unit_test(cells_that_stay_keep_their_light_and_others_forget_it),
-        cmocka_unit_test(without_room_the_first_cells_are_lit_and_the_others_are_dark),
+        cmocka_unit_test(lookups_find_each_cell_by_its_block),
+        cmocka_unit_test(without_room_the_first_cells_are_listed_and_the_others_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -199,7 +199,7 @@ void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const c
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
         require_same_bytes(walked, fresh, whole[i], what);
     require_same_words(walked, fresh, RESOURCE_PROBES, 1, 0, ~SDFGI_PROBE_NEW, what);
-    require_same_words(walked, fresh, RESOURCE_LIGHT, 2, 1, SDFGI_LIGHT_VALID, what);
+    require_same_bytes(walked, fresh, RESOURCE_LIGHT_BLOCKS, what);
     require_same_bytes(walked, fresh, RESOURCE_MASKS, what);
     require_same_list(walked, fresh, what);
     if (walked->gi->settings.visibility == SDFGI_VISIBILITY_PROBE_DEPTH)

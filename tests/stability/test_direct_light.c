@@ -69,13 +69,12 @@ static double stored_radiance_up(struct gi_test *t, const double position[static
     uint32_t cell[3];
     for (int i = 0; i < 3; i++)
         cell[i] = (uint32_t)floor((position[i] - grid.origin[i]) / (4 * grid.step[i]));
-    uint32_t(*light)[2] = gi_test_read(t, RESOURCE_LIGHT, NULL);
-    const uint32_t *packed = light[gi_test_cell(t, 0, cell[0], cell[1], cell[2])];
-    double base[3];
-    oracle_rgbe_decode(packed[0], base);
-    const double radiance = base[1] * (packed[1] >> 10 & 31) / 31;
+    uint32_t *light = gi_test_read(t, RESOURCE_LIGHT, NULL);
+    double radiance[3];
+    oracle_rgbe_decode(
+        light[2 * t->gi->volume.resources->extent.light_cells + gi_test_light_entry(t, 0, cell)], radiance);
     free(light);
-    return radiance;
+    return radiance[1];
 }
 
 /* What a host's own shader says of a Lambertian plane under so many suns that shine as one, and so must the

@@ -80,7 +80,7 @@ static struct outcome run_with_room(void)
     gi_test_converge(&t, 200);
     REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, 0ul);
     struct outcome o = take(&t);
-    REQUIRE_CMP(o.room, ==, 8 * 32 * 32ul);
+    REQUIRE_CMP(o.room, ==, 6 * 32 * 32ul);
     gi_test_close(&t);
     return o;
 }
@@ -123,8 +123,8 @@ static void a_list_that_is_too_short_grows(void **state)
     struct sdfgi_memory estimate;
     REQUIRE_CMP(sdfgi_estimate_memory(&settings, 2, &estimate), ==, SDFGI_OK);
     sdfgi_get_report(t.gi, &report);
-    REQUIRE_CMP(report.memory.bytes[SDFGI_MEMORY_LISTS] + 2 * 12 * roomy.room, ==,
-                estimate.bytes[SDFGI_MEMORY_LISTS] + 2 * 12 * grown.room);
+    REQUIRE_CMP(report.memory.bytes[SDFGI_MEMORY_LISTS] + 2 * 60 * roomy.room, ==,
+                estimate.bytes[SDFGI_MEMORY_LISTS] + 2 * 60 * grown.room);
     destroy(&grown);
     destroy(&roomy);
     gi_test_close(&t);

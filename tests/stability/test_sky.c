@@ -129,6 +129,8 @@ static double wall_form_factor(double d, double half_width, double height)
     return (atan(half_width / d) - d / slant * atan(half_width / slant)) / PI;
 }
 
+#define CELL_M 0.25
+
 /* A black wall on a black floor. The wall ends where the cascades do, and is as wide as they are. */
 struct right_angle {
     enum sdfgi_y_scale y_scale;
@@ -139,9 +141,11 @@ struct right_angle {
 
 static void build_right_angle(struct gi_test *t, const struct right_angle *angle)
 {
-    struct sdfgi_settings settings = light_settings(64, 0.25f);
+    struct sdfgi_settings settings = light_settings(32, (float)CELL_M);
     settings.y_scale = angle->y_scale;
     settings.cascades = angle->cascades;
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays_per_frame = 1 << 18;
     gi_test_open(t, &settings);
     light_add_box(t, (double[]){ -40, -1, -40 }, (double[]){ 40, 0.05, 40 }, black, 0);
     double low[3] = { -40, 0.05, -40 }, high[3] = { 40, 40, 40 };
@@ -149,18 +153,18 @@ static void build_right_angle(struct gi_test *t, const struct right_angle *angle
     high[angle->axis] = angle->wall_m;
     light_add_box(t, low, high, black, 0);
     light_set_uniform_sky(t, 1);
-    gi_test_converge(t, 80);
+    gi_test_converge(t, 300);
 }
 
 /* A floor point sees the wall instead of up to half of the sky: 0.1 m from it the exact value is 0.507. */
 static void check_right_angle(struct right_angle angle)
 {
-    enum { POINTS = 5 };
-    static const double distances[POINTS] = { 0.1, 0.25, 0.5, 1, 2 };
+    enum { POINTS = 4 };
+    static const double distances[POINTS] = { 0.1, 0.25, 0.5, 1 };
     static const double heights[] = {
         [SDFGI_Y_SCALE_50] = 0.5, [SDFGI_Y_SCALE_75] = 0.75, [SDFGI_Y_SCALE_100] = 1
     };
-    const double half_m = 8 * (double)(1 << (angle.cascades - 1));
+    const double half_m = 4 * (double)(1 << (angle.cascades - 1));
     struct gi_test t;
     build_right_angle(&t, &angle);
     struct gi_test_point at[POINTS];
@@ -179,8 +183,10 @@ static void check_right_angle(struct right_angle angle)
         printf("Y scale %d, wall at %c = %.2f m, %.2f m from it: exact %.4f, ratio %.4f\n",
                (int)angle.y_scale, "xyz"[angle.axis], angle.wall_m, distances[i], exact, ratios[i]);
     }
+    /* Within a cell of the wall light is that of the nearest light cell. Its centre may be 1.4 cells away
+     * from the wall, where light is 7 % more. */
     for (int i = 0; i < POINTS; i++)
-        REQUIRE_NEAR(ratios[i], 1, 0.03);
+        REQUIRE_NEAR(ratios[i], 1, distances[i] <= CELL_M ? 0.09 : 0.03);
 }
 
 /* From just in front of one plane of probes to just in front of the next, along both level axes; every other

@@ -24,6 +24,7 @@ struct sdfgi_settings gi_test_settings(void)
     s.cascades = 1;
     s.resolution = 64;
     s.min_cell_size_m = 0.25f;
+    s.surface_light = SDFGI_SURFACE_LIGHT_PROBES;
     return s;
 }
 
@@ -152,6 +153,21 @@ uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uin
     const uint32_t n = t->gi->settings.resolution, mask = n - 1;
     return ((x + (uint32_t)wrap.x) & mask) +
            n * (((y + (uint32_t)wrap.y) & mask) + n * (((z + (uint32_t)wrap.z) & mask) + n * cascade));
+}
+
+uint32_t gi_test_light_entry(struct gi_test *t, uint32_t cascade, const uint32_t cell[static 3])
+{
+    const uint32_t n = t->gi->settings.resolution, side = n / 4,
+                   texel = gi_test_cell(t, cascade, cell[0], cell[1], cell[2]) % (n * n * n);
+    const uint32_t x = texel % n, y = texel / n % n, z = texel / n / n;
+    uint32_t(*blocks)[4] = gi_test_read(t, RESOURCE_LIGHT_BLOCKS, NULL);
+    const uint32_t *block = blocks[x / 4 + side * (y / 4 + side * (z / 4 + side * cascade))];
+    const uint64_t bits = block[0] | (uint64_t)block[1] << 32, bit = x % 4 + 4 * (y % 4) + 16 * (z % 4);
+    REQUIRE_TRUE(bits >> bit & 1);
+    const uint32_t below = (uint32_t)__builtin_popcountll(bits & ((UINT64_C(1) << bit) - 1));
+    const uint32_t entry = block[2] + below;
+    free(blocks);
+    return cascade * (uint32_t)t->gi->volume.resources->extent.light_cells + entry;
 }
 
 float gi_test_half(uint16_t half)

@@ -51,6 +51,9 @@ struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade);
 struct oracle_grid gi_test_grid(const struct gi_test *t, uint32_t cascade);
 /* Index of a local cell in volumes with one element per cell. */
 uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z);
+/* Index of a light cell in buffers with one element per entry of the light lists; the test fails if it is
+ * none. */
+uint32_t gi_test_light_entry(struct gi_test *t, uint32_t cascade, const uint32_t cell[static 3]);
 /* Distances in cells, N^3, x fastest; the caller frees them. */
 float *gi_test_distances(struct gi_test *t, uint32_t cascade);
 

@@ -179,7 +179,7 @@ static void validation_names_the_first_bad_field(void **state)
     assert_false(sdfgi_settings_validate(&s, error, sizeof error));
     assert_non_null(strstr(error, "sdfgi_resolution"));
     s = defaults();
-    s.visibility = (enum sdfgi_visibility)(SDFGI_VISIBILITY_TRACED + 1);
+    s.visibility = (enum sdfgi_visibility)(SDFGI_VISIBILITY_PROBE_DEPTH + 1);
     assert_false(sdfgi_settings_validate(&s, error, sizeof error));
     assert_non_null(strstr(error, "sdfgi_visibility"));
     s = defaults();

@@ -6,10 +6,10 @@
 
 /* Light cells that a list has room for at first, in layers of n^2 cells: surfaces grow with the square of the
  * resolution. The sample world's village has 5.3. */
-#define LIGHT_CELL_LAYERS 8
+#define LIGHT_CELL_LAYERS 6
 
-/* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades: with the defaults a
- * cascade then takes just under 64 MiB, scratch included. */
+/* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades. With the defaults a
+ * cascade takes just under 64 MiB, scratch included, and 99 MiB with the longest list. */
 #define LIGHT_CELL_SHARE (37.0 / 256)
 
 double sdfgi_settings_y_scale(const struct sdfgi_settings *settings)
@@ -31,12 +31,17 @@ uint32_t sdfgi_settings_cycle_frames(const struct sdfgi_settings *settings)
     return (sdfgi_settings_cycle_samples(settings) + settings->ray_count - 1) / settings->ray_count;
 }
 
+uint32_t sdfgi_settings_cycle_visits(const struct sdfgi_settings *settings)
+{
+    const bool gathers = settings->surface_light == SDFGI_SURFACE_LIGHT_CELLS;
+    return gathers ? (settings->cell_rays + SDFGI_VISIT_RAYS - 1) / SDFGI_VISIT_RAYS : 0;
+}
+
 uint32_t sdfgi_settings_shader_visibility(const struct sdfgi_settings *settings)
 {
     static const uint32_t methods[] = {
         [SDFGI_VISIBILITY_CELL_MASK] = SDFGI_SHADER_VISIBILITY_CELL_MASK,
         [SDFGI_VISIBILITY_PROBE_DEPTH] = SDFGI_SHADER_VISIBILITY_PROBE_DEPTH,
-        [SDFGI_VISIBILITY_TRACED] = SDFGI_SHADER_VISIBILITY_TRACED,
     };
     return settings->use_occlusion ? methods[settings->visibility] : SDFGI_SHADER_VISIBILITY_NONE;
 }
@@ -57,20 +62,26 @@ static uint64_t light_cells_max(uint64_t cells)
 }
 
 /* Bytes that the largest tenant of the scratch buffer needs: shared/scratch.h. */
-static uint64_t scratch_size(const struct extent *e, uint32_t rays_per_frame)
+static uint64_t scratch_size(const struct extent *e)
 {
     const uint32_t bits = sdfgi_log2(e->cells) / 3;
     const uint64_t tenants[] = {
         sdfgi_scratch_accumulators_end(bits),
         sdfgi_scratch_distance_end(bits),
         sdfgi_scratch_flood_end(bits),
-        sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells_max),
-        e->probes * e->cascades * rays_per_frame,
+        sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells),
+        e->probes * e->cascades * e->rays_per_frame,
     };
     uint64_t most = 0;
     for (size_t i = 0; i < sizeof tenants / sizeof *tenants; i++)
         most = tenants[i] > most ? tenants[i] : most;
     return 4 * most;
+}
+
+void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells)
+{
+    extent->light_cells = light_cells;
+    extent->scratch = scratch_size(extent);
 }
 
 struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
@@ -81,13 +92,14 @@ struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
         .blocks = n * n * n / 8,
         .probes = side * side * side,
         .probes_per_side = side,
-        .light_cells = LIGHT_CELL_LAYERS * n * n,
         .light_cells_max = light_cells_max(n * n * n),
         .cascades = settings->cascades,
         .cycle_samples = sdfgi_settings_cycle_samples(settings),
+        .rays_per_frame = settings->ray_count,
         .occlusion = 1,
+        .gathers = sdfgi_settings_cycle_visits(settings) > 0,
     };
-    e.scratch = scratch_size(&e, settings->ray_count);
+    sdfgi_extent_set_light_cells(&e, LIGHT_CELL_LAYERS * n * n);
     if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
         e.occlusion = e.probes * e.cascades * SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE;
     return e;

@@ -6,16 +6,21 @@
 
 #include <sdfgi/settings.h>
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Elements of one cascade, and what else the sizes in the resource table depend on. */
 struct extent {
-    uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, scratch, occlusion;
+    uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, rays_per_frame, scratch,
+        occlusion;
     uint64_t light_cells,
         light_cells_max; /* room in the light list of a cascade, and how much it may become */
+    bool gathers;        /* light cells gather with rays of their own */
 };
 
 struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings);
+/* The same with another room in the light lists. */
+void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells);
 
 /* Height of a cell over its width. */
 double sdfgi_settings_y_scale(const struct sdfgi_settings *settings);
@@ -23,7 +28,9 @@ double sdfgi_settings_y_scale(const struct sdfgi_settings *settings);
 uint32_t sdfgi_settings_cycle_samples(const struct sdfgi_settings *settings);
 /* Frames over which a cycle is spread. */
 uint32_t sdfgi_settings_cycle_frames(const struct sdfgi_settings *settings);
-/* The method by which lookups weigh probes: SDFGI_SHADER_VISIBILITY_*. */
+/* Visits of a light cell in a gather cycle; 0 if light cells read probes alone. */
+uint32_t sdfgi_settings_cycle_visits(const struct sdfgi_settings *settings);
+/* The method by which light cells weigh probes: SDFGI_SHADER_VISIBILITY_*. */
 uint32_t sdfgi_settings_shader_visibility(const struct sdfgi_settings *settings);
 
 /* True if two settings cannot share device objects: they differ in a property that is marked so

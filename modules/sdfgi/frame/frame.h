@@ -35,6 +35,8 @@ struct frame {
     struct scroll_plan scroll;
     struct situation situation;
     struct work_list work;
+    struct gather_range gathers[SDFGI_MAX_CASCADES];
+    uint32_t gather_count;
     uint32_t uploads;                /* enum frame_upload */
     bool cycle_ends;                 /* this is the last frame of a sample cycle */
     const char *reasons[PASS_COUNT]; /* why each pass runs, or not */

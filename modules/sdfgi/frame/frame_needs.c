@@ -77,9 +77,16 @@ static bool needs_blend(const struct situation *s)
     return !s->converged && s->shows && !s->light_waits;
 }
 
+/* Light of cells that stay changes: with the lights, with the rays of the cells, or with the probes. */
+static bool bounces(const struct situation *s)
+{
+    const bool follows = s->gathering ? s->gathers : needs_blend(s);
+    return !s->converged && (follows || (s->lights_changed && s->lists_stay));
+}
+
 static bool needs_light(const struct situation *s)
 {
-    return needs_blend(s) || (!s->converged && (needs_list(s) || s->lights_changed));
+    return bounces(s) || (!s->converged && needs_list(s));
 }
 
 /* A gather is not planned with the frame: the host asks for it afterwards. */
@@ -87,6 +94,16 @@ static bool needs_gather(const struct situation *s)
 {
     (void)s;
     return false;
+}
+
+static bool needs_cells(const struct situation *s)
+{
+    return s->gathers;
+}
+
+static bool needs_filter(const struct situation *s)
+{
+    return s->cells && bounces(s);
 }
 
 static const struct need_row needs[NEED_COUNT] = {
@@ -114,13 +131,17 @@ static const struct need_row needs[NEED_COUNT] = {
     [NEED_DIRECT] = { needs_direct, "lights or the surfaces that they reach changed",
                       "no light and no surface changed, there is no light, or cells wait for a later frame" },
     [NEED_LIGHT] = { needs_light, "light has not converged",
-                     "light has converged, or is due in a later frame" },
+                     "light has converged, or no cell has new light in this frame" },
     [NEED_TRACE] = { needs_trace, "light has not converged",
                      "light has converged, or waits for the frame after a scroll" },
     [NEED_RAYS] = { needs_rays, "rays of the sample cycle are not cached",
                     "all rays are cached, or light has converged or waits" },
     [NEED_BLEND] = { needs_blend, "light has not converged",
                      "light has converged, or is due in a later frame" },
+    [NEED_CELLS] = { needs_cells, "the light of light cells has not settled",
+                     "light cells have settled, or light waits, or sdfgi_surface_light is probes" },
+    [NEED_FILTER] = { needs_filter, "light cells have new light",
+                      "no light cell has new light, or sdfgi_surface_light is probes" },
     [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
 };
 

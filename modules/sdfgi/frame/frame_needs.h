@@ -17,6 +17,10 @@ struct situation {
     bool lights_changed;
     bool relights;     /* light cells wait to be lit again */
     bool light_waits;  /* light goes on in the next frame */
+    bool lists_stay;   /* some light list is not written anew */
+    bool cells;        /* light cells send rays of their own */
+    bool gathers;      /* they do so in this frame */
+    bool gathering;    /* their light follows what they gather, and the probes no more */
     bool rays_missing; /* some of this frame's rays are not cached */
     bool shows;        /* probes show in this frame what they have gathered */
     bool converged;

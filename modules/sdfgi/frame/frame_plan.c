@@ -14,8 +14,10 @@ static void take_input(struct frame *frame, const struct frame_input *input)
     const bool first = next->updates == 0, exposure_changed = exposure != next->exposure;
     sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
-    if (exposure_changed)
+    if (exposure_changed) {
         sdfgi_accumulation_invalidate(&next->accumulation);
+        sdfgi_gathering_outdate(&next->gathering);
+    }
     next->exposure = exposure;
     if (desc->seed != next->seed)
         for (uint32_t c = 0; c < next->cascades.count; c++)
@@ -98,10 +100,36 @@ static void plan_relight(struct frame *frame, const struct frame_input *input)
     enum relist relists[SDFGI_MAX_CASCADES] = { RELIST_NOT };
     for (uint32_t c = 0; c < frame->next.cascades.count; c++)
         relists[c] = sdfgi_frame_relist(frame, c);
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++)
+        frame->situation.lists_stay = frame->situation.lists_stay || relists[c] != RELIST_NEW;
     frame->situation.has_lights = input->scene->lights.count > 0;
     sdfgi_relight_note(&frame->next.relight, &input->lists, relists,
                        frame->situation.lights_changed || !frame->situation.has_lights);
     frame->situation.relights = sdfgi_relight_is_due(&frame->next.relight);
+}
+
+static bool ranges_hold_cells(const struct frame *frame)
+{
+    for (uint32_t i = 0; i < frame->gather_count; i++)
+        if (frame->gathers[i].count > 0)
+            return true;
+    return false;
+}
+
+/* Decides which light cells gather. */
+static void plan_gathering(struct frame *frame, const struct frame_input *input)
+{
+    struct volume_state *next = &frame->next;
+    const uint32_t visits = sdfgi_settings_cycle_visits(input->settings);
+    frame->situation.cells = visits > 0;
+    sdfgi_gathering_begin(&next->gathering, next->accumulation.invalidations);
+    if (visits == 0 || frame->situation.converged || frame->situation.light_waits)
+        return;
+    frame->gather_count =
+        sdfgi_gathering_take(&next->gathering, &next->relight, &input->lists,
+                             input->settings->cell_rays_per_frame / SDFGI_VISIT_RAYS, visits, frame->gathers);
+    frame->situation.gathers = ranges_hold_cells(frame);
+    frame->situation.gathering = next->accumulation.phase >= LIGHTING_RUNNING;
 }
 
 static bool geometry_is_due(const struct frame *frame, const struct scene *scene)
@@ -159,6 +187,7 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
     plan_scroll(frame, input);
     plan_cycle(frame, input);
     plan_relight(frame, input);
+    plan_gathering(frame, input);
     plan_methods(&frame->situation, input->settings);
     frame->situation.geometry_due = geometry_is_due(frame, input->scene);
     const struct situation_needs needs = sdfgi_frame_needs(&frame->situation);
@@ -174,6 +203,14 @@ static bool takes_samples(const struct frame *frame)
     return !frame->situation.converged && !frame->situation.light_waits;
 }
 
+/* No work is left but that of the sample cycle. */
+static bool rests(const struct volume_state *state, const struct sdfgi_settings *settings)
+{
+    return sdfgi_cascades_rest(&state->cascades) && !sdfgi_relight_is_due(&state->relight) &&
+           (sdfgi_settings_cycle_visits(settings) == 0 ||
+            sdfgi_gathering_has_settled(&state->gathering, state->cascades.count));
+}
+
 void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,
                             struct volume_state *state)
 {
@@ -183,17 +220,19 @@ void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settin
         sdfgi_accumulation_show(&state->accumulation, frame->cycle_ends);
     if (takes_samples(frame))
         sdfgi_accumulation_advance(&state->accumulation, sdfgi_settings_cycle_frames(settings),
-                                   sdfgi_cascades_rest(&state->cascades) &&
-                                       !sdfgi_relight_is_due(&state->relight));
+                                   rests(state, settings));
     sdfgi_scroll_finish(&state->scroll, &state->cascades);
 }
 
 struct feedback_slot sdfgi_frame_feedback(const struct frame *frame)
 {
-    return (struct feedback_slot){
+    struct feedback_slot slot = {
         .content = frame->situation.converged ? FEEDBACK_TIMES : FEEDBACK_TIMES_AND_COUNTERS,
         .ended_cycle = frame->cycle_ends && takes_samples(frame) ? frame->next.accumulation.cycle : 0,
     };
+    for (uint32_t i = 0; i < frame->gather_count; i++)
+        slot.ended_gathers[frame->gathers[i].cascade] = frame->gathers[i].ends_cycle;
+    return slot;
 }
 
 void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,

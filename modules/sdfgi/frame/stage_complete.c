@@ -26,6 +26,14 @@ static void clear_list(const struct plan_stage *stage)
                          4 * (uint64_t)sdfgi_scratch_light_before(bits));
 }
 
+/* Where light cells are: blocks that have none are not written. */
+static void clear_blocks(const struct plan_stage *stage, uint32_t c)
+{
+    const struct extent *e = &stage->input->extent;
+    const uint64_t blocks = sdfgi_resource_size(RESOURCE_LIGHT_BLOCKS, e) / e->cascades;
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_LIGHT_BLOCKS, c * blocks, blocks);
+}
+
 /* A pass over the light cells in dirty blocks, with the workgroups of a record of indirect arguments. How
  * many cells that is comes back frames later: the work is that of the list before. */
 static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c, uint32_t record,
@@ -90,6 +98,7 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
         sdfgi_stage_add_phase(stage, PHASE_PLACE, &target);
     sdfgi_stage_end_group(stage, first);
 
+    clear_blocks(stage, c);
     sdfgi_stage_add_phase(stage, PHASE_LIST, &target);
 
     const uint32_t second = sdfgi_stage_begin_group(stage);

@@ -16,22 +16,49 @@ static void add_direct(const struct plan_stage *stage, const struct relight_rang
     };
 }
 
-/* What leaves the surfaces, in all cascades. */
-static void add_bounce(const struct plan_stage *stage)
+/* Probes hold light once a frame has shown it: in this one, that is the case behind PROBE_BLEND. */
+static bool probes_are_dark(const struct plan_stage *stage)
 {
-    const struct frame *frame = stage->frame;
-    struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_BOUNCE, 0);
-    for (uint32_t c = 0; c < frame->next.cascades.count; c++) {
-        const uint32_t entries = sdfgi_light_list_entries(&frame->next.relight, &stage->input->lists, c);
-        work->count = entries > work->count ? entries : work->count;
-        work->units += stage->input->counters[SDFGI_COUNTER_LIGHT_CELLS + c];
+    return !sdfgi_work_has(&stage->frame->work, PASS_PROBE_BLEND) &&
+           stage->frame->next.accumulation.phase == LIGHTING_DARK;
+}
+
+/* Lets a pass run over ranges of all cascades. `first` and `end` are those of its arguments. */
+static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES],
+                        uint end[static SDFGI_MAX_CASCADES], const struct gather_range *ranges,
+                        uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        first[ranges[i].cascade] = ranges[i].first;
+        end[ranges[i].cascade] = ranges[i].first + ranges[i].count;
+        work->count = ranges[i].count > work->count ? ranges[i].count : work->count;
+        work->units += ranges[i].count;
     }
-    /* Probes hold light once a frame has shown it: in this one, that is the case behind PROBE_BLEND. */
-    const bool shown = sdfgi_work_has(&frame->work, PASS_PROBE_BLEND);
-    work->args.light_bounce = (struct sdfgi_light_bounce_args){
-        .end = work->count,
-        .without_probes = !shown && frame->next.accumulation.phase == LIGHTING_DARK,
-    };
+}
+
+/* What arrives at surfaces and leaves them, and what lookups show of it. */
+static void add_bounce(const struct plan_stage *stage, const struct gather_range *ranges, uint32_t count)
+{
+    struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_BOUNCE, 0);
+    struct sdfgi_light_bounce_args *bounce = &work->args.light_bounce;
+    bounce->without_probes = probes_are_dark(stage);
+    fill_ranges(work, bounce->first, bounce->end, ranges, count);
+    work = sdfgi_stage_add(stage, PASS_CELL_FILTER, 0);
+    if (work)
+        fill_ranges(work, work->args.cell_gather.first, work->args.cell_gather.end, ranges, count);
+}
+
+/* All entries. */
+static void bounce_all(const struct plan_stage *stage)
+{
+    struct gather_range ranges[SDFGI_MAX_CASCADES] = { { 0 } };
+    const uint32_t count = stage->frame->next.cascades.count;
+    for (uint32_t c = 0; c < count; c++)
+        ranges[c] = (struct gather_range){
+            .cascade = c,
+            .count = sdfgi_light_list_entries(&stage->frame->next.relight, &stage->input->lists, c),
+        };
+    add_bounce(stage, ranges, count);
 }
 
 /* Lights changed: all cells that were there before. */
@@ -47,7 +74,7 @@ static void light_directly(const struct plan_stage *stage)
         any = true;
     }
     if (any)
-        add_bounce(stage);
+        bounce_all(stage);
 }
 
 /* Lights this frame's part of the cells again on which shadows may have changed. */
@@ -73,23 +100,58 @@ static void add_probe_trace(const struct plan_stage *stage)
     work->units = stage->input->counters[SDFGI_COUNTER_RAYS_TRACED];
 }
 
-/* This frame's rays, and beside them some direct light. */
+static void clear_change(const struct plan_stage *stage, const struct gather_range *range)
+{
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS,
+                         4 * (SDFGI_COUNTER_CELL_CHANGE + range->cascade), 4);
+}
+
+/* Rays of light cells. */
+static void gather(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    struct work *work = sdfgi_stage_add(stage, PASS_CELL_GATHER, 0);
+    if (!work)
+        return;
+    struct sdfgi_cell_gather_args *args = &work->args.cell_gather;
+    args->epoch = frame->next.gathering.epoch;
+    fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count);
+    for (uint32_t i = 0; i < frame->gather_count; i++)
+        args->visits[frame->gathers[i].cascade] = frame->gathers[i].visits;
+    work->units *= SDFGI_VISIT_RAYS;
+}
+
+/* This frame's rays, and then some direct light. */
 static void trace(const struct plan_stage *stage)
 {
     sdfgi_stage_add_phase(stage, PHASE_RAYS, &(struct plan_target){ 0 });
+    for (uint32_t i = 0; i < stage->frame->gather_count; i++)
+        if (stage->frame->gathers[i].begins_cycle)
+            clear_change(stage, &stage->frame->gathers[i]);
     const uint32_t first = sdfgi_stage_begin_group(stage);
     add_probe_trace(stage);
+    gather(stage);
+    sdfgi_stage_end_group(stage, first);
     if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
         relight(stage);
-    sdfgi_stage_end_group(stage, first);
+}
+
+/* Light cells that have begun to gather change with what they gather; before that, and if they never gather,
+ * they change with the probes. */
+static void bounce(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    if (frame->situation.gathering && frame->situation.gathers)
+        add_bounce(stage, frame->gathers, frame->gather_count);
+    if (!frame->situation.gathering && sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))
+        bounce_all(stage);
 }
 
 /* Adds up what this frame's rays find, shows what the probes have gathered, and hands it to the surfaces. */
 static void light_probes(const struct plan_stage *stage)
 {
     sdfgi_stage_add_phase(stage, PHASE_PROBES, &(struct plan_target){ 0 });
-    if (sdfgi_work_has(&stage->frame->work, PASS_PROBE_BLEND))
-        add_bounce(stage);
+    bounce(stage);
 }
 
 void sdfgi_stage_light(const struct plan_stage *stage)

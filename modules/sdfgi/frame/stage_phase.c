@@ -174,6 +174,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_flood:
     case ARGS_light_direct:
     case ARGS_light_bounce:
+    case ARGS_cell_gather:
     case ARGS_gather:
     case ARGS_COUNT:
         assert(sdfgi_pass_row(work->pass)->phase == PHASE_OWN);

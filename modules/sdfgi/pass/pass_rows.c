@@ -13,6 +13,7 @@ enum {
     SIZE_light_mark = ARGS_SIZE(light_mark),
     SIZE_light_direct = ARGS_SIZE(light_direct),
     SIZE_light_bounce = ARGS_SIZE(light_bounce),
+    SIZE_cell_gather = ARGS_SIZE(cell_gather),
     SIZE_probe_blend = ARGS_SIZE(probe_blend),
     SIZE_gather = ARGS_SIZE(gather),
 };

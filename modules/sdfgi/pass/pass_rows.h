@@ -33,6 +33,8 @@ enum need {
     NEED_TRACE,
     NEED_RAYS,
     NEED_BLEND,
+    NEED_CELLS,
+    NEED_FILTER,
     NEED_GATHER,
     NEED_COUNT,
 };
@@ -74,6 +76,7 @@ enum pass_args {
     ARGS_light_mark,
     ARGS_light_direct,
     ARGS_light_bounce,
+    ARGS_cell_gather,
     ARGS_probe_blend,
     ARGS_gather,
     ARGS_COUNT,

@@ -181,10 +181,15 @@ void sdfgi_resources_retire(struct backend *backend, struct resources *resources
 
 /* ---- The light list grows */
 
+/* What is as long as the light list, or grows with it. */
+static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_LIGHT, RESOURCE_SURFACES,
+                                        RESOURCE_GATHERED, RESOURCE_SCRATCH };
+enum { LISTED = sizeof listed / sizeof *listed };
+
 /* What the longer list replaces. */
 struct old_list {
     struct gpu_retired retired;
-    struct gpu_buffer buffer;
+    struct gpu_buffer buffers[LISTED];
     VkDescriptorPool pool;
 };
 
@@ -194,34 +199,48 @@ static void destroy_list(struct gpu_retired *item, void *user)
 {
     struct backend *backend = user;
     struct old_list *old = (struct old_list *)item;
-    sdfgi_backend_buffer_finish(backend, &old->buffer, sdfgi_resource_row(RESOURCE_LIGHT_CELLS)->category);
+    for (int i = 0; i < LISTED; i++)
+        sdfgi_backend_buffer_finish(backend, &old->buffers[i], sdfgi_resource_row(listed[i])->category);
     backend->device.fn.DestroyDescriptorPool(backend->device.handle, old->pool, backend->device.callbacks);
     sdfgi_hooks_free(&backend->hooks, old);
+}
+
+static VkResult create_list(struct backend *backend, struct old_list *list, const struct extent *extent,
+                            VkDescriptorSet sets[static RESOURCE_SET_COUNT])
+{
+    VkResult result = VK_SUCCESS;
+    for (int i = 0; i < LISTED && result == VK_SUCCESS; i++)
+        result = create_buffer(backend, &list->buffers[i], listed[i], extent);
+    return result == VK_SUCCESS ? create_sets(backend, &list->pool, sets) : result;
+}
+
+static void exchange_list(struct resources *r, struct old_list *list)
+{
+    for (int i = 0; i < LISTED; i++) {
+        const struct gpu_buffer buffer = list->buffers[i];
+        list->buffers[i] = r->buffers[listed[i]];
+        r->buffers[listed[i]] = buffer;
+    }
+    const VkDescriptorPool pool = list->pool;
+    list->pool = r->pool;
+    r->pool = pool;
 }
 
 bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources *r, uint64_t light_cells)
 {
     assert(light_cells > r->extent.light_cells && light_cells <= r->extent.light_cells_max);
     struct extent extent = r->extent;
-    extent.light_cells = light_cells;
+    sdfgi_extent_set_light_cells(&extent, light_cells);
     /* Made as what is to be destroyed, and exchanged for the old ones. */
     struct old_list *list = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *list);
     if (!list)
         return false;
     VkDescriptorSet sets[RESOURCE_SET_COUNT];
-    VkResult result = create_buffer(backend, &list->buffer, RESOURCE_LIGHT_CELLS, &extent);
-    if (result == VK_SUCCESS)
-        result = create_sets(backend, &list->pool, sets);
-    if (result != VK_SUCCESS) {
+    if (create_list(backend, list, &extent, sets) != VK_SUCCESS) {
         destroy_list(&list->retired, backend);
         return false;
     }
-    const struct gpu_buffer buffer = list->buffer;
-    const VkDescriptorPool pool = list->pool;
-    list->buffer = r->buffers[RESOURCE_LIGHT_CELLS];
-    list->pool = r->pool;
-    r->buffers[RESOURCE_LIGHT_CELLS] = buffer;
-    r->pool = pool;
+    exchange_list(r, list);
     memcpy(r->sets, sets, sizeof sets);
     r->extent = extent;
     write_sets(backend, r);

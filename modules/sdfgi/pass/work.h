@@ -46,6 +46,7 @@ union work_args {
     struct sdfgi_light_mark_args light_mark;
     struct sdfgi_light_direct_args light_direct;
     struct sdfgi_light_bounce_args light_bounce;
+    struct sdfgi_cell_gather_args cell_gather;
     struct sdfgi_probe_blend_args probe_blend;
     struct sdfgi_gather_args gather;
 };

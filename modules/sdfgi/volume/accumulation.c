@@ -49,6 +49,7 @@ static void wake(struct accumulation *a)
 {
     if (a->phase == LIGHTING_CONVERGED)
         enter(a, LIGHTING_RUNNING);
+    a->invalidations++;
     sdfgi_convergence_reset(&a->convergence);
 }
 

@@ -35,6 +35,7 @@ struct accumulation {
     uint64_t cycle;         /* cycles are numbered from 1 */
     uint32_t frame;         /* of the cycle */
     uint64_t invalid_cycle; /* the last one with light from before it was invalidated */
+    uint64_t invalidations; /* so far */
     uint32_t rays_missing;  /* frames of rays until all rays of a cycle are cached */
     struct convergence convergence;
     /* Of the newest cycle that came back from the GPU; 0: none has. */

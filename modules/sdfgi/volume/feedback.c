@@ -24,6 +24,10 @@ static void read_counters(struct volume *volume, const struct feedback_slot *slo
         sdfgi_accumulation_add_known(&volume->state.accumulation, slot->ended_cycle,
                                      float_of(counters[SDFGI_COUNTER_MAX_CHANGE]),
                                      float_of(counters[SDFGI_COUNTER_MAX_IRRADIANCE]));
+    for (uint32_t c = 0; c < volume->state.cascades.count; c++)
+        if (slot->ended_gathers[c] > 0)
+            sdfgi_gathering_add_known(&volume->state.gathering, c, slot->ended_gathers[c],
+                                      float_of(counters[SDFGI_COUNTER_CELL_CHANGE + c]));
 }
 
 static void read_times(struct volume *volume, uint32_t index)
@@ -46,5 +50,5 @@ void sdfgi_volume_read_back(struct volume *volume, uint32_t index)
         read_counters(volume, slot, index);
     if (slot->content != FEEDBACK_NOTHING)
         read_times(volume, index);
-    *slot = (struct feedback_slot){ FEEDBACK_NOTHING, 0 };
+    *slot = (struct feedback_slot){ .content = FEEDBACK_NOTHING };
 }

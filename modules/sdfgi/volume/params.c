@@ -90,6 +90,7 @@ static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_setti
     p->probes_per_side = s->resolution / SDFGI_PROBE_SPACING + 1;
     p->cascade_count = s->cascades;
     p->visibility = sdfgi_settings_shader_visibility(s);
+    p->cycle_visits = sdfgi_settings_cycle_visits(s);
 }
 
 /* The rays of this frame. Once light has converged nobody reads these: they stay, and are no reason to upload

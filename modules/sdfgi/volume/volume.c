@@ -32,6 +32,7 @@ void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
     sdfgi_scroll_init(&state->scroll);
     sdfgi_accumulation_init(&state->accumulation);
     sdfgi_relight_init(&state->relight);
+    sdfgi_gathering_init(&state->gathering);
     state->exposure = 1;
 }
 
@@ -46,8 +47,10 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
             if (sdfgi_cascade_add_edit(cascade, state->cascades.resolution, &journal->boxes[i]))
                 invalidates = true;
     }
-    if (invalidates)
-        sdfgi_accumulation_invalidate(&state->accumulation);
+    if (!invalidates)
+        return;
+    sdfgi_accumulation_invalidate(&state->accumulation);
+    sdfgi_gathering_outdate(&state->gathering);
 }
 
 bool sdfgi_volume_has_converged(const struct volume *volume)

@@ -4,6 +4,7 @@
 #define SDFGI_VOLUME_H
 
 #include "accumulation.h"
+#include "gathering.h"
 #include "pass/resources.h"
 #include "relight.h"
 #include "scene/scene.h"
@@ -16,6 +17,7 @@ struct volume_state {
     struct scroll scroll;
     struct accumulation accumulation;
     struct relight relight;
+    struct gathering gathering;
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders */
     float exposure;
     uint32_t seed;
@@ -28,7 +30,8 @@ enum feedback_content { FEEDBACK_NOTHING, FEEDBACK_TIMES, FEEDBACK_TIMES_AND_COU
 
 struct feedback_slot {
     enum feedback_content content;
-    uint64_t ended_cycle; /* the sample cycle that ended in it; 0: none */
+    uint64_t ended_cycle;                       /* the sample cycle that ended in it; 0: none */
+    uint64_t ended_gathers[SDFGI_MAX_CASCADES]; /* the gather cycle of a cascade that ended in it; 0: none */
 };
 
 struct feedback_time {

@@ -17,34 +17,34 @@ extern "C" {
 #endif
 
 enum sdfgi_y_scale { SDFGI_Y_SCALE_50 = 0, SDFGI_Y_SCALE_75 = 1, SDFGI_Y_SCALE_100 = 2 };
-enum sdfgi_visibility {
-    SDFGI_VISIBILITY_CELL_MASK = 0,
-    SDFGI_VISIBILITY_PROBE_DEPTH = 1,
-    SDFGI_VISIBILITY_TRACED = 2
-};
+enum sdfgi_visibility { SDFGI_VISIBILITY_CELL_MASK = 0, SDFGI_VISIBILITY_PROBE_DEPTH = 1 };
+enum sdfgi_surface_light { SDFGI_SURFACE_LIGHT_PROBES = 0, SDFGI_SURFACE_LIGHT_CELLS = 1 };
 enum sdfgi_sdf_method { SDFGI_SDF_EXACT = 0, SDFGI_SDF_FLOOD = 1 };
 enum sdfgi_voxelizer { SDFGI_VOXELIZER_COMPUTE = 0, SDFGI_VOXELIZER_RASTER = 1 };
 
 /* Every field is a row of the table: `sdfgi properties` prints range, unit, cost and benefit of each. */
 struct sdfgi_settings {
-    bool enabled;                     /* sdfgi_enabled */
-    bool use_occlusion;               /* sdfgi_use_occlusion */
-    bool read_sky_light;              /* sdfgi_read_sky_light */
-    float bounce_feedback;            /* sdfgi_bounce_feedback, [0, 1.99] */
-    uint32_t cascades;                /* sdfgi_cascades, [1, 8] */
-    float min_cell_size_m;            /* sdfgi_min_cell_size, [0.01, 64] */
-    enum sdfgi_y_scale y_scale;       /* sdfgi_y_scale */
-    float energy;                     /* sdfgi_energy, [0, 100] */
-    float normal_bias_cells;          /* sdfgi_normal_bias */
-    float probe_bias_cells;           /* sdfgi_probe_bias */
-    uint32_t ray_count;               /* sdfgi_ray_count, rays per probe and frame, [1, 128] */
-    uint32_t frames_to_converge;      /* sdfgi_frames_to_converge, [1, 64] */
-    uint32_t frames_to_update_lights; /* sdfgi_frames_to_update_lights, [1, 16] */
-    uint32_t resolution;              /* sdfgi_resolution, cells along a side: 32, 64, 128 or 256 */
-    enum sdfgi_visibility visibility; /* sdfgi_visibility */
-    enum sdfgi_sdf_method sdf_method; /* sdfgi_sdf_method */
-    enum sdfgi_voxelizer voxelizer;   /* sdfgi_voxelizer */
-    uint32_t max_scroll_cells;        /* sdfgi_max_scroll_cells_per_frame, [524288, 134217728] */
+    bool enabled;                           /* sdfgi_enabled */
+    bool use_occlusion;                     /* sdfgi_use_occlusion */
+    bool read_sky_light;                    /* sdfgi_read_sky_light */
+    float bounce_feedback;                  /* sdfgi_bounce_feedback, [0, 1.99] */
+    uint32_t cascades;                      /* sdfgi_cascades, [1, 8] */
+    float min_cell_size_m;                  /* sdfgi_min_cell_size, [0.01, 64] */
+    enum sdfgi_y_scale y_scale;             /* sdfgi_y_scale */
+    float energy;                           /* sdfgi_energy, [0, 100] */
+    float normal_bias_cells;                /* sdfgi_normal_bias */
+    float probe_bias_cells;                 /* sdfgi_probe_bias */
+    uint32_t ray_count;                     /* sdfgi_ray_count, rays per probe and frame, [1, 128] */
+    uint32_t frames_to_converge;            /* sdfgi_frames_to_converge, [1, 64] */
+    uint32_t frames_to_update_lights;       /* sdfgi_frames_to_update_lights, [1, 16] */
+    uint32_t resolution;                    /* sdfgi_resolution, cells along a side: 32, 64, 128 or 256 */
+    enum sdfgi_visibility visibility;       /* sdfgi_visibility */
+    enum sdfgi_sdf_method sdf_method;       /* sdfgi_sdf_method */
+    enum sdfgi_voxelizer voxelizer;         /* sdfgi_voxelizer */
+    enum sdfgi_surface_light surface_light; /* sdfgi_surface_light */
+    uint32_t cell_rays;           /* sdfgi_cell_rays, rays per surface and gather cycle, [16, 2048] */
+    uint32_t cell_rays_per_frame; /* sdfgi_cell_rays_per_frame, [1024, 16777216] */
+    uint32_t max_scroll_cells;    /* sdfgi_max_scroll_cells_per_frame, [524288, 134217728] */
 };
 
 enum sdfgi_property_type {

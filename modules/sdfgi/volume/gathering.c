@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT */
+#include "gathering.h"
+
+/* Lights that change in every frame begin a new epoch only once in so many: otherwise no cell would ever add
+ * up two visits. */
+#define EPOCH_FRAMES 16
+
+/* The largest relative change of a light cell, from one cycle to the next, of light that has settled. Stored
+ * radiance is rounded by that much. */
+#define SETTLED_CHANGE (1.0f / 512.0f)
+
+void sdfgi_gathering_init(struct gathering *gathering)
+{
+    *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
+        gathering->at[c].cycle = 1;
+        gathering->at[c].rough = true;
+        sdfgi_convergence_reset(&gathering->at[c].convergence);
+    }
+}
+
+void sdfgi_gathering_outdate(struct gathering *gathering)
+{
+    gathering->epoch_over = true;
+}
+
+/* As long as light changes much from cycle to cycle, cycles are rough: light makes a bounce in each. */
+#define ROUGH_CHANGE (1.0f / 64.0f)
+#define ROUGH_CYCLES 3 /* at most: in a large scene some light somewhere changes for long */
+
+static uint32_t visits_of(const struct gather_cursor *cursor, uint32_t cycle_visits)
+{
+    return cursor->rough && cycle_visits > SDFGI_ROUGH_VISITS ? SDFGI_ROUGH_VISITS : cycle_visits;
+}
+
+static void unsettle(struct gather_cursor *cursor)
+{
+    cursor->settled = false;
+    cursor->invalid_cycle = cursor->cycle;
+    sdfgi_convergence_reset(&cursor->convergence);
+}
+
+void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
+{
+    if (invalidations != gathering->invalidations)
+        for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+            unsettle(&gathering->at[c]);
+    gathering->invalidations = invalidations;
+    gathering->epoch_frames += gathering->epoch_frames < EPOCH_FRAMES;
+    if (!gathering->epoch_over || gathering->epoch_frames < EPOCH_FRAMES)
+        return;
+    gathering->epoch = (gathering->epoch + 1) & 0xffu;
+    gathering->epoch_frames = 0;
+    gathering->epoch_over = false;
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
+        gathering->at[c].rough = true;
+        gathering->at[c].rough_cycles = 0;
+    }
+}
+
+/* Goes on with a cascade, at most to the end of the sweep. */
+static struct gather_range take(struct gather_cursor *cursor, uint32_t c, uint32_t entries, uint32_t most,
+                                uint32_t cycle_visits)
+{
+    if (cursor->next >= entries)
+        cursor->next = 0;
+    struct gather_range range = { .cascade = c,
+                                  .first = cursor->next,
+                                  .visits = visits_of(cursor, cycle_visits) };
+    range.begins_cycle = cursor->next == 0 && cursor->sweeps == 0;
+    range.count = entries - cursor->next < most ? entries - cursor->next : most;
+    cursor->next += range.count;
+    if (cursor->next < entries)
+        return range;
+    cursor->next = 0;
+    if (++cursor->sweeps >= range.visits) {
+        range.ends_cycle = cursor->cycle++;
+        cursor->sweeps = 0;
+    }
+    return range;
+}
+
+uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight *relight,
+                              const struct light_lists *lists, uint32_t cells, uint32_t cycle_visits,
+                              struct gather_range ranges[static SDFGI_MAX_CASCADES])
+{
+    uint32_t count = 0, unsettled = 0;
+    for (uint32_t c = 0; c < lists->cascades; c++)
+        unsettled += !gathering->at[c].settled;
+    for (uint32_t c = 0; c < lists->cascades && cells > 0; c++) {
+        if (gathering->at[c].settled)
+            continue;
+        const uint32_t most = --unsettled > 0 ? (cells + 1) / 2 : cells;
+        const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
+        ranges[count] = take(&gathering->at[c], c, entries, most, cycle_visits);
+        cells -= ranges[count++].count;
+    }
+    return count;
+}
+
+void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t cycle, float change)
+{
+    struct gather_cursor *cursor = &gathering->at[c];
+    if (cycle <= cursor->invalid_cycle)
+        return;
+    sdfgi_convergence_add(&cursor->convergence, change);
+    const bool done = change < SETTLED_CHANGE || sdfgi_convergence_done(&cursor->convergence);
+    cursor->settled = done && !cursor->rough;
+    cursor->rough_cycles += cursor->rough;
+    if (!cursor->rough || (change >= ROUGH_CHANGE && cursor->rough_cycles < ROUGH_CYCLES))
+        return;
+    cursor->rough = false;
+    cursor->invalid_cycle = cursor->cycle;
+    sdfgi_convergence_reset(&cursor->convergence);
+}
+
+bool sdfgi_gathering_has_settled(const struct gathering *gathering, uint32_t cascades)
+{
+    for (uint32_t c = 0; c < cascades; c++)
+        if (!gathering->at[c].settled)
+            return false;
+    return true;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT
+ * Which light cells gather in a frame.
+ *
+ * A sweep visits each entry of a cascade's light list once. A gather cycle takes as many sweeps as a cell has
+ * visits in a cycle: few after the lights have changed, because light makes a bounce in each cycle, and more
+ * once it changes little. Near cascades get most of a frame's rays: each gets half of what is left, and the
+ * last one all of it. A cascade whose light changes no more from cycle to cycle has settled, and gets none.
+ * Plain data.
+ */
+#ifndef SDFGI_GATHERING_H
+#define SDFGI_GATHERING_H
+
+#include "accumulation.h"
+#include "relight.h"
+
+struct gather_cursor {
+    uint32_t next;          /* entry */
+    uint32_t sweeps;        /* of this cycle */
+    uint64_t cycle;         /* cycles are numbered from 1 */
+    uint64_t invalid_cycle; /* the last one with light from before it was invalidated */
+    struct convergence convergence;
+    uint32_t rough_cycles; /* since the lights changed */
+    bool rough;            /* cycles are short, because the lights have changed */
+    bool settled;
+};
+
+struct gathering {
+    struct gather_cursor at[SDFGI_MAX_CASCADES];
+    uint64_t invalidations; /* of the light, as far as they are taken in */
+    uint32_t epoch;         /* of the lights */
+    uint32_t epoch_frames;  /* since it began */
+    bool epoch_over;        /* the lights have changed since */
+};
+
+struct gather_range {
+    uint32_t cascade, first, count;
+    bool begins_cycle;
+    uint64_t ends_cycle; /* the cycle whose last entries these are; 0: none */
+    uint32_t visits;     /* of a cell in a cycle */
+};
+
+void sdfgi_gathering_init(struct gathering *gathering);
+/* The lights are others: what cells have gathered is outdated. */
+void sdfgi_gathering_outdate(struct gathering *gathering);
+/* Begins a frame. `invalidations` counts those of the light so far: after one no cascade is settled. */
+void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations);
+/* Takes a frame's part of `cells` cells at most; returns how many ranges it filled in. */
+uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight *relight,
+                              const struct light_lists *lists, uint32_t cells, uint32_t cycle_visits,
+                              struct gather_range ranges[static SDFGI_MAX_CASCADES]);
+/* A cycle that ended came back from the GPU. */
+void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle, float change);
+/* True if the cells of all cascades have settled. */
+bool sdfgi_gathering_has_settled(const struct gathering *gathering, uint32_t cascades);
+
+#endif

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ * What light cells have gathered with rays of their own. A visit sends SDFGI_VISIT_RAYS rays from a cell for
+ * each axis along which a surface faces; a gather cycle is so many visits. Every cycle repeats the directions
+ * of the one before, so what a static scene gathers converges exactly. Per axis a cell has two values, S and
+ * P.
+ *
+ * - Once a cycle has been completed, P is its mean, and the cell shows P. S is the sum of this cycle's visits
+ * so far. It is not shown, because the rays of a part of a cycle have another mean than all of them even
+ * while the light stays the same.
+ *   Where P is the mean of a rough cycle, S is mixed in once it holds as many visits.
+ * - In the first cycle of a new cell, S is a mean of the visits so far in which later ones count more,
+ * because they see more bounces. The cell shows S, and before the first visit what probes tell.
+ * - When the lights change, a cycle begins that counts as a first one. P is what the cell has shown. */
+#ifndef SDFGI_GATHERED_GLSL
+#define SDFGI_GATHERED_GLSL
+
+#include "light_cells.glsl"
+#include "../lib/irradiance_pack.glsl"
+
+/* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
+ * S and P as half floats; the packed gathered_state; and per axis the irradiance before it is filtered, as
+ * the surfaces' of sdfgi_resources.glsl. Sums count a visit as 1 / sdfgi_frame.cycle_visits. */
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
+{
+    uint sdfgi_gathered[];
+};
+
+/* What a cell knows before its first visit counts as half a visit: little, so that cells soon show what they
+ * see themselves; not nothing, because the rays of one visit alone are noisy. */
+const float GATHERED_PRIOR_VISITS = 0.5;
+/* Weight of a visit in S in a first cycle, at least. With it a room of albedo 0.5 has a tenth of a lamp's
+ * light left eight visits after the lamp has gone. */
+const float GATHERED_RECENT = 0.6;
+
+/* What P is. */
+const uint GATHERED_NOTHING = 0u;  /* there is none: the cell is new */
+const uint GATHERED_OUTDATED = 1u; /* what the cell showed before the lights changed */
+const uint GATHERED_ROUGH = 2u;    /* the mean of a rough cycle */
+const uint GATHERED_COMPLETE = 3u; /* the mean of a complete cycle */
+
+struct gathered_state {
+    uint visits; /* in this cycle */
+    uint mean;   /* GATHERED_NOTHING, _OUTDATED or _COMPLETE */
+    uint epoch;  /* of the lights that S and P belong to; 8 bits */
+};
+
+/* False if light cells read probes alone. */
+bool gathers()
+{
+    return sdfgi_frame.cycle_visits > 0u;
+}
+
+/* Word `plane` of an entry. */
+uint gathered_word(uint cascade, uint plane, uint entry)
+{
+    return (cascade * SDFGI_GATHERED_WORDS + plane) * sdfgi_frame.light_cell_room + entry;
+}
+
+const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u;
+
+gathered_state gathered_load_state(uint cascade, uint entry)
+{
+    const uint packed = sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)];
+    return gathered_state(packed & 0xffu, packed >> 8u & 0xffu, packed >> 16u & 0xffu);
+}
+
+void gathered_store_state(uint cascade, uint entry, gathered_state state)
+{
+    sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)] =
+        state.visits | state.mean << 8u | state.epoch << 16u;
+}
+
+/* S and P of an axis. */
+struct gathered_light {
+    vec3 sum, mean;
+};
+
+gathered_light gathered_load(uint cascade, uint entry, uint axis)
+{
+    const uint plane = sdfgi_frame.light_cell_room, word = gathered_word(cascade, 3u * axis, entry);
+    const vec2 sum = unpackHalf2x16(sdfgi_gathered[word]),
+               mean = unpackHalf2x16(sdfgi_gathered[word + plane]),
+               blue = unpackHalf2x16(sdfgi_gathered[word + 2u * plane]);
+    return gathered_light(vec3(sum, blue.x), vec3(mean, blue.y));
+}
+
+void gathered_store(uint cascade, uint entry, uint axis, gathered_light light)
+{
+    const float HALF_MAX = 65504.0;
+    const uint plane = sdfgi_frame.light_cell_room, word = gathered_word(cascade, 3u * axis, entry);
+    const vec4 sum = sdfgi_half4_truncate(vec4(min(light.sum, vec3(HALF_MAX)), 0.0)),
+               mean = sdfgi_half4_truncate(vec4(min(light.mean, vec3(HALF_MAX)), 0.0));
+    sdfgi_gathered[word] = packHalf2x16(sum.rg);
+    sdfgi_gathered[word + plane] = packHalf2x16(mean.rg);
+    sdfgi_gathered[word + 2u * plane] = packHalf2x16(vec2(sum.b, mean.b));
+}
+
+/* The irradiance that a cell shows along an axis. `prior` is what probes tell, with its weight, 0 or 1, in a.
+ * False if there is nothing to tell. */
+bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 prior, out vec3 light)
+{
+    light = gathered.mean;
+    if (state.mean == GATHERED_OUTDATED && state.visits > 0u)
+        light = gathered.sum;
+    if (state.mean == GATHERED_ROUGH && state.visits >= SDFGI_ROUGH_VISITS)
+        light = (gathered.sum * float(sdfgi_frame.cycle_visits) + gathered.mean * float(SDFGI_ROUGH_VISITS)) /
+                float(state.visits + SDFGI_ROUGH_VISITS);
+    if (state.mean != GATHERED_NOTHING)
+        return true;
+    const vec4 known = float(state.visits) * vec4(gathered.sum, 1.0) +
+                       prior.a * GATHERED_PRIOR_VISITS * vec4(prior.rgb, 1.0);
+    light = known.rgb / max(known.a, 1e-6);
+    return known.a > 0.0;
+}
+
+/* S after a visit that found `light`; `state` is the one before it. */
+vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
+{
+    if (state.mean >= GATHERED_ROUGH)
+        return gathered.sum + light / float(sdfgi_frame.cycle_visits);
+    const float before =
+        float(state.visits) + (state.mean == GATHERED_OUTDATED ? GATHERED_PRIOR_VISITS : 0.0);
+    return mix(state.visits == 0u ? gathered.mean : gathered.sum, light,
+               max(1.0 / (before + 1.0), GATHERED_RECENT));
+}
+
+/* The mean of a cycle that ends with this S, after so many visits. */
+vec3 gathered_mean(gathered_state state, vec3 sum, uint visits)
+{
+    return state.mean >= GATHERED_ROUGH ? sum * (float(sdfgi_frame.cycle_visits) / float(visits)) : sum;
+}
+
+#endif

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ * Which light cells gather in a frame, without a device. */
+#include "volume/gathering.h"
+
+#include "require.h"
+
+enum { CASCADES = 3, ENTRIES = 1000, VISITS = 32, ROUGH = 8 };
+
+struct scene {
+    struct gathering gathering;
+    struct relight relight;
+    struct light_lists lists;
+    struct gather_range ranges[SDFGI_MAX_CASCADES];
+    uint32_t count;
+};
+
+/* Lists of ENTRIES cells, which the host has known for long. */
+static void open_scene(struct scene *s)
+{
+    *s = (struct scene){ .lists = { .cascades = CASCADES,
+                                    .room = 5000,
+                                    .counted = { ENTRIES, ENTRIES, ENTRIES },
+                                    .frame = 100,
+                                    .frames_in_flight = 2 } };
+    sdfgi_gathering_init(&s->gathering);
+    sdfgi_relight_init(&s->relight);
+}
+
+static void take(struct scene *s, uint32_t cells)
+{
+    s->count = sdfgi_gathering_take(&s->gathering, &s->relight, &s->lists, cells, VISITS, s->ranges);
+}
+
+static uint32_t cells_of(const struct scene *s, uint32_t cascade)
+{
+    uint32_t cells = 0;
+    for (uint32_t i = 0; i < s->count; i++)
+        cells += s->ranges[i].cascade == cascade ? s->ranges[i].count : 0;
+    return cells;
+}
+
+/* All cascades end a cycle in which light has changed by so much. */
+static void end_cycles(struct scene *s, float change)
+{
+    for (uint32_t c = 0; c < CASCADES; c++)
+        sdfgi_gathering_add_known(&s->gathering, c, s->gathering.at[c].cycle, change);
+}
+
+static void near_cascades_get_most_of_the_budget(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    take(&s, 400);
+    REQUIRE_CMP(cells_of(&s, 0), ==, 200u);
+    REQUIRE_CMP(cells_of(&s, 1), ==, 100u);
+    REQUIRE_CMP(cells_of(&s, 2), ==, 100u);
+}
+
+static void a_sweep_visits_each_cell_once(void **state)
+{
+    (void)state;
+    struct scene s;
+    static uint32_t visits[CASCADES][ENTRIES];
+    open_scene(&s);
+    for (int frame = 0; frame < 200; frame++) {
+        take(&s, 777);
+        REQUIRE_CMP(s.count, <=, (uint32_t)CASCADES);
+        for (uint32_t i = 0; i < s.count; i++)
+            for (uint32_t k = 0; k < s.ranges[i].count; k++)
+                visits[s.ranges[i].cascade][s.ranges[i].first + k]++;
+    }
+    for (uint32_t c = 0; c < CASCADES; c++)
+        for (uint32_t i = 0; i + 1 < ENTRIES; i++)
+            REQUIRE_TRUE(visits[c][i] == visits[c][i + 1] || visits[c][i] == visits[c][i + 1] + 1);
+}
+
+static void a_cycle_ends_with_its_last_visit(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    uint32_t frames = 0;
+    do {
+        take(&s, 100 * ENTRIES);
+        REQUIRE_TRUE(s.ranges[0].begins_cycle == (frames == 0));
+        frames++;
+    } while (s.ranges[0].ends_cycle == 0);
+    REQUIRE_CMP(s.ranges[0].ends_cycle, ==, 1ul);
+    REQUIRE_CMP(frames, ==, (uint32_t)ROUGH);
+}
+
+static void cycles_grow_long_when_light_changes_little(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    end_cycles(&s, 0.5f);
+    take(&s, 100);
+    REQUIRE_CMP(s.ranges[0].visits, ==, (uint32_t)ROUGH);
+    s.gathering.at[0].cycle++;
+    end_cycles(&s, 0.01f);
+    take(&s, 100);
+    REQUIRE_CMP(s.ranges[0].visits, ==, (uint32_t)VISITS);
+    REQUIRE_TRUE(!sdfgi_gathering_has_settled(&s.gathering, CASCADES));
+}
+
+/* Rough cycles that change nothing do not settle: long ones must follow. */
+static void settle(struct scene *s)
+{
+    for (int i = 0; i < 2; i++) {
+        REQUIRE_TRUE(!sdfgi_gathering_has_settled(&s->gathering, CASCADES));
+        for (uint32_t c = 0; c < CASCADES; c++)
+            s->gathering.at[c].cycle++;
+        end_cycles(s, 0.001f);
+    }
+    REQUIRE_TRUE(sdfgi_gathering_has_settled(&s->gathering, CASCADES));
+}
+
+static void settled_cells_get_no_rays_until_light_changes(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    settle(&s);
+    take(&s, 100);
+    REQUIRE_CMP(s.count, ==, 0u);
+    sdfgi_gathering_begin(&s.gathering, 1);
+    take(&s, 100);
+    REQUIRE_CMP(s.count, ==, (uint32_t)CASCADES);
+    /* What was gathered before the change comes back late, and counts for nothing. */
+    end_cycles(&s, 0);
+    REQUIRE_TRUE(!sdfgi_gathering_has_settled(&s.gathering, CASCADES));
+}
+
+static void one_cascade_that_has_settled_leaves_its_share_to_others(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    s.gathering.at[0].settled = true;
+    take(&s, 400);
+    REQUIRE_CMP(cells_of(&s, 0), ==, 0u);
+    REQUIRE_CMP(cells_of(&s, 1), ==, 200u);
+    REQUIRE_CMP(cells_of(&s, 2), ==, 200u);
+}
+
+static void lights_that_change_in_every_frame_begin_an_epoch_now_and_then(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    for (uint64_t frame = 1; frame <= 160; frame++) {
+        sdfgi_gathering_outdate(&s.gathering);
+        sdfgi_gathering_begin(&s.gathering, frame);
+    }
+    REQUIRE_CMP(s.gathering.epoch, ==, 10u);
+    /* A single change begins one at once. */
+    open_scene(&s);
+    sdfgi_gathering_outdate(&s.gathering);
+    sdfgi_gathering_begin(&s.gathering, 1);
+    REQUIRE_CMP(s.gathering.epoch, ==, 1u);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(near_cascades_get_most_of_the_budget),
+        cmocka_unit_test(a_sweep_visits_each_cell_once),
+        cmocka_unit_test(a_cycle_ends_with_its_last_visit),
+        cmocka_unit_test(cycles_grow_long_when_light_changes_little),
+        cmocka_unit_test(settled_cells_get_no_rays_until_light_changes),
+        cmocka_unit_test(one_cascade_that_has_settled_leaves_its_share_to_others),
+        cmocka_unit_test(lights_that_change_in_every_frame_begin_an_epoch_now_and_then),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT
+ * Light cells that gather with rays of their own: a closed room that is a furnace, or has a lamp. */
+#include "light_scene.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINT_COUNT = 7 };
+
+/* On the faces of the room, and in the air. */
+static const struct gi_test_point points[POINT_COUNT] = {
+    { { 0.1f, -1.5f, 0.2f }, { 0, 1, 0 } },  { { 0.1f, 1.5f, 0.2f }, { 0, -1, 0 } },
+    { { -1.5f, 0.3f, 0.4f }, { 1, 0, 0 } },  { { 0.2f, 0.1f, 1.5f }, { 0, 0, -1 } },
+    { { 1.5f, -0.9f, 0.8f }, { -1, 0, 0 } }, { { 0.9f, -1.5f, -0.8f }, { 0, 1, 0 } },
+    { { 0.1f, 0.2f, 0.3f }, { 0, 1, 0 } },
+};
+
+static struct sdfgi_settings cell_settings(void)
+{
+    struct sdfgi_settings s = light_settings(32, 0.25f);
+    s.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    s.cell_rays = 128;
+    s.cell_rays_per_frame = 1 << 17;
+    return s;
+}
+
+static void open_room(struct gi_test *t, const struct sdfgi_settings *settings, float albedo, float emission)
+{
+    gi_test_open(t, settings);
+    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 0.3, test_rotation_none),
+              albedo, emission);
+}
+
+static void look(struct gi_test *t, float found[POINT_COUNT][3])
+{
+    gi_test_irradiance(t, points, POINT_COUNT, found);
+}
+
+/* Greatest relative difference of two sets of green. */
+static double worst_difference(float a[POINT_COUNT][3], float b[POINT_COUNT][3])
+{
+    double worst = 0;
+    for (int i = 0; i < POINT_COUNT; i++)
+        worst = fmax(worst, fabs((double)a[i][1] / (double)b[i][1] - 1));
+    return worst;
+}
+
+static void check_furnace(float albedo, uint32_t limit)
+{
+    struct gi_test t;
+    const struct sdfgi_settings settings = cell_settings();
+    float found[POINT_COUNT][3];
+    open_room(&t, &settings, albedo, 1);
+    const uint32_t frames = gi_test_converge(&t, limit);
+    look(&t, found);
+    for (int i = 0; i < POINT_COUNT; i++) {
+        const double ratio = (double)found[i][1] / PI * (1 - (double)albedo);
+        printf("furnace %.2f, point %d: ratio %.4f (%u frames)\n", (double)albedo, i, ratio, frames);
+        REQUIRE_NEAR(ratio, 1, 0.025);
+    }
+    gi_test_close(&t);
+}
+
+static void a_furnace_of_albedo_half_is_exact(void **state)
+{
+    (void)state;
+    check_furnace(0.5f, 300);
+}
+
+static void a_furnace_of_albedo_four_fifths_is_exact(void **state)
+{
+    (void)state;
+    check_furnace(0.8f, 600);
+}
+
+static void light_in_a_room_settles_and_then_nothing_is_recorded(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    static struct sdfgi_report report;
+    const struct sdfgi_settings settings = cell_settings();
+    float first[POINT_COUNT][3], later[POINT_COUNT][3];
+    open_room(&t, &settings, 0.5f, 0);
+    const struct sdfgi_light_desc lamp = light_point(0.2, 0.9, 0.1, 5);
+    light_create(&t, &lamp);
+    gi_test_converge(&t, 400);
+    look(&t, first);
+    gi_test_update(&t, 10);
+    sdfgi_get_report(t.gi, &report);
+    REQUIRE_CMP(report.command_count, ==, 0u);
+    look(&t, later);
+    REQUIRE_BYTES(first, later, sizeof first);
+    gi_test_close(&t);
+}
+
+/* Along +y; the list has room for more cells than there are. */
+static uint32_t *read_surfaces(struct gi_test *t, uint32_t *count)
+{
+    uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL),
+             *surfaces = gi_test_read(t, RESOURCE_SURFACES, NULL);
+    *count = counters[SDFGI_COUNTER_LIGHT_CELLS];
+    memmove(surfaces, surfaces + 2 * t->gi->volume.resources->extent.light_cells, *count * sizeof *surfaces);
+    free(counters);
+    return surfaces;
+}
+
+/* Of a room with a lamp, once light has settled. */
+static void light_lamp_room(uint32_t rays_per_frame, float found[POINT_COUNT][3], uint32_t **surfaces,
+                            uint32_t *count)
+{
+    struct gi_test t;
+    struct sdfgi_settings settings = cell_settings();
+    settings.cell_rays_per_frame = rays_per_frame;
+    open_room(&t, &settings, 0.5f, 0);
+    const struct sdfgi_light_desc lamp = light_point(0.2, 0.9, 0.1, 5);
+    light_create(&t, &lamp);
+    gi_test_converge(&t, 1200);
+    look(&t, found);
+    if (surfaces)
+        *surfaces = read_surfaces(&t, count);
+    gi_test_close(&t);
+}
+
+static void the_same_input_gives_the_same_bits(void **state)
+{
+    (void)state;
+    float found[2][POINT_COUNT][3];
+    uint32_t *surfaces[2], counts[2];
+    for (int i = 0; i < 2; i++)
+        light_lamp_room(1 << 17, found[i], &surfaces[i], &counts[i]);
+    REQUIRE_BYTES(found[0], found[1], sizeof found[0]);
+    REQUIRE_CMP(counts[0], >, 1000u);
+    REQUIRE_CMP(counts[0], ==, counts[1]);
+    REQUIRE_BYTES(surfaces[0], surfaces[1], counts[0] * sizeof *surfaces[0]);
+    free(surfaces[0]);
+    free(surfaces[1]);
+}
+
+/* A budget that visits all cells in a frame, and one that takes several frames. */
+static void settled_light_does_not_depend_on_the_budget(void **state)
+{
+    (void)state;
+    float all[POINT_COUNT][3], some[POINT_COUNT][3];
+    light_lamp_room(1 << 17, all, NULL, NULL);
+    light_lamp_room(1 << 13, some, NULL, NULL);
+    const double worst = worst_difference(all, some);
+    printf("light differs by %.4f at most\n", worst);
+    REQUIRE_CMP(worst, <=, 0.005);
+}
+
+/* Nine tenths of a change are seen within ten frames, where a frame visits all cells. */
+static void a_lamp_that_goes_off_is_followed_at_once(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = cell_settings();
+    float lit[POINT_COUNT][3], after[POINT_COUNT][3], settled[POINT_COUNT][3];
+    open_room(&t, &settings, 0.5f, 0);
+    const struct sdfgi_light_desc dim = light_point(-0.5, -0.4, 0.3, 0.2f),
+                                  lamp = light_point(0.2, 0.9, 0.1, 5);
+    light_create(&t, &dim);
+    const sdfgi_light bright = light_create(&t, &lamp);
+    gi_test_converge(&t, 400);
+    look(&t, lit);
+    REQUIRE_CMP((int)sdfgi_light_destroy(t.gi, bright), ==, (int)SDFGI_OK);
+    gi_test_update(&t, 10);
+    look(&t, after);
+    gi_test_converge(&t, 400);
+    look(&t, settled);
+    for (int i = 0; i < POINT_COUNT; i++) {
+        printf("point %d: %.3f with the lamp, %.3f ten frames later, %.3f in the end\n", i, (double)lit[i][1],
+               (double)after[i][1], (double)settled[i][1]);
+        REQUIRE_CMP(fabsf(after[i][1] - settled[i][1]), <=, 0.1f * fabsf(lit[i][1] - settled[i][1]));
+    }
+    gi_test_close(&t);
+}
+
+static void a_sealed_room_is_dark_under_the_sun(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = cell_settings();
+    float found[POINT_COUNT][3];
+    gi_test_open(&t, &settings);
+    light_add(&t,
+              test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 0.06, test_rotation_none),
+              0.5f, 0);
+    const struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, -0.36f, 100);
+    light_create(&t, &sun);
+    light_set_uniform_sky(&t, 10);
+    gi_test_converge(&t, 400);
+    look(&t, found);
+    for (int i = 0; i < POINT_COUNT; i++)
+        REQUIRE_CMP(found[i][1], ==, 0.0f);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_furnace_of_albedo_half_is_exact),
+        cmocka_unit_test(a_furnace_of_albedo_four_fifths_is_exact),
+        cmocka_unit_test(light_in_a_room_settles_and_then_nothing_is_recorded),
+        cmocka_unit_test(the_same_input_gives_the_same_bits),
+        cmocka_unit_test(settled_light_does_not_depend_on_the_budget),
+        cmocka_unit_test(a_lamp_that_goes_off_is_followed_at_once),
+        cmocka_unit_test(a_sealed_room_is_dark_under_the_sun),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
