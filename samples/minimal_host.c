@@ -77,7 +77,7 @@ static sdfgi *make_gi(void)
     struct sdfgi_settings settings;
     sdfgi_settings_default(&settings);
     settings.enabled = true, settings.frames_to_converge = 4; /* the first is the one switch */
-    settings.cascades = 2, settings.ray_count = 125, settings.cell_rays = 128; /* few long frames */
+    settings.cascades = 2, settings.ray_count = 125, settings.cell_rays = 64; /* few long frames */
     CHECK(sdfgi_create(&(struct sdfgi_desc){ vk, 1, &settings, { print_message, stderr }, { 0 }, 0 }, &gi));
     static const float vertices[2][6][3] = {
         { { -6, 0, 6 }, { 6, 0, 6 }, { 6, 0, -6 }, { -6, 0, 6 }, { 6, 0, -6 }, { -6, 0, -6 } },

@@ -156,8 +156,7 @@ bool sdfgi_cells_find_open(uint cascade, vec3 normal, vec3 eye, inout vec3 at)
 const uint SDFGI_CELLS_ORDER = 0x76534210u;
 
 /* Interpolates the light cells around a point in an empty cell. Those beyond an edge or a corner take part
- * only if a light cell that shares a face with the point's cell leads to them: others may be behind a wall.
- */
+ * only if a light cell that shares a face with the point's cell leads to them: others may be behind walls. */
 vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around)
 {
     const ivec3 own = ivec3(floor(at));
@@ -187,10 +186,11 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around)
 
 /* Irradiance over pi times exposure, times weight, in rgb, and its weight in a, at a surface point in the
  * cell space of a cascade. The weight is 0 if no light cell on the point's side of the surface is near. `eye`
- * leads towards the viewer, in cell widths, and is at most
- * SDFGI_CELLS_REACH long. A first try begins right above the
- * surface. Where that finds nothing, in a niche or at a small thing, others begin farther off and nearer to
- * the viewer. A point in the air has no others: what is near it need not be on its side of a wall. */
+ * leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
+ *
+ * A first try begins right above the surface. Where that finds nothing, in a niche or at a small thing,
+ * others begin farther off and nearer to the viewer. A point in the air has no others: what is near it need
+ * not be on its side of a wall. */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye)
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
@@ -200,7 +200,7 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye)
     vec4 sum = vec4(0.0);
     for (int i = 0; i < tries && sum.a <= 0.0; i++) {
         const float part = float(i) / float(SDFGI_CELLS_TRIES - 1);
-        const float above = (1.0 + part) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias;
+        const float above = min(float(i + 1), 3.0) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias;
         vec3 at = clamp(pos + sdfgi_cells_from_metric(above * normal + part * eye), low, high);
         if (sdfgi_cells_find_open(cascade, normal, eye, at))
             sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0);

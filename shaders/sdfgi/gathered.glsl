@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * What light cells have gathered with rays of their own. A visit sends SDFGI_VISIT_RAYS rays from a cell for
  * each axis along which a surface faces; a gather cycle is so many visits. Every cycle repeats the directions
- * of the one before, so what a static scene gathers converges exactly. Per axis a cell has two values, S and
- * P.
+ * of the one before, so what a static scene gathers converges exactly. Per axis a cell has two values:
  *
- * - Once a cycle has been completed, P is its mean, and the cell shows P. S is the sum of this cycle's visits
- * so far. It is not shown, because the rays of a part of a cycle have another mean than all of them even
- * while the light stays the same.
- *   Where P is the mean of a rough cycle, S is mixed in once it holds as many visits.
- * - In the first cycle of a new cell, S is a mean of the visits so far in which later ones count more,
- * because they see more bounces. The cell shows S, and before the first visit what probes tell.
- * - When the lights change, a cycle begins that counts as a first one. P is what the cell has shown. */
+ * S  Once a cycle has been completed, the sum of this cycle's visits so far. In the first cycle of a new
+ *    cell, a mean of the visits so far, in which later ones count more, because they see more bounces.
+ * P  The mean of the last complete cycle. After the lights have changed, what the cell showed before.
+ *
+ * A cell shows P once a cycle has been completed. It does not show S then, because the rays of a part of a
+ * cycle have another mean than all of them even while the light stays the same. Only where P is the mean of a
+ * rough cycle S is mixed in, once it holds as many visits. In its first cycle, and in the first one after the
+ * lights have changed, a cell shows S; a new cell shows what probes tell before its first visit. */
 #ifndef SDFGI_GATHERED_GLSL
 #define SDFGI_GATHERED_GLSL
 

@@ -189,13 +189,13 @@ static void check_right_angle(struct right_angle angle)
         REQUIRE_NEAR(ratios[i], 1, distances[i] <= CELL_M ? 0.09 : 0.03);
 }
 
-/* From just in front of one plane of probes to just in front of the next, along both level axes; every other
- * wall without SDFGI_TEST_FULL, which leaves both axes and both ends. */
+/* From just in front of one plane of probes to just in front of the next, along both level axes. One wall in
+ * four without SDFGI_TEST_FULL, which leaves both axes and both ends. */
 static void hard_38_black_right_angle_wherever_the_probes_are(void **state)
 {
     (void)state;
     static const double walls_m[] = { -1.84, -1.58, -1.34, -1.1, -0.79, -0.53, -0.27, -0.1, 0.03 };
-    const size_t stride = getenv("SDFGI_TEST_FULL") ? 1 : 2;
+    const size_t stride = getenv("SDFGI_TEST_FULL") ? 1 : 4;
     for (size_t i = 0; i < sizeof walls_m / sizeof *walls_m; i += stride)
         check_right_angle((struct right_angle){ SDFGI_Y_SCALE_100, 1, i / stride & 1 ? 2 : 0, walls_m[i] });
 }
