@@ -193,7 +193,7 @@ void main()
     barrier();
     for (uint i = lane; i < surface_count * RAYS; i += THREADS)
         found[i] = sdfgi_half4_encode(
-            sdfgi_half4_truncate(min(send_ray(cascade, surfaces[i / RAYS], i % RAYS), vec4(65504.0))));
+            sdfgi_half4_round(min(send_ray(cascade, surfaces[i / RAYS], i % RAYS), vec4(65504.0))));
     barrier();
     for (uint i = lane; i < surface_count; i += THREADS)
         add_visit(cascade, surfaces[i], mean_of_rays(i * RAYS));

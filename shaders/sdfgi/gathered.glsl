@@ -40,7 +40,7 @@ const uint GATHERED_COMPLETE = 3u; /* the mean of a complete cycle */
 
 struct gathered_state {
     uint visits; /* in this cycle */
-    uint mean;   /* GATHERED_NOTHING, _OUTDATED or _COMPLETE */
+    uint mean;   /* GATHERED_NOTHING, _OUTDATED, _ROUGH or _COMPLETE */
     uint epoch;  /* of the lights that S and P belong to; 8 bits */
 };
 
@@ -88,8 +88,8 @@ void gathered_store(uint cascade, uint entry, uint axis, gathered_light light)
 {
     const float HALF_MAX = 65504.0;
     const uint plane = sdfgi_frame.light_cell_room, word = gathered_word(cascade, 3u * axis, entry);
-    const vec4 sum = sdfgi_half4_truncate(vec4(min(light.sum, vec3(HALF_MAX)), 0.0)),
-               mean = sdfgi_half4_truncate(vec4(min(light.mean, vec3(HALF_MAX)), 0.0));
+    const vec4 sum = sdfgi_half4_round(vec4(min(light.sum, vec3(HALF_MAX)), 0.0)),
+               mean = sdfgi_half4_round(vec4(min(light.mean, vec3(HALF_MAX)), 0.0));
     sdfgi_gathered[word] = packHalf2x16(sum.rg);
     sdfgi_gathered[word + plane] = packHalf2x16(mean.rg);
     sdfgi_gathered[word + 2u * plane] = packHalf2x16(vec2(sum.b, mean.b));
