@@ -4,25 +4,23 @@
 
 #include "shaders/shared/bindings.h"
 
-static void record(struct sdfgi *gi, VkCommandBuffer cmd, const struct view *view,
-                   const struct sdfgi_gather_desc *desc)
+static void record(struct sdfgi *gi, VkCommandBuffer cmd, const struct view *view, const struct work *work)
 {
     struct pass_recorder *rec = &gi->recorder;
-    const struct work work = sdfgi_view_gather_work(desc);
     sdfgi_pass_recorder_begin(rec, &gi->backend, gi->volume.resources, cmd);
     sdfgi_pass_bind_resources(rec, VK_PIPELINE_BIND_POINT_COMPUTE);
     gpu_bind_set(&rec->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, gi->backend.pipelines.layouts[PASS_SET_VIEW],
                  SDFGI_SET_VIEW, view->sets[sdfgi_backend_slot(&gi->backend)]);
-    sdfgi_pass_record(rec, &work);
+    sdfgi_pass_record(rec, work);
     sdfgi_pass_recorder_end(rec);
 }
 
-static void report(struct sdfgi *gi)
+static void report(struct sdfgi *gi, enum pass pass)
 {
-    struct pass_report *pass = &gi->passes[PASS_GATHER];
-    pass->reason = sdfgi_need_reason(NEED_GATHER);
-    pass->tally.dispatches += gi->recorder.tally[PASS_GATHER].dispatches;
-    pass->tally.units += gi->recorder.tally[PASS_GATHER].units;
+    struct pass_report *line = &gi->passes[pass];
+    line->reason = sdfgi_need_reason(sdfgi_pass_row(pass)->need);
+    line->tally.dispatches += gi->recorder.tally[pass].dispatches;
+    line->tally.units += gi->recorder.tally[pass].units;
 }
 
 enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc)
@@ -32,12 +30,13 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     const char *problem = sdfgi_view_gather_problem(desc);
     if (problem)
         return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
-    VkResult result = sdfgi_pipelines_require(&gi->backend, PASS_GATHER, 0);
+    const struct work work = sdfgi_view_gather_work(desc);
+    VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
     struct view *view = result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
     if (!view)
         return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_gather");
     sdfgi_view_write_set(&gi->backend, view, desc);
-    record(gi, cmd, view, desc);
-    report(gi);
+    record(gi, cmd, view, &work);
+    report(gi, work.pass);
     return SDFGI_OK;
 }

@@ -89,6 +89,9 @@
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \
+      R(LIGHT_BLOCKS) | R(SURFACES), 0)                                                                      \
+    X(GATHER_SPARSE, COMPUTE, gather_sparse, PIXELS, GATHER_SPARSE, OWN, DEMAND,                             \
+      TILES, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |                            \
       R(LIGHT_BLOCKS) | R(SURFACES), 0)
 /* clang-format on */
 

@@ -114,11 +114,12 @@ struct sdfgi_probe_blend_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_probe_blend_args, 8);
 
+/* gather, gather_sparse. */
 struct sdfgi_gather_args {
     vec4 inverse_view_projection[4]; /* columns */
     uint width, height;
     float background_depth;
-    uint padding_0;
+    uint step; /* gather_sparse: pixels from one sample to the next, a power of two */
 };
 SDFGI_ASSERT_SIZE(sdfgi_gather_args, 80);
 

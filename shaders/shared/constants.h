@@ -90,6 +90,12 @@
 #define SDFGI_GROUP_OCCLUSION   64  /* threads that share one probe's 256 depths */
 #define SDFGI_GROUP_PIXELS      8   /* 8x8: one thread per pixel */
 
+/* gather_sparse: a workgroup looks up so many samples, one a thread, and fills the squares between them. Its
+ * list of pixels must fit 16 KiB, and 128 threads are what every device has. */
+#define SDFGI_SAMPLES_X       16
+#define SDFGI_SAMPLES_Y       8
+#define SDFGI_SAMPLE_STEP_MAX 4
+
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h). */
 #define SDFGI_ACCUM_ALBEDO           0 /* 3 planes: sum of albedo, in 1/255 */
 #define SDFGI_ACCUM_EMISSION         3 /* 3 planes: sum in 1/SDFGI_EMISSION_STEPS of the brightest */

@@ -249,8 +249,8 @@ static void gather_refuses_bad_descriptors(void **state)
                                             .height = HEIGHT,
                                             .inverse_view_projection = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
                                                                          0, 0, 0, 1 } };
-    struct sdfgi_gather_desc bad[6];
-    for (int i = 0; i < 6; i++)
+    struct sdfgi_gather_desc bad[7];
+    for (int i = 0; i < 7; i++)
         bad[i] = good;
     bad[0].depth = VK_NULL_HANDLE;
     bad[1].normal = VK_NULL_HANDLE;
@@ -258,7 +258,8 @@ static void gather_refuses_bad_descriptors(void **state)
     bad[3].width = 0;
     bad[4].height = 0;
     bad[5].inverse_view_projection[7] = NAN;
-    for (int i = 0; i < 6; i++) {
+    bad[6].resolution = (enum sdfgi_gather_resolution)(SDFGI_GATHER_QUARTER + 1);
+    for (int i = 0; i < 7; i++) {
         t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT] = 0;
         REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &bad[i]), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
         REQUIRE_CMP(t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT], ==, 1u);

@@ -205,6 +205,7 @@ static void add_report(const struct journey *j, struct journey_row *row)
 
 void journey_frame(struct journey *j, const double camera[static 3])
 {
+    static const char *const columns[] = { "GATHER", "GATHER_HALF", "GATHER_QUARTER" };
     struct journey_row row = { .journey = j->name, .frame = j->frame++ };
     memcpy(j->t.frame.camera_position, camera, sizeof j->t.frame.camera_position);
     gpu_test_submit(&j->t.gpu, record_update, j);
@@ -212,8 +213,10 @@ void journey_frame(struct journey *j, const double camera[static 3])
         add_buffers(j, &row);
         add_light(j, &row);
     }
-    if (j->screen.made)
-        journey_row_add(&row, "GATHER", journey_screen_gather(&j->screen, &j->t), sizeof j->screen.pixels);
+    for (int i = 0; i <= SDFGI_GATHER_QUARTER && j->screen.made; i++)
+        journey_row_add(&row, columns[i],
+                        journey_screen_gather(&j->screen, &j->t, (enum sdfgi_gather_resolution)i),
+                        sizeof j->screen.pixels);
     add_report(j, &row);
     journey_book_take(&row);
 }

@@ -42,7 +42,8 @@ static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
     REQUIRE_CMP(sdfgi_gather(g->t->gi, cmd, &g->desc), ==, SDFGI_OK);
 }
 
-const void *journey_screen_gather(struct journey_screen *screen, struct gi_test *t)
+const void *journey_screen_gather(struct journey_screen *screen, struct gi_test *t,
+                                  enum sdfgi_gather_resolution resolution)
 {
     struct gather g = { .t = t,
                         .desc = { .depth = screen->depth.view,
@@ -51,6 +52,7 @@ const void *journey_screen_gather(struct journey_screen *screen, struct gi_test 
                                   .width = JOURNEY_SCREEN_WIDTH,
                                   .height = JOURNEY_SCREEN_HEIGHT,
                                   .background_depth = 1,
+                                  .resolution = resolution,
                                   /* clip (x, y, depth) to (6 x, -1 - 2 depth, 6 y), column-major */
                                   .inverse_view_projection = { 6, 0, 0, 0, 0, 0, 6, 0, 0, -2, 0, 0, 0, -1, 0,
                                                                1 } } };

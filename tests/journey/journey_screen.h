@@ -16,7 +16,8 @@ struct journey_screen {
 void journey_screen_open(struct journey_screen *screen, struct gi_test *t);
 void journey_screen_close(struct journey_screen *screen, struct gi_test *t);
 
-/* Gathers after the last update, and returns the pixels. */
-const void *journey_screen_gather(struct journey_screen *screen, struct gi_test *t);
+/* Gathers after the last update, and returns the pixels. They stay until the next gather. */
+const void *journey_screen_gather(struct journey_screen *screen, struct gi_test *t,
+                                  enum sdfgi_gather_resolution resolution);
 
 #endif

@@ -144,7 +144,7 @@
     X(sdfgi_gather_args, width)                                                                              \
     X(sdfgi_gather_args, height)                                                                             \
     X(sdfgi_gather_args, background_depth)                                                                   \
-    X(sdfgi_gather_args, padding_0)
+    X(sdfgi_gather_args, step)
 
 struct place {
     const char *type, *name;

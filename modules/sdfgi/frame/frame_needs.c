@@ -142,7 +142,10 @@ static const struct need_row needs[NEED_COUNT] = {
                      "light cells have settled, or light waits, or sdfgi_surface_light is probes" },
     [NEED_FILTER] = { needs_filter, "light cells have new light",
                       "no light cell has new light, or sdfgi_surface_light is probes" },
-    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather", "the host did not call sdfgi_gather" },
+    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather",
+                      "the host did not call sdfgi_gather at full resolution" },
+    [NEED_GATHER_SPARSE] = { needs_gather, "the host called sdfgi_gather at half or quarter resolution",
+                             "the host did not call sdfgi_gather at half or quarter resolution" },
 };
 
 struct situation_needs sdfgi_frame_needs(const struct situation *situation)

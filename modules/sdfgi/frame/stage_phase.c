@@ -93,6 +93,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
     case DOMAIN_LIGHT_CELLS:
     case DOMAIN_ALL_LIGHT_CELLS:
     case DOMAIN_PIXELS:
+    case DOMAIN_TILES:
         assert(row->phase == PHASE_OWN);
         break;
     }

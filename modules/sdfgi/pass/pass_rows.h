@@ -36,6 +36,7 @@ enum need {
     NEED_CELLS,
     NEED_FILTER,
     NEED_GATHER,
+    NEED_GATHER_SPARSE,
     NEED_COUNT,
 };
 

@@ -50,6 +50,12 @@ static uint32_t runs_of(const struct work *work, uint32_t per_run)
     return groups_for(4 * ((uint64_t)work->first + work->count), per_run) - first;
 }
 
+static struct work_groups tiles(const struct sdfgi_gather_args *args)
+{
+    return (struct work_groups){ groups_for(args->width, (SDFGI_SAMPLES_X - 1) * args->step),
+                                 groups_for(args->height, (SDFGI_SAMPLES_Y - 1) * args->step), 1 };
+}
+
 struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e,
                                      uint32_t blocks_per_group)
 {
@@ -85,6 +91,8 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_PIXELS:
         return (struct work_groups){ groups_for(work->args.gather.width, group),
                                      groups_for(work->args.gather.height, group), 1 };
+    case DOMAIN_TILES:
+        return tiles(&work->args.gather);
     }
     assert(false);
     return (struct work_groups){ 0, 0, 0 };

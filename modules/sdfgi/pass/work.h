@@ -35,6 +35,7 @@ enum domain {
     DOMAIN_LIGHT_CELLS,      /* `count` entries of the light list of a cascade */
     DOMAIN_ALL_LIGHT_CELLS,  /* `count` entries of the light lists of all cascades */
     DOMAIN_PIXELS,           /* of a picture */
+    DOMAIN_TILES,            /* of a picture, between SDFGI_SAMPLES_X x SDFGI_SAMPLES_Y samples */
 };
 
 union work_args {

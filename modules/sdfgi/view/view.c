@@ -68,6 +68,8 @@ const char *sdfgi_view_gather_problem(const struct sdfgi_gather_desc *d)
         return "depth, normal or output is null";
     if (d->width == 0 || d->height == 0)
         return "width or height is 0";
+    if ((unsigned)d->resolution > SDFGI_GATHER_QUARTER)
+        return "resolution is none of enum sdfgi_gather_resolution";
     for (int i = 0; i < 16; i++)
         if (!isfinite(d->inverse_view_projection[i]))
             return "inverse_view_projection is not finite";
@@ -99,11 +101,17 @@ void sdfgi_view_write_set(const struct backend *backend, const struct view *view
 
 struct work sdfgi_view_gather_work(const struct sdfgi_gather_desc *d)
 {
+    static const uint32_t steps[] = {
+        [SDFGI_GATHER_FULL] = 1, [SDFGI_GATHER_HALF] = 2, [SDFGI_GATHER_QUARTER] = SDFGI_SAMPLE_STEP_MAX
+    };
     struct work work = {
-        .pass = PASS_GATHER,
+        .pass = d->resolution == SDFGI_GATHER_FULL ? PASS_GATHER : PASS_GATHER_SPARSE,
         .indirect = WORK_DIRECT,
         .units = (uint64_t)d->width * d->height,
-        .args.gather = { .width = d->width, .height = d->height, .background_depth = d->background_depth }
+        .args.gather = { .width = d->width,
+                         .height = d->height,
+                         .background_depth = d->background_depth,
+                         .step = steps[d->resolution] },
     };
     memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,
            sizeof work.args.gather.inverse_view_projection);

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ * What gathers of a picture share: its images, and the surface that a pixel shows. */
+#ifndef SDFGI_PICTURE_GLSL
+#define SDFGI_PICTURE_GLSL
+
+#include "../include/sdfgi.glsl"
+#include "../shared/args.h"
+
+/* The largest half float. Brighter light would be stored as infinity. */
+#define PICTURE_BRIGHTEST 65504.0
+
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_gather_args args;
+};
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_DEPTH) uniform sampler2D depth_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_NORMAL) uniform sampler2D normal_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_OUTPUT,
+       rgba16f) uniform writeonly image2D output_image;
+
+struct picture_surface {
+    vec3 pos, normal, to_eye; /* `to_eye` leads towards the viewer */
+    float pixel_m;            /* width or height of a pixel at its distance, whichever is greater */
+};
+
+/* Numbers and their squares are neither infinite nor NaN. */
+bool picture_is_finite(float squared_length)
+{
+    return squared_length < 1e30;
+}
+
+/* What a pixel shows. False for background, and where position or normal are of no use. */
+bool picture_surface_at(ivec2 pixel, out picture_surface s)
+{
+    const float depth = texelFetch(depth_image, pixel, 0).r;
+    if (depth == args.background_depth)
+        return false;
+    const vec2 ndc = (vec2(pixel) + 0.5) / vec2(args.width, args.height) * 2.0 - 1.0;
+    const mat4 to_position = mat4(args.inverse_view_projection[0], args.inverse_view_projection[1],
+                                  args.inverse_view_projection[2], args.inverse_view_projection[3]);
+    const vec4 position = to_position * vec4(ndc, depth, 1.0);
+    const vec3 normal = texelFetch(normal_image, pixel, 0).xyz;
+    /* A point on the near plane: the vector to it leads towards the viewer. */
+    const vec4 near = to_position * vec4(ndc, 1.0 - args.background_depth, 1.0);
+    s.pos = position.xyz / position.w;
+    s.normal = normalize(normal);
+    s.to_eye = near.xyz / near.w - s.pos;
+    /* How the position changes from pixel to pixel while the depth stays. */
+    const vec3 right = (to_position[0].xyz - s.pos * to_position[0].w) / (position.w * float(args.width));
+    const vec3 down = (to_position[1].xyz - s.pos * to_position[1].w) / (position.w * float(args.height));
+    s.pixel_m = 2.0 * sqrt(max(dot(right, right), dot(down, down)));
+    const float length2 = dot(normal, normal);
+    return length2 > 1e-20 && picture_is_finite(length2) && picture_is_finite(dot(s.pos, s.pos));
+}
+
+vec3 picture_irradiance(picture_surface s)
+{
+    return min(sdfgi_irradiance(s.pos, s.normal, s.to_eye), vec3(PICTURE_BRIGHTEST));
+}
+
+#endif
