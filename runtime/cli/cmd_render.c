@@ -14,10 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2 };
+enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2, FRAMES_OFF = 5 };
 
 struct options {
-    const char *scene, *view, *frames, *report, *device, *out;
+    const char *scene, *view, *frames, *report, *device, *out, *lookup_name;
     struct cli_size size;
     bool gi, quiet;
     struct cli_list set, aov;
@@ -26,6 +26,7 @@ struct options {
     /* Derived. */
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
+    enum host_lookup lookup;
 };
 
 /* Everything that has to be taken down again, in order of creation. */
@@ -39,6 +40,7 @@ struct run {
     struct cli_progress progress;
     double seconds;
     float exposure; /* that a PNG was written with */
+    struct report_cost cost;
     bool until_converged;
 };
 
@@ -93,7 +95,8 @@ static bool resolve_options(struct options *options)
 {
     sdfgi_settings_default(&options->settings);
     options->settings.enabled = options->gi;
-    if (!run_apply_settings("render", &options->set, &options->settings))
+    if (!run_apply_settings("render", &options->set, &options->settings) ||
+        !run_parse_lookup("render", options->lookup_name, &options->lookup))
         return false;
     if (!parse_frames(options)) {
         cli_error("render: --frames is \"%s\", expected a number from 1 to 1000000 or converged",
@@ -115,6 +118,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
+        { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "one part of the light, as .exr, .hdr or .pfm" },
         { "report", CLI_TEXT, &o->report, "FILE", .help = "times, work, memory and health as JSON" },
@@ -152,7 +156,8 @@ static bool start(struct run *run, const struct options *options)
                                              .supersample = options->supersample,
                                              .settings = &options->settings,
                                              .log = { options->quiet ? NULL : run_log, NULL },
-                                             .seed = options->seed };
+                                             .seed = options->seed,
+                                             .lookup = options->lookup };
     run->renderer = run->scene ? host_renderer_create(run->device, run->scene, &desc) : NULL;
     if (!run->renderer)
         cli_error("%s", host_device_error(run->device));
@@ -169,10 +174,20 @@ static void finish(struct run *run)
     report_finish(&run->report);
 }
 
+/* Of the newest frame that has finished. */
+static void collect_times(struct run *run)
+{
+    struct host_times times;
+    host_renderer_get_times(run->renderer, &times);
+    if (times.frame_ns > 0)
+        report_add_times(&run->report, times.frame_ns - times.shadow_ns, times.update_ns);
+}
+
 static bool collect_frame(void *user, const struct host_frame *frame)
 {
     struct run *run = user;
     report_add_frame(&run->report, frame->report, frame->gpu_ns);
+    collect_times(run);
     cli_progress_update(&run->progress, run->until_converged
                                             ? (uint64_t)(100.0 * (double)frame->report->converged_fraction)
                                             : frame->index + 1);
@@ -198,6 +213,7 @@ static bool render_frames(struct run *run, const struct options *options)
     struct sdfgi_report last;
     host_renderer_get_report(run->renderer, &last);
     report_set_last(&run->report, &last, host_renderer_frame_gpu_ns(run->renderer));
+    collect_times(run);
     return true;
 }
 
@@ -257,6 +273,7 @@ static bool write_run_report(struct run *run, const struct options *options)
     host_renderer_get_settings(run->renderer, &summary.settings);
     if (summary.settings.enabled)
         sdfgi_estimate_memory(&summary.settings, FRAMES_IN_FLIGHT, &estimate);
+    summary.cost = run->cost;
     summary.estimated_bytes = estimate.total_bytes;
     summary.device_name = info.name;
     summary.device_driver = info.driver;
@@ -265,6 +282,27 @@ static bool write_run_report(struct run *run, const struct options *options)
         return true;
     cli_error("%s", error);
     return false;
+}
+
+/* Draws the view without GI. Its camera rests, so any of the frames with GI would do. */
+static bool measure_cost(struct run *run, const struct options *options)
+{
+    struct report_cost_pair pairs[FRAMES_OFF];
+    struct host_times times;
+    if (!options->settings.enabled || (options->quiet && !options->report))
+        return true;
+    for (int i = 0; i < FRAMES_OFF; i++) {
+        if (!host_renderer_frame_without_gi(run->renderer, &run->view.camera)) {
+            cli_error("%s", host_device_error(run->device));
+            return false;
+        }
+        host_renderer_get_times(run->renderer, &times);
+        pairs[i] = (struct report_cost_pair){ report_quantile(&run->report.lit_gpu_ns, 0.5),
+                                              report_quantile(&run->report.update_gpu_ns, 0.5),
+                                              times.frame_ns - times.shadow_ns };
+    }
+    run->cost = report_cost_of(pairs, FRAMES_OFF);
+    return true;
 }
 
 static bool write_outputs(struct run *run, const struct options *options)
@@ -276,7 +314,7 @@ static bool write_outputs(struct run *run, const struct options *options)
         const char *path = split_aov(options->aov.values[i], &aov);
         written = path && write_aov(run, options, aov, path);
     }
-    return written && (!options->report || write_run_report(run, options));
+    return written && measure_cost(run, options) && (!options->report || write_run_report(run, options));
 }
 
 static void print_summary(struct run *run, const struct options *options)
@@ -290,11 +328,16 @@ static void print_summary(struct run *run, const struct options *options)
                                       : "on, not converged");
     for (uint32_t i = 0; i < last->health_count; i++)
         printf("  %s (count %llu)\n", last->health[i].hint, (unsigned long long)last->health[i].count);
+    report_cost_print(&run->cost);
 }
 
 int cmd_render(int argc, char **argv)
 {
-    struct options options = { .frames = "converged", .size = { 1280, 720 }, .gi = true, .supersample = 1 };
+    struct options options = { .frames = "converged",
+                               .lookup_name = RUN_LOOKUP_DEFAULT,
+                               .size = { 1280, 720 },
+                               .gi = true,
+                               .supersample = 1 };
     const enum cli_outcome outcome = parse(&options, argc, argv);
     if (outcome != CLI_RUN)
         return cli_exit_code(outcome);

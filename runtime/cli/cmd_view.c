@@ -9,7 +9,7 @@
 #include <modules/gltf/gltf_scene.h>
 
 struct options {
-    const char *scene, *view, *device;
+    const char *scene, *view, *device, *lookup_name;
     struct cli_size size;
     struct cli_list set;
     bool gi;
@@ -22,6 +22,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "view", CLI_TEXT, &o->view, "VIEW.json", .help = "camera, sky and lights; else from the scene" },
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination at the start; on" },
+        { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
         { "frames", CLI_UINT, &o->frames, "N", .help = "close after that many; 0, the default: never" },
@@ -37,8 +38,9 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
 
 int cmd_view(int argc, char **argv)
 {
-    struct options options = { .gi = true, .size = { 1280, 720 } };
+    struct options options = { .lookup_name = RUN_LOOKUP_DEFAULT, .gi = true, .size = { 1280, 720 } };
     struct sdfgi_settings settings;
+    enum host_lookup lookup;
     struct host_view view;
     char error[CLI_ERROR_BYTES];
     const enum cli_outcome outcome = parse(&options, argc, argv);
@@ -46,7 +48,8 @@ int cmd_view(int argc, char **argv)
         return cli_exit_code(outcome);
     sdfgi_settings_default(&settings);
     settings.enabled = options.gi;
-    if (!run_apply_settings("view", &options.set, &settings))
+    if (!run_apply_settings("view", &options.set, &settings) ||
+        !run_parse_lookup("view", options.lookup_name, &lookup))
         return CLI_EXIT_USAGE;
     struct gltf_scene *gltf = run_load_scene(options.scene, options.view, &view);
     if (!gltf)
@@ -56,6 +59,7 @@ int cmd_view(int argc, char **argv)
                                            .gltf = gltf,
                                            .view = &view,
                                            .settings = &settings,
+                                           .lookup = lookup,
                                            .width = options.size.width,
                                            .height = options.size.height,
                                            .frames = options.frames,

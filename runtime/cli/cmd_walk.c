@@ -18,7 +18,7 @@
 static const char default_scene[] = "out/world.glb";
 
 struct options {
-    const char *scene, *path, *view, *device, *report, *out;
+    const char *scene, *path, *view, *device, *report, *out, *lookup_name;
     struct cli_size size;
     struct cli_list set, samples;
     double speed_m_s, fps, start_m, exposure;
@@ -46,6 +46,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "every", CLI_UINT, &o->every, "K", .help = "write each K-th frame, off and on, as PNG",
           .minimum = 1, .maximum = WALK_FRAMES_MAX },
         { "sample", CLI_LIST, &o->samples, "X,Y,Z,NX,NY,NZ", .help = "report diffuse light at a point" },
+        { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "window", CLI_FLAG, &o->window, .help = "show it in a window; no pictures are written" },
         { "exposure", CLI_FLOAT, &o->exposure, "X", .help = "factor for PNG; 0, the default: automatic",
@@ -245,6 +246,7 @@ static void print_summary(const struct walk_result *result, const char *out)
                "frame %u\n",
                p[0], p[1], p[2], 100 * change, frame);
     }
+    report_cost_print(&result->summary.run.cost);
 }
 
 /* ---- The command ------------------------------------------------------------------------------------ */
@@ -261,7 +263,8 @@ static bool resolve(const struct options *o, struct walk_order *order, char **pa
     order->every = o->every;
     order->window = o->window;
     order->quiet = o->quiet;
-    if (!run_apply_settings("walk", &o->set, &order->settings) || !load_path(o, order, path_name))
+    if (!run_apply_settings("walk", &o->set, &order->settings) ||
+        !run_parse_lookup("walk", o->lookup_name, &order->lookup) || !load_path(o, order, path_name))
         return false;
     order->view = o->view ? o->view : order->path.view;
     return resolve_pace(o, order) && resolve_samples(o, order);
@@ -284,7 +287,7 @@ static int walk(const struct options *options, struct walk_order *order)
 
 int cmd_walk(int argc, char **argv)
 {
-    struct options options = { .size = { 640, 360 } };
+    struct options options = { .lookup_name = RUN_LOOKUP_DEFAULT, .size = { 640, 360 } };
     struct walk_order order = { .path = { NULL } };
     char *path_name = NULL;
     const enum cli_outcome outcome = parse(&options, argc, argv);

@@ -32,6 +32,15 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
     return true;
 }
 
+bool run_parse_lookup(const char *command, const char *text, enum host_lookup *lookup)
+{
+    *lookup = host_lookup_from_name(text);
+    if (*lookup < HOST_LOOKUP_COUNT)
+        return true;
+    cli_error("%s: --lookup is \"%s\", expected forward, full, half or quarter", command, text);
+    return false;
+}
+
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view)
 {
     char error[CLI_ERROR_BYTES];

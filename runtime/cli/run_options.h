@@ -15,6 +15,13 @@ struct gltf_scene;
  * may be left out. */
 bool run_apply_settings(const char *command, const struct cli_list *pairs, struct sdfgi_settings *settings);
 
+/* The one place that says where light is looked up unless --lookup does. */
+#define RUN_LOOKUP_DEFAULT "forward"
+#define RUN_LOOKUP_HELP    "where light is looked up: forward, full, half, quarter; " RUN_LOOKUP_DEFAULT
+
+/* Reads the value of --lookup; on failure prints one line and returns false. */
+bool run_parse_lookup(const char *command, const char *text, enum host_lookup *lookup);
+
 /* Loads the scene, and the view from `view_path` or, if that is NULL, from the scene. Prints warnings, and
  * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);

@@ -13,7 +13,7 @@
 #include <string.h>
 
 /* FRAMES_LATE: the library reads times back when its frame's slot comes round again. */
-enum { SHEET_MOMENTS = 12, FRAMES_LATE = 2 };
+enum { SHEET_MOMENTS = 12, FRAMES_LATE = 2, COST_STEP = 10 };
 
 /* Everything that has to be taken down again, in order of creation. */
 struct run {
@@ -26,6 +26,7 @@ struct run {
     struct host_renderer *on, *off;
     struct walk_sheet sheet;
     uint8_t *picture;
+    struct report_cost_pair *pairs; /* of every COST_STEP-th frame */
     struct cli_progress progress;
     bool walking; /* in a window: light has settled */
 };
@@ -148,6 +149,29 @@ static bool write_sheet(struct run *run)
     return false;
 }
 
+/* ---- Cost ------------------------------------------------------------------------------------------- */
+
+static uint32_t pair_count(const struct walk_order *order)
+{
+    return (order->frames + COST_STEP - 1) / COST_STEP;
+}
+
+/* Draws a frame again without GI. */
+static bool compare_cost(struct run *run, uint32_t index, const struct host_camera *camera,
+                         const struct host_times *on)
+{
+    const struct host_until_desc one = { .frames = 1 };
+    struct host_times off;
+    if (index % COST_STEP != 0 || !run->order->settings.enabled)
+        return true;
+    if (!host_render_until(run->off, camera, &one, NULL))
+        return fail_device(run);
+    host_renderer_get_times(run->off, &off);
+    run->pairs[index / COST_STEP] = (struct report_cost_pair){ on->frame_ns - on->shadow_ns, on->update_ns,
+                                                               off.frame_ns - off.shadow_ns };
+    return true;
+}
+
 /* ---- Offscreen -------------------------------------------------------------------------------------- */
 
 static struct host_renderer *start_renderer(struct run *run, bool gi)
@@ -159,7 +183,8 @@ static struct host_renderer *start_renderer(struct run *run, bool gi)
                                              .height = order->size.height,
                                              .settings = &settings,
                                              .log = { gi && !order->quiet ? run_log : NULL, NULL },
-                                             .seed = order->seed };
+                                             .seed = order->seed,
+                                             .lookup = order->lookup };
     return host_renderer_create(run->device, run->scene, &desc);
 }
 
@@ -175,7 +200,9 @@ static bool start_offscreen(struct run *run)
     if (!run->off)
         return fail_device(run);
     run->picture = malloc((size_t)4 * size.width * size.height);
-    if (run->picture && walk_sheet_init(&run->sheet, sheet_moments(run->order), size.width, size.height))
+    run->pairs = calloc(pair_count(run->order), sizeof *run->pairs);
+    if (run->picture && run->pairs &&
+        walk_sheet_init(&run->sheet, sheet_moments(run->order), size.width, size.height))
         return true;
     cli_error("walk: out of memory");
     return false;
@@ -209,17 +236,19 @@ static bool walk_frame(struct run *run, uint32_t index)
     const struct walk_order *order = run->order;
     struct sdfgi_report report;
     struct host_camera camera;
+    struct host_times times;
     walk_order_camera(order, index, &camera);
     if (!render_frame(run, &camera, &report) || !record_frame(run, index, &report))
         return false;
     struct walk_record *record = &run->result->record;
     struct walk_frame *frame = &record->frames[index];
-    frame->gpu_ns = host_renderer_frame_gpu_ns(run->on);
+    host_renderer_get_times(run->on, &times);
+    frame->gpu_ns = times.frame_ns;
     walk_record_times(record, (int64_t)index - FRAMES_LATE, &report);
     if (order->sample_count > 0 &&
         !host_renderer_sample(run->on, order->samples, order->sample_count, frame->irradiance))
         return fail_device(run);
-    return take_pictures(run, index, &camera);
+    return take_pictures(run, index, &camera) && compare_cost(run, index, &camera, &times);
 }
 
 /* The times of the last frames come back while others are rendered. */
@@ -250,6 +279,8 @@ static bool walk_offscreen(struct run *run)
     cli_progress_end(&run->progress);
     if (walked) {
         host_device_get_info(run->device, &run->result->device);
+        if (run->order->settings.enabled)
+            run->result->summary.run.cost = report_cost_of(run->pairs, pair_count(run->order));
         run->result->summary.run.validation_messages = host_device_validation_count(run->device);
     }
     return walked && write_sheet(run);
@@ -299,6 +330,7 @@ static bool walk_in_window(struct run *run)
                                            .gltf = run->gltf,
                                            .view = &run->view,
                                            .settings = &order->settings,
+                                           .lookup = order->lookup,
                                            .width = order->size.width,
                                            .height = order->size.height,
                                            .log = { run_log, NULL },
@@ -335,6 +367,7 @@ static void finish(struct run *run)
     view_file_finish(&run->view);
     walk_sheet_finish(&run->sheet);
     free(run->picture);
+    free(run->pairs);
 }
 
 static void summarise(const struct walk_order *order, struct walk_result *result)

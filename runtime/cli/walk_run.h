@@ -16,6 +16,7 @@ struct walk_order {
     const char *device, *out;
     struct cli_size size;
     struct sdfgi_settings settings;
+    enum host_lookup lookup;
     double speed_m_s, fps, start_m, exposure;
     uint32_t frames, seed;
     uint32_t hold;  /* frames before the walk; WALK_HOLD_SETTLED: until light has settled */

@@ -97,6 +97,21 @@ const char *host_aov_name(enum host_aov aov);
 /* HOST_AOV_COUNT if there is none of that name. */
 enum host_aov host_aov_from_name(const char *name);
 
+/* Where GI's light is looked up for opaque surfaces. Blended ones look it up where they are shaded, whatever
+ * is chosen, because their pixels show other surfaces in the prepass. */
+enum host_lookup {
+    HOST_LOOKUP_FORWARD, /* where they are shaded */
+    HOST_LOOKUP_FULL,    /* for the whole picture after the prepass, by sdfgi_gather, at this resolution */
+    HOST_LOOKUP_HALF,
+    HOST_LOOKUP_QUARTER,
+    HOST_LOOKUP_COUNT,
+};
+
+/* Stable lower-case name ("forward", "full", ...). */
+const char *host_lookup_name(enum host_lookup lookup);
+/* HOST_LOOKUP_COUNT if there is none of that name. */
+enum host_lookup host_lookup_from_name(const char *name);
+
 struct host_renderer_desc {
     uint32_t width, height;                /* [1, 16384] after supersampling */
     uint32_t supersample;                  /* samples along each side of a pixel, [1, 4]; 0: 1 */
@@ -104,6 +119,7 @@ struct host_renderer_desc {
     struct sdfgi_log log;                  /* messages of the library */
     uint32_t seed;
     float gi_exposure; /* sdfgi_frame_desc::exposure; 0: 1 */
+    enum host_lookup lookup;
 };
 
 struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,
@@ -118,11 +134,25 @@ void host_renderer_get_report(const struct host_renderer *renderer, struct sdfgi
 /* Adopts a new size; the pictures made so far are lost. */
 bool host_renderer_resize(struct host_renderer *renderer, uint32_t width, uint32_t height);
 
-/* Records and submits one frame: GI update, shadow maps that are missing, prepass, forward pass. */
+/* Records and submits one frame: GI update, shadow maps that are missing, prepass, lookup, forward pass. */
 bool host_renderer_frame(struct host_renderer *renderer, const struct host_camera *camera);
+
+/* The same without update and lookup, for its time. GI is left as it is, and pictures that are read
+ * afterwards show it again. */
+bool host_renderer_frame_without_gi(struct host_renderer *renderer, const struct host_camera *camera);
 
 /* GPU time of the newest finished frame, GI included; 0 while there is none. */
 uint64_t host_renderer_frame_gpu_ns(const struct host_renderer *renderer);
+
+/* GPU times of a frame; all 0 where they are not known. */
+struct host_times {
+    uint64_t frame_ns;  /* all of it */
+    uint64_t update_ns; /* of this, what sdfgi_update recorded */
+    uint64_t shadow_ns; /* of this, shadow maps: only those that are missing are drawn */
+};
+
+/* Those of the newest finished frame. */
+void host_renderer_get_times(const struct host_renderer *renderer, struct host_times *times);
 
 struct host_frame {
     uint32_t index;                    /* of the frame just submitted, from 0 */
@@ -199,8 +229,9 @@ struct host_window_desc {
     const struct gltf_scene *gltf;
     const struct host_view *view;
     const struct sdfgi_settings *settings; /* GI starts as `enabled` says */
-    uint32_t width, height;                /* 0: 1280 x 720 */
-    uint32_t frames;                       /* closes after that many; 0: when the user does */
+    enum host_lookup lookup;
+    uint32_t width, height; /* 0: 1280 x 720 */
+    uint32_t frames;        /* closes after that many; 0: when the user does */
     struct sdfgi_log log;
     host_camera_fn camera;     /* NULL: the user flies */
     host_progress_fn progress; /* after each frame; may be NULL. Its GPU time is that of two frames before */

@@ -162,12 +162,27 @@ static void draw_sky(struct host_renderer *renderer, VkCommandBuffer cmd)
     vkCmdDraw(cmd, 3, 1, 0, 0);
 }
 
+/* What all draws of a kind share. */
+static void bind_forward(const struct host_renderer *renderer, struct host_draw_context *draw,
+                         enum host_forward kind, VkDescriptorSet frame_set)
+{
+    const VkDescriptorSet gi_sets[HOST_FORWARD_COUNT] = {
+        [HOST_FORWARD_GI] = host_gi_set(renderer->gi),
+        [HOST_FORWARD_GATHERED] = renderer->irradiance_set,
+    };
+    vkCmdBindDescriptorSets(draw->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw->layout, HOST_SET_FRAME, 1,
+                            &frame_set, 0, NULL);
+    if (kind != HOST_FORWARD_PLAIN)
+        vkCmdBindDescriptorSets(draw->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw->layout, HOST_SET_GI, 1,
+                                &gi_sets[kind], 0, NULL);
+    push_clip(draw, &renderer->camera.clip[0][0]);
+}
+
 void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set)
 {
     const struct host_scene *scene = renderer->scene;
     const struct host_pipelines *pipelines = &renderer->pipelines;
-    const VkDescriptorSet gi_set = host_gi_set(renderer->gi);
-    const enum host_forward kind = host_forward_kind(renderer);
+    const enum host_forward kind = host_forward_kind(renderer, false);
     struct host_draw_context draw = draw_begin(renderer, cmd, kind, renderer->camera.origin);
     struct host_frustum frustum;
     camera_frustum(&renderer->camera, &frustum);
@@ -177,12 +192,7 @@ void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDe
                             HOST_SET_FRAME, 1, &frame_set, 0, NULL);
     if (renderer->shown == HOST_AOV_COLOR)
         draw_sky(renderer, cmd);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw.layout, HOST_SET_FRAME, 1, &frame_set,
-                            0, NULL);
-    if (gi_set)
-        vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw.layout, HOST_SET_GI, 1, &gi_set, 0,
-                                NULL);
-    push_clip(&draw, &renderer->camera.clip[0][0]);
+    bind_forward(renderer, &draw, kind, frame_set);
 
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) &&
@@ -193,9 +203,14 @@ void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDe
     /* Depth, normals and albedo of what is behind glass say more than those of the glass. */
     const uint32_t blended =
         renderer->shown <= HOST_AOV_DIFFUSE_INDIRECT ? sort_blended(renderer, &frustum) : 0;
+    const enum host_forward blended_kind = host_forward_kind(renderer, true);
+    if (blended > 0 && blended_kind != kind) {
+        draw = draw_begin(renderer, cmd, blended_kind, renderer->camera.origin);
+        bind_forward(renderer, &draw, blended_kind, frame_set);
+    }
     for (uint32_t i = 0; i < blended; i++) {
         const uint32_t instance = renderer->blend_order[i];
         host_draw_instance(renderer, &draw, instance,
-                           pipelines->blend[kind][host_instance_cull(scene, instance)]);
+                           pipelines->blend[blended_kind][host_instance_cull(scene, instance)]);
     }
 }

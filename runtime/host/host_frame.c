@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * One frame: GI update, shadow maps, prepass, forward pass. */
+ * One frame: GI update, shadow maps, prepass, lookup, forward pass. */
 #include "host_internal.h"
 #include "host_math.h"
 
@@ -10,16 +10,36 @@ static uint32_t slot_index(const struct host_renderer *renderer, const struct ho
     return (uint32_t)(slot - renderer->slots);
 }
 
+static uint64_t span_ns(const struct host_device *device, const uint64_t *stamps, enum host_stamp from,
+                        enum host_stamp to)
+{
+    const uint64_t ticks = (stamps[to] - stamps[from]) & device->timestamp_mask;
+    return (uint64_t)((double)ticks * (double)device->limits.timestampPeriod);
+}
+
 static void timestamps_read(struct host_renderer *renderer, const struct host_slot *slot)
 {
     struct host_device *device = renderer->device;
-    uint64_t stamps[2];
-    if (!renderer->queries || vkGetQueryPoolResults(device->device, renderer->queries,
-                                                    2 * slot_index(renderer, slot), 2, sizeof(stamps), stamps,
-                                                    sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+    uint64_t stamps[HOST_STAMP_COUNT];
+    if (!renderer->queries ||
+        vkGetQueryPoolResults(device->device, renderer->queries,
+                              HOST_STAMP_COUNT * slot_index(renderer, slot), HOST_STAMP_COUNT, sizeof(stamps),
+                              stamps, sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
         return;
-    const uint64_t ticks = (stamps[1] - stamps[0]) & device->timestamp_mask;
-    renderer->gpu_ns = (uint64_t)((double)ticks * (double)device->limits.timestampPeriod);
+    renderer->times = (struct host_times){
+        .frame_ns = span_ns(device, stamps, HOST_STAMP_BEGIN, HOST_STAMP_END),
+        .update_ns = span_ns(device, stamps, HOST_STAMP_BEGIN, HOST_STAMP_UPDATED),
+        .shadow_ns = span_ns(device, stamps, HOST_STAMP_UPDATED, HOST_STAMP_SHADOWED),
+    };
+}
+
+static void stamp(const struct host_renderer *renderer, const struct host_slot *slot, enum host_stamp which)
+{
+    if (renderer->queries)
+        vkCmdWriteTimestamp(slot->cmd,
+                            which == HOST_STAMP_BEGIN ? VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT
+                                                      : VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
+                            renderer->queries, HOST_STAMP_COUNT * slot_index(renderer, slot) + which);
 }
 
 bool host_slot_wait(struct host_renderer *renderer, struct host_slot *slot)
@@ -55,11 +75,10 @@ struct host_slot *host_slot_begin(struct host_renderer *renderer)
     if (!host_slot_wait(renderer, slot) ||
         !host_check(device, vkBeginCommandBuffer(slot->cmd, &begin), "beginning a command buffer"))
         return NULL;
-    const uint32_t query = 2 * slot_index(renderer, slot);
-    if (renderer->queries) {
-        vkCmdResetQueryPool(slot->cmd, renderer->queries, query, 2);
-        vkCmdWriteTimestamp(slot->cmd, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, renderer->queries, query);
-    }
+    if (renderer->queries)
+        vkCmdResetQueryPool(slot->cmd, renderer->queries, HOST_STAMP_COUNT * slot_index(renderer, slot),
+                            HOST_STAMP_COUNT);
+    stamp(renderer, slot, HOST_STAMP_BEGIN);
     return slot;
 }
 
@@ -67,9 +86,7 @@ bool host_slot_submit(struct host_renderer *renderer, struct host_slot *slot, co
 {
     static const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     struct host_device *device = renderer->device;
-    if (renderer->queries)
-        vkCmdWriteTimestamp(slot->cmd, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, renderer->queries,
-                            2 * slot_index(renderer, slot) + 1);
+    stamp(renderer, slot, HOST_STAMP_END);
     const VkSubmitInfo submit = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
         .waitSemaphoreCount = semaphores ? 1 : 0,
@@ -177,14 +194,23 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
         return false;
     }
 
+    stamp(renderer, slot, HOST_STAMP_UPDATED);
+
     /* Draw the shadow maps that are missing; what they hold decides what shaders are told. */
     host_shadows_record(renderer, cmd);
     slot_fill(renderer, slot);
+    stamp(renderer, slot, HOST_STAMP_SHADOWED);
 
     /* Find what is visible. */
     pass_begin(renderer, cmd, renderer->passes.prepass, targets->prepass, &targets->hdr);
     host_draw_prepass(renderer, cmd);
     vkCmdEndRenderPass(cmd);
+
+    /* Look up its light. */
+    if (!host_lookup_record(renderer, cmd)) {
+        vkEndCommandBuffer(cmd);
+        return false;
+    }
 
     /* Shade it, and nothing else. */
     pass_begin(renderer, cmd, renderer->passes.forward, targets->forward, &targets->hdr);
@@ -249,6 +275,20 @@ bool host_renderer_frame(struct host_renderer *renderer, const struct host_camer
     return true;
 }
 
+/* No view of the last frame is left then: whoever asks for one draws it again. */
+bool host_renderer_frame_without_gi(struct host_renderer *renderer, const struct host_camera *camera)
+{
+    host_camera_resolve(camera, (double)renderer->width / renderer->height, &renderer->camera);
+    renderer->shown = HOST_AOV_COLOR;
+    renderer->without_gi = true;
+    struct host_slot *slot = host_slot_begin(renderer);
+    const bool drawn =
+        slot && host_frame_record(renderer, slot, false) && host_slot_submit(renderer, slot, NULL);
+    renderer->without_gi = false;
+    renderer->shown = HOST_AOV_COUNT;
+    return drawn && host_slots_wait(renderer);
+}
+
 /* ---- The loop --------------------------------------------------------------------------------------- */
 
 enum { DEFAULT_MAX_FRAMES = 2000 };
@@ -271,7 +311,9 @@ bool host_render_until(struct host_renderer *renderer, const struct host_camera 
         if (!host_renderer_frame(renderer, camera))
             return false;
         host_gi_get_report(renderer->gi, &report);
-        const struct host_frame frame = { .index = count, .gpu_ns = renderer->gpu_ns, .report = &report };
+        const struct host_frame frame = { .index = count,
+                                          .gpu_ns = renderer->times.frame_ns,
+                                          .report = &report };
         count++;
         go_on = !desc->progress || desc->progress(desc->user, &frame);
     } while (go_on && !loop_done(desc, &report, count));

@@ -211,6 +211,11 @@ bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_
     return gi_check(gi, sdfgi_update(gi->context, cmd, frame), "recording an update");
 }
 
+bool host_gi_gather(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc)
+{
+    return gi_check(gi, sdfgi_gather(gi->context, cmd, desc), "looking up light");
+}
+
 bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings)
 {
     return gi_check(gi, sdfgi_set_settings(gi->context, settings), "changing settings");

@@ -191,22 +191,24 @@ VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
 /* VK_NULL_HANDLE while lookups give nothing. */
 VkDescriptorSet host_gi_set(const struct host_gi *gi);
 bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame);
+bool host_gi_gather(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc);
 bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings);
 void host_gi_get_settings(const struct host_gi *gi, struct sdfgi_settings *settings);
 void host_gi_get_report(const struct host_gi *gi, struct sdfgi_report *report);
 
 /* ---- Pipelines (host_passes.c, host_pipeline.c) ----------------------------------------------------- */
 
-enum host_forward { HOST_FORWARD_PLAIN, HOST_FORWARD_GI, HOST_FORWARD_COUNT };
+/* What the forward shader knows of GI: nothing, the lookup, or an image of what was looked up before. */
+enum host_forward { HOST_FORWARD_PLAIN, HOST_FORWARD_GI, HOST_FORWARD_GATHERED, HOST_FORWARD_COUNT };
 
 struct host_passes {
     VkRenderPass prepass, forward, shadow, picture;
 };
 
 struct host_pipelines {
-    VkDescriptorSetLayout frame_layout, post_layout;
-    VkPipelineLayout
-        layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI]; plain also for all but forward */
+    VkDescriptorSetLayout frame_layout, post_layout, irradiance_layout;
+    VkPipelineLayout layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI or irradiance]; plain also for
+                                                     all but forward */
     VkPipelineLayout post_pipeline_layout;
     VkPipeline prepass[HOST_CULL_COUNT];
     /* Those that the scene needs, once they are wanted. */
@@ -271,7 +273,8 @@ void host_shadows_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_sun_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_sun_fill(const struct host_renderer *renderer, uint32_t sun, struct host_sun_data *out);
 
-/* ---- Frame (host_camera.c, host_draw.c, host_renderer.c, host_frame.c, host_read.c) ----------------- */
+/* ---- Frame (host_camera.c, host_draw.c, host_lookup.c, host_renderer.c, host_frame.c, host_read.c)
+ * ----------------- */
 
 /* A camera resolved for one frame. Everything in float is relative to `origin`. */
 struct host_camera_frame {
@@ -285,6 +288,15 @@ void host_camera_resolve(const struct host_camera *camera, double aspect, struct
 
 enum { HOST_SLOTS = 2 };
 
+/* Where frames take the time. */
+enum host_stamp {
+    HOST_STAMP_BEGIN,
+    HOST_STAMP_UPDATED,
+    HOST_STAMP_SHADOWED,
+    HOST_STAMP_END,
+    HOST_STAMP_COUNT
+};
+
 struct host_slot {
     VkCommandBuffer cmd;
     VkFence fence;
@@ -295,6 +307,7 @@ struct host_slot {
 
 struct host_targets {
     struct host_image hdr, depth, normal, picture;
+    struct host_image irradiance; /* none if lookups are made where surfaces are shaded */
     VkFramebuffer prepass, forward, picture_framebuffer;
 };
 
@@ -316,6 +329,8 @@ struct host_renderer {
     uint32_t width, height, supersample; /* of the picture, in pixels */
     uint32_t seed;
     float gi_exposure;
+    enum host_lookup lookup;
+    bool without_gi; /* the frame being recorded */
     struct host_passes passes;
     struct host_pipelines pipelines;
     struct host_shadows shadows;
@@ -323,11 +338,13 @@ struct host_renderer {
     struct host_slot slots[HOST_SLOTS];
     VkDescriptorPool pool;
     VkDescriptorSet post_set;
+    VkDescriptorSet irradiance_set; /* of its target */
     VkSampler nearest;
     struct host_buffer exposure;
     struct host_sampler sampler;
-    VkQueryPool queries; /* two per slot */
-    uint64_t submit_count, gpu_ns;
+    VkQueryPool queries;     /* HOST_STAMP_COUNT per slot */
+    struct host_times times; /* of the newest finished frame */
+    uint64_t submit_count;
     bool has_frame;
     struct host_camera_frame camera; /* of the last frame */
     enum host_aov shown;
@@ -341,8 +358,8 @@ struct host_frustum {
     double origin[3];
 };
 
-/* The forward pipelines of frames as things are: with GI's lookup or without. */
-enum host_forward host_forward_kind(const struct host_renderer *renderer);
+/* The forward pipelines of frames as things are, for blended surfaces or for others. */
+enum host_forward host_forward_kind(const struct host_renderer *renderer, bool blended);
 /* Makes those that the scene needs and that are missing. Drivers compile the lookup for long, so that
  * pipelines of the other kind, or for materials that the scene lacks, would cost every start seconds. */
 bool host_forward_prepare(struct host_renderer *renderer);
@@ -366,6 +383,9 @@ void host_draw_shadow(struct host_renderer *renderer, VkCommandBuffer cmd, const
 void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set);
 void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height);
+
+/* Fills the image of irradiance, if there is one, from what the prepass has drawn. */
+bool host_lookup_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 
 void host_sampler_finish(struct host_renderer *renderer);
 

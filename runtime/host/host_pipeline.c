@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Pipelines and their layouts. The forward shader exists twice: with and without the library's lookup. */
+ * Pipelines and their layouts. The forward shader exists three times: see enum host_forward. */
 #include "host_internal.h"
 
 #include "host_exposure_comp.h"
 #include "host_forward_frag.h"
+#include "host_forward_gathered_frag.h"
 #include "host_forward_gi_frag.h"
 #include "host_prepass_frag.h"
 #include "host_screen_vert.h"
@@ -208,11 +209,14 @@ static bool layouts_create(struct host_device *device, VkDescriptorSetLayout mat
     if (!set_layout_create(device, frame_types, HOST_COUNT(frame_types),
                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->frame_layout) ||
         !set_layout_create(device, post_types, HOST_COUNT(post_types),
-                           VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->post_layout))
+                           VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->post_layout) ||
+        !set_layout_create(device, post_types, 1, VK_SHADER_STAGE_FRAGMENT_BIT, &p->irradiance_layout))
         return false;
-    const VkDescriptorSetLayout sets[] = { p->frame_layout, material_layout, gi_layout };
+    const VkDescriptorSetLayout sets[] = { p->frame_layout, material_layout, gi_layout },
+                                gathered[] = { p->frame_layout, material_layout, p->irradiance_layout };
     return pipeline_layout_create(device, sets, 2, draw, &p->layouts[HOST_FORWARD_PLAIN]) &&
            pipeline_layout_create(device, sets, 3, draw, &p->layouts[HOST_FORWARD_GI]) &&
+           pipeline_layout_create(device, gathered, 3, draw, &p->layouts[HOST_FORWARD_GATHERED]) &&
            pipeline_layout_create(device, &p->post_layout, 1, tone, &p->post_pipeline_layout);
 }
 
@@ -238,12 +242,22 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
     return true;
 }
 
+static struct shader_code forward_code(enum host_forward kind)
+{
+    const struct shader_code codes[HOST_FORWARD_COUNT] = {
+        [HOST_FORWARD_PLAIN] = SHADER(host_forward_frag),
+        [HOST_FORWARD_GI] = SHADER(host_forward_gi_frag),
+        [HOST_FORWARD_GATHERED] = SHADER(host_forward_gathered_frag),
+    };
+    return codes[kind];
+}
+
 static bool forward_create(struct host_renderer *renderer, enum host_forward kind, enum host_cull cull,
                            bool blend, VkPipeline *out)
 {
     const struct pipeline_desc desc = {
         .vertex = SHADER(host_surface_vert),
-        .fragment = kind == HOST_FORWARD_GI ? SHADER(host_forward_gi_frag) : SHADER(host_forward_frag),
+        .fragment = forward_code(kind),
         .layout = renderer->pipelines.layouts[kind],
         .pass = renderer->passes.forward,
         .vertices = true,
@@ -256,26 +270,29 @@ static bool forward_create(struct host_renderer *renderer, enum host_forward kin
     return pipeline_create(renderer->device, &desc, out);
 }
 
-enum host_forward host_forward_kind(const struct host_renderer *renderer)
+enum host_forward host_forward_kind(const struct host_renderer *renderer, bool blended)
 {
-    return host_gi_set(renderer->gi) ? HOST_FORWARD_GI : HOST_FORWARD_PLAIN;
+    if (renderer->without_gi || !host_gi_set(renderer->gi))
+        return HOST_FORWARD_PLAIN;
+    return blended || renderer->lookup == HOST_LOOKUP_FORWARD ? HOST_FORWARD_GI : HOST_FORWARD_GATHERED;
 }
 
 bool host_forward_prepare(struct host_renderer *renderer)
 {
     struct host_pipelines *p = &renderer->pipelines;
     const struct host_scene *scene = renderer->scene;
-    const enum host_forward kind = host_forward_kind(renderer);
-    if (p->forward_made[kind])
+    bool *made = &p->forward_made[host_forward_kind(renderer, false)];
+    if (*made)
         return true;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         const enum host_cull cull = host_instance_cull(scene, i);
         const bool blend = host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND;
+        const enum host_forward kind = host_forward_kind(renderer, blend);
         VkPipeline *pipeline = blend ? &p->blend[kind][cull] : &p->opaque[kind][cull];
         if (!*pipeline && !forward_create(renderer, kind, cull, blend, pipeline))
             return false;
     }
-    p->forward_made[kind] = true;
+    *made = true;
     return true;
 }
 
@@ -365,9 +382,10 @@ void host_pipelines_finish(struct host_device *device, struct host_pipelines *p)
     const VkPipeline rest[] = { p->shadow_solid, p->shadow_tested, p->sky, p->exposure, p->tonemap };
     for (size_t i = 0; i < HOST_COUNT(rest); i++)
         vkDestroyPipeline(vk, rest[i], NULL);
-    vkDestroyPipelineLayout(vk, p->layouts[HOST_FORWARD_PLAIN], NULL);
-    vkDestroyPipelineLayout(vk, p->layouts[HOST_FORWARD_GI], NULL);
+    for (int kind = 0; kind < HOST_FORWARD_COUNT; kind++)
+        vkDestroyPipelineLayout(vk, p->layouts[kind], NULL);
     vkDestroyPipelineLayout(vk, p->post_pipeline_layout, NULL);
     vkDestroyDescriptorSetLayout(vk, p->frame_layout, NULL);
     vkDestroyDescriptorSetLayout(vk, p->post_layout, NULL);
+    vkDestroyDescriptorSetLayout(vk, p->irradiance_layout, NULL);
 }

@@ -66,7 +66,10 @@ static bool target_images(struct host_renderer *r)
            target_image(r, VK_FORMAT_R16G16B16A16_SFLOAT, color, r->supersample, &t->normal) &&
            target_image(r, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, r->supersample,
                         &t->depth) &&
-           target_image(r, VK_FORMAT_R8G8B8A8_UNORM, color, 1, &t->picture);
+           target_image(r, VK_FORMAT_R8G8B8A8_UNORM, color, 1, &t->picture) &&
+           (r->lookup == HOST_LOOKUP_FORWARD ||
+            target_image(r, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, r->supersample,
+                         &t->irradiance));
 }
 
 static void post_set_write(struct host_renderer *renderer)
@@ -91,6 +94,19 @@ static void post_set_write(struct host_renderer *renderer)
     vkUpdateDescriptorSets(renderer->device->device, HOST_COUNT(writes), writes, 0, NULL);
 }
 
+static void irradiance_set_write(struct host_renderer *renderer)
+{
+    const VkDescriptorImageInfo image = { renderer->nearest, renderer->targets.irradiance.view,
+                                          VK_IMAGE_LAYOUT_GENERAL };
+    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                         .dstSet = renderer->irradiance_set,
+                                         .descriptorCount = 1,
+                                         .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                         .pImageInfo = &image };
+    if (renderer->lookup != HOST_LOOKUP_FORWARD)
+        vkUpdateDescriptorSets(renderer->device->device, 1, &write, 0, NULL);
+}
+
 bool host_targets_init(struct host_renderer *renderer)
 {
     struct host_targets *t = &renderer->targets;
@@ -104,6 +120,7 @@ bool host_targets_init(struct host_renderer *renderer)
                             &t->picture_framebuffer))
         return false;
     post_set_write(renderer);
+    irradiance_set_write(renderer);
     return true;
 }
 
@@ -118,6 +135,7 @@ void host_targets_finish(struct host_renderer *renderer)
     host_image_destroy(renderer->device, &t->normal);
     host_image_destroy(renderer->device, &t->depth);
     host_image_destroy(renderer->device, &t->picture);
+    host_image_destroy(renderer->device, &t->irradiance);
     *t = (struct host_targets){ 0 };
     renderer->has_frame = false;
 }
@@ -129,10 +147,10 @@ static bool pool_create(struct host_renderer *renderer)
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS },
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * HOST_SLOTS + 1 },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * HOST_SLOTS + 1 },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * HOST_SLOTS + 2 },
     };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                              .maxSets = HOST_SLOTS + 1,
+                                              .maxSets = HOST_SLOTS + 2,
                                               .poolSizeCount = HOST_COUNT(sizes),
                                               .pPoolSizes = sizes };
     return host_check(renderer->device,
@@ -224,7 +242,7 @@ static bool queries_create(struct host_renderer *renderer)
 {
     const VkQueryPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = 2 * HOST_SLOTS };
+                                         .queryCount = HOST_STAMP_COUNT * HOST_SLOTS };
     return renderer->device->timestamp_mask == 0 ||
            host_check(renderer->device,
                       vkCreateQueryPool(renderer->device->device, &info, NULL, &renderer->queries),
@@ -239,7 +257,9 @@ static bool post_init(struct host_renderer *renderer)
                       "creating a sampler") &&
            host_buffer_create(renderer->device, 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true,
                               &renderer->exposure) &&
-           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set);
+           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set) &&
+           (renderer->lookup == HOST_LOOKUP_FORWARD ||
+            set_allocate(renderer, renderer->pipelines.irradiance_layout, &renderer->irradiance_set));
 }
 
 static bool scratch_init(struct host_renderer *renderer)
@@ -295,6 +315,7 @@ struct host_renderer *host_renderer_create(struct host_device *device, struct ho
     renderer->supersample = supersample;
     renderer->seed = desc->seed;
     renderer->gi_exposure = desc->gi_exposure;
+    renderer->lookup = desc->lookup;
     if (!renderer_init(renderer, desc)) {
         host_renderer_destroy(renderer);
         return NULL;
@@ -353,5 +374,10 @@ void host_renderer_get_report(const struct host_renderer *renderer, struct sdfgi
 
 uint64_t host_renderer_frame_gpu_ns(const struct host_renderer *renderer)
 {
-    return renderer->gpu_ns;
+    return renderer->times.frame_ns;
+}
+
+void host_renderer_get_times(const struct host_renderer *renderer, struct host_times *times)
+{
+    *times = renderer->times;
 }

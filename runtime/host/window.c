@@ -194,7 +194,7 @@ static bool present(struct window *window, uint32_t image)
 static void tell_progress(struct window *window)
 {
     struct sdfgi_report report;
-    const struct host_frame frame = { window->frame++, window->renderer->gpu_ns, &report };
+    const struct host_frame frame = { window->frame++, window->renderer->times.frame_ns, &report };
     if (!window->desc->progress)
         return;
     host_gi_get_report(window->renderer->gi, &report);
@@ -236,7 +236,7 @@ static void show_title(struct window *window)
         return;
     snprintf(title, sizeof(title), "sdfgi - %.1f ms a frame, %.1f ms on the GPU - GI %s - %s",
              1e3 * (now_s - window->title_time_s) / window->title_frames,
-             1e-6 * (double)window->renderer->gpu_ns, window->settings.enabled ? "on" : "off",
+             1e-6 * (double)window->renderer->times.frame_ns, window->settings.enabled ? "on" : "off",
              host_aov_name(views[window->shown]));
     glfwSetWindowTitle(window->glfw, title);
     window->title_time_s = now_s;
@@ -290,6 +290,7 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
     const struct host_renderer_desc renderer = { .width = width > 0 ? (uint32_t)width : 1,
                                                  .height = height > 0 ? (uint32_t)height : 1,
                                                  .settings = desc->settings,
+                                                 .lookup = desc->lookup,
                                                  .log = desc->log };
     window->scene = host_scene_create(window->device, desc->gltf, desc->view);
     window->renderer = window->scene ? host_renderer_create(window->device, window->scene, &renderer) : NULL;

@@ -78,10 +78,18 @@ void report_add_frame(struct report *report, const struct sdfgi_report *frame, u
             report->out_of_memory = true;
 }
 
+void report_add_times(struct report *report, uint64_t lit_gpu_ns, uint64_t update_gpu_ns)
+{
+    if (!samples_add(&report->lit_gpu_ns, lit_gpu_ns) || !samples_add(&report->update_gpu_ns, update_gpu_ns))
+        report->out_of_memory = true;
+}
+
 void report_finish(struct report *report)
 {
     for (uint32_t i = 0; i < report->pass_count; i++)
         free(report->passes[i].gpu_ns.values);
     free(report->frame_gpu_ns.values);
+    free(report->lit_gpu_ns.values);
+    free(report->update_gpu_ns.values);
     *report = (struct report){ 0 };
 }

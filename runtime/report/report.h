@@ -3,6 +3,8 @@
 #ifndef RUNTIME_REPORT_H
 #define RUNTIME_REPORT_H
 
+#include "report_cost.h"
+
 #include <cJSON.h>
 #include <sdfgi/sdfgi.h>
 #include <stdbool.h>
@@ -28,6 +30,7 @@ struct report {
     struct report_pass passes[SDFGI_MAX_PASSES];
     uint32_t pass_count;
     struct report_samples frame_gpu_ns;
+    struct report_samples lit_gpu_ns, update_gpu_ns; /* for struct report_cost */
     struct sdfgi_report last;
     uint64_t frames;
     bool out_of_memory;
@@ -41,10 +44,13 @@ struct report_summary {
     struct sdfgi_settings settings; /* in force */
     uint64_t estimated_bytes;
     uint32_t validation_messages;
+    struct report_cost cost;
 };
 
 /* A zero-initialised report is empty. */
 void report_add_frame(struct report *report, const struct sdfgi_report *frame, uint64_t frame_gpu_ns);
+/* Times of a frame that has finished: all but its shadow maps, and of this its update. */
+void report_add_times(struct report *report, uint64_t lit_gpu_ns, uint64_t update_gpu_ns);
 /* The state after the last frame has finished, with its GPU time (0: not known). */
 void report_set_last(struct report *report, const struct sdfgi_report *last, uint64_t frame_gpu_ns);
 void report_finish(struct report *report);

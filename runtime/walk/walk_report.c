@@ -135,7 +135,8 @@ static bool add_journey(cJSON *json, const struct walk_record *record, const str
 {
     cJSON *journey = json_add_object(json, "journey");
     bool complete = add_statistics(journey, "gi_gpu_ns", NULL, record, walk_series_gi_gpu_ns, 0) &&
-                    add_statistics(journey, "frame_gpu_ns", NULL, record, walk_series_gpu_ns, 0);
+                    add_statistics(journey, "frame_gpu_ns", NULL, record, walk_series_gpu_ns, 0) &&
+                    report_cost_to_json(journey, &summary->run.cost);
     for (uint32_t i = 0; complete && i < WALK_COUNT_COUNT; i++)
         complete = add_statistics(journey, walk_count_name((enum walk_count)i),
                                   walk_count_unit((enum walk_count)i), record, walk_series_count, i);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Forward shading: direct light with shadows, emission, and the library's indirect light where HOST_GI is
- * set. Outgoing radiance of a Lambertian surface is albedo * E / pi for an irradiance E. */
+ * Forward shading: direct light with shadows, emission, and the library's indirect light. With HOST_GI it is
+ * looked up here, with HOST_GATHERED it is read from a picture of it. Outgoing radiance of a Lambertian
+ * surface is albedo * E / pi for an irradiance E. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host/host_frame.glsl"
@@ -10,6 +11,9 @@
 #ifdef HOST_GI
 #define SDFGI_SET HOST_SET_GI
 #include "sdfgi.glsl"
+#endif
+#ifdef HOST_GATHERED
+layout(set = HOST_SET_GI, binding = 0) uniform sampler2D irradiance_image;
 #endif
 
 layout(push_constant) uniform host_push_block
@@ -86,6 +90,17 @@ brdf_surface surface_here(vec4 base_color, bool front_facing)
     return s;
 }
 
+vec3 indirect_irradiance(vec3 normal)
+{
+#if defined(HOST_GI)
+    return sdfgi_irradiance(in_position, normal, frame.camera_position.xyz - in_position);
+#elif defined(HOST_GATHERED)
+    return texelFetch(irradiance_image, ivec2(gl_FragCoord.xy), 0).rgb;
+#else
+    return vec3(0.0);
+#endif
+}
+
 vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 emission)
 {
     const vec3 indirect = irradiance * s.diffuse * brdf_diffuse_transmission(s) / BRDF_PI;
@@ -125,10 +140,8 @@ void main()
     } else {
         if (shown <= HOST_SHOW_DIRECT)
             direct = light_from_suns(s, face) + light_from_punctual(s, face);
-#ifdef HOST_GI
         if (shown == HOST_SHOW_COLOR || shown == HOST_SHOW_DIFFUSE_INDIRECT || shown == HOST_SHOW_IRRADIANCE)
-            irradiance = sdfgi_irradiance(in_position, s.normal, frame.camera_position.xyz - in_position);
-#endif
+            irradiance = indirect_irradiance(s.normal);
     }
     const float alpha = material_has(HOST_MATERIAL_BLEND) ? base_color.a : 1.0;
     out_radiance = vec4(shown_value(s, direct, irradiance, emission), alpha);

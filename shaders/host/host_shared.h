@@ -26,7 +26,7 @@
 
 #define HOST_SET_FRAME    0
 #define HOST_SET_MATERIAL 1
-#define HOST_SET_GI       2
+#define HOST_SET_GI       2 /* the library's, or one with a picture of its light */
 
 /* enum host_aov, for shaders */
 #define HOST_SHOW_COLOR            0

@@ -69,7 +69,7 @@ struct stage {
 static const struct host_view view = { .camera = { .position = { 0.3, 0.3, 2 },
                                                    .look_at = { 0.3, 0.3, 0 } } };
 
-static void stage_open(struct stage *stage, const char *materials, int count)
+static void stage_open(struct stage *stage, const char *materials, int count, enum host_lookup lookup)
 {
     sdfgi_settings_default(&stage->settings);
     stage->settings.cascades = 1;
@@ -78,7 +78,9 @@ static void stage_open(struct stage *stage, const char *materials, int count)
     stage->gltf = scene_of(materials, count);
     stage->scene = host_scene_create(device, stage->gltf, &view);
     assert_non_null(stage->scene);
-    const struct host_renderer_desc desc = { .width = 8, .height = 8, .settings = &stage->settings };
+    const struct host_renderer_desc desc = {
+        .width = 8, .height = 8, .settings = &stage->settings, .lookup = lookup
+    };
     stage->renderer = host_renderer_create(device, stage->scene, &desc);
     if (!stage->renderer)
         fail_msg("%s", host_device_error(device));
@@ -102,7 +104,7 @@ static void one_material_needs_one_pipeline(void **state)
 {
     (void)state;
     struct stage stage;
-    stage_open(&stage, "{}", 1);
+    stage_open(&stage, "{}", 1, HOST_LOOKUP_FORWARD);
     assert_int_equal(forward_count, 1);
     frame(&stage, false);
     assert_int_equal(forward_count, 1);
@@ -116,7 +118,7 @@ static void each_kind_of_material_adds_one(void **state)
     stage_open(&stage,
                "{},{\"doubleSided\":true},{\"alphaMode\":\"BLEND\"},{\"metallicFactor\":0},"
                "{\"doubleSided\":true,\"alphaMode\":\"BLEND\"}",
-               5);
+               5, HOST_LOOKUP_FORWARD);
     assert_int_equal(forward_count, 4);
     frame(&stage, false);
     assert_int_equal(forward_count, 4);
@@ -127,11 +129,27 @@ static void switching_gi_makes_the_other_pipelines_once(void **state)
 {
     (void)state;
     struct stage stage;
-    stage_open(&stage, "{},{\"doubleSided\":true}", 2);
+    stage_open(&stage, "{},{\"doubleSided\":true}", 2, HOST_LOOKUP_FORWARD);
     for (int round = 0; round < 2; round++) {
         frame(&stage, false);
         assert_int_equal(forward_count, round == 0 ? 2 : 4);
         frame(&stage, true);
+        assert_int_equal(forward_count, 4);
+    }
+    stage_close(&stage);
+}
+
+/* Blended surfaces look light up themselves. */
+static void gathered_light_needs_as_many_pipelines(void **state)
+{
+    (void)state;
+    struct stage stage;
+    stage_open(&stage, "{},{\"alphaMode\":\"BLEND\"}", 2, HOST_LOOKUP_HALF);
+    assert_int_equal(forward_count, 2);
+    for (int round = 0; round < 2; round++) {
+        frame(&stage, true);
+        assert_int_equal(forward_count, 4);
+        frame(&stage, false);
         assert_int_equal(forward_count, 4);
     }
     stage_close(&stage);
@@ -149,6 +167,7 @@ int main(void)
         cmocka_unit_test(one_material_needs_one_pipeline),
         cmocka_unit_test(each_kind_of_material_adds_one),
         cmocka_unit_test(switching_gi_makes_the_other_pipelines_once),
+        cmocka_unit_test(gathered_light_needs_as_many_pipelines),
     };
     const int failed = cmocka_run_group_tests(tests, files_setup, files_teardown);
     const bool quiet = host_device_validation_count(device) == 0;

@@ -103,6 +103,39 @@ static void frames_are_collected_pass_by_pass(void **state)
     report_finish(&report);
 }
 
+/* Views differ more than frames with and without GI do, so pairs are compared before medians are taken. */
+static void gi_costs_what_pairs_of_frames_differ_by(void **state)
+{
+    (void)state;
+    const struct report_cost_pair pairs[] = { { 11000000, 470000, 5600000 },
+                                              { 25000000, 900000, 20000000 },
+                                              { 8000000, 400000, 3100000 } };
+    struct report report = { 0 };
+    struct report_summary summary = { .cost = report_cost_of(pairs, 3) };
+    sdfgi_settings_default(&summary.settings);
+    cJSON *json = report_to_json(&report, &summary);
+    assert_float_equal(get(json, "gi_cost.frame_ms")->valuedouble, 11, 1e-9);
+    assert_float_equal(get(json, "gi_cost.frame_off_ms")->valuedouble, 5.6, 1e-9);
+    assert_float_equal(get(json, "gi_cost.gi_cost_ms")->valuedouble, 5, 1e-9);
+    assert_float_equal(get(json, "gi_cost.lookup_ms")->valuedouble, 4.5, 1e-9);
+    assert_float_equal(get(json, "gi_cost.update_ms")->valuedouble, 0.5, 1e-9);
+    assert_int_equal(get(json, "gi_cost.samples")->valueint, 3);
+    cJSON_Delete(json);
+}
+
+static void nothing_is_said_of_costs_that_are_not_known(void **state)
+{
+    (void)state;
+    const struct report_cost_pair untimed = { 0 };
+    struct report report = { 0 };
+    struct report_summary summary = { .cost = report_cost_of(&untimed, 1) };
+    sdfgi_settings_default(&summary.settings);
+    cJSON *json = report_to_json(&report, &summary);
+    assert_non_null(json);
+    assert_null(cJSON_GetObjectItemCaseSensitive(json, "gi_cost"));
+    cJSON_Delete(json);
+}
+
 static void every_setting_in_force_is_reported(void **state)
 {
     (void)state;
@@ -120,6 +153,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quantiles_are_nearest_ranks),
         cmocka_unit_test(frames_are_collected_pass_by_pass),
+        cmocka_unit_test(gi_costs_what_pairs_of_frames_differ_by),
+        cmocka_unit_test(nothing_is_said_of_costs_that_are_not_known),
         cmocka_unit_test(every_setting_in_force_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
