@@ -32,7 +32,7 @@
       INSTANCES, voxelize, 1, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(COUNTERS))                        \
     X(VOXEL_RESOLVE, COMPUTE, voxel_resolve, BLOCKS, GENERATE, VOXELS, CREATED,                              \
       BOX, region, 8 * SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(SCRATCH), R(ALBEDO) |                           \
-      R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS))                                                    \
+      R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS) | R(EMITTERS))                                      \
     X(DISTANCE_PREPARE, COMPUTE, distance_prepare, CELLS, EXACT, DISTANCES, CREATED,                         \
       DISTANCE_ROWS, distance_prepare, SDFGI_GROUP_COLUMNS, NONE, R(BITS) | R(DISTANCE) | R(BOUNDS),         \
       R(SCRATCH) | R(COUNTERS))                                                                              \
@@ -46,6 +46,10 @@
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(BITS), R(SCRATCH))                                            \
     X(FLOOD_DISTANCE, COMPUTE, flood_distance, CELLS, FLOOD, OWN, CREATED,                                   \
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(SCRATCH), R(DISTANCE))                                        \
+    X(EMITTER_MARK, COMPUTE, emitter_mark, BLOCKS, EMITTERS, EMITTERS, CREATED,                              \
+      BLOCKS, cascade, SDFGI_GROUP_LINEAR, NONE, R(EMITTERS), R(EMISSION) | R(SCRATCH))                      \
+    X(EMITTER_LIST, COMPUTE, emitter_list, BLOCKS, EMITTERS, EMITTERS, CREATED,                              \
+      CASCADE, cascade, 1, NONE, R(BITS) | R(SCRATCH), R(EMISSION) | R(EMITTERS))                            \
     X(LIGHT_MARK, COMPUTE, light_mark, CELLS, LIST, MARK, CREATED,                                           \
       LIGHT_BLOCKS, light_mark, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) |           \
       R(LIGHT_BLOCKS) | R(LIGHT) | R(SURFACES) | R(GATHERED) | R(INDIRECT), R(MASKS) | R(SCRATCH))           \
@@ -69,7 +73,7 @@
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(BOUNDS), R(RAYS))                                             \
     X(LIGHT_BOUNCE, COMPUTE, light_bounce, LIGHT_CELLS, LIGHT, OWN, CREATED,                                 \
       ALL_LIGHT_CELLS, light_bounce, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(PROBES) | R(MASKS) |              \
-      R(OCCLUSION) | R(ALBEDO) | R(EMISSION) | R(NORMALS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SCRATCH) |  \
+      R(OCCLUSION) | R(ALBEDO) | R(NORMALS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SCRATCH) |                \
       R(IRRADIANCE), R(LIGHT) | R(SURFACES) | R(GATHERED) | R(COUNTERS))                                     \
     X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
@@ -81,10 +85,10 @@
       | R(INDIRECT))                                                                                         \
     X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(NORMALS)   \
-      | R(LIGHT_CELLS) | R(LIGHT_BLOCKS), R(GATHERED) | R(COUNTERS))                                         \
+      | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS), R(GATHERED) | R(COUNTERS))             \
     X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, PROBES, CREATED,                                           \
-      ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(INDIRECT), R(SUMS)     \
-      | R(COUNTERS))                                                                                         \
+      ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(SURFACES) |            \
+      R(EMISSION) | R(INDIRECT), R(SUMS) | R(COUNTERS))                                                      \
     X(PROBE_BLEND, COMPUTE, probe_blend, PROBES, BLEND, PROBES, CREATED,                                     \
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
@@ -96,7 +100,7 @@
 /* clang-format on */
 
 enum pass {
-#define PASS_ENUM(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes) \
+#define PASS_ENUM(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)        \
     PASS_##id,
     SDFGI_PASSES(PASS_ENUM)
 #undef PASS_ENUM

@@ -19,6 +19,7 @@
  * LIGHT_CELLS               the light list: grows when it is too short; direct light is kept
  * LIGHT_BLOCKS              where in the list the light cells of a block are
  * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
+ * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits
  * GATHERED                  what light cells gathered with rays of their own, in the order of the list
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes
  * SUMS                      of this sample cycle; and each probe's history
@@ -67,12 +68,15 @@
     X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   BOUNDS_BYTES,                 DERIVED) \
     X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, WORK,   e->cells * e->cascades,       DERIVED) \
     X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, WORK,   e->occlusion,                 DERIVED) \
-    X(GATHERED,    STORAGE, U32,             LISTS,   VOLUME, WORK,   GATHERED_COUNT(e),            SAVED)
+    X(GATHERED,    STORAGE, U32,             LISTS,   VOLUME, WORK,   GATHERED_COUNT(e),            SAVED)   \
+    X(EMITTERS,    STORAGE, U32,             VOLUMES, VOLUME, WORK,   EMITTER_COUNT(e),             DERIVED)
 /* clang-format on */
 
 #define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
 /* None where light cells read probes alone; a binding needs a word. */
 #define GATHERED_COUNT(e) ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) : 1)
+/* None where nothing emits. */
+#define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + (e)->blocks) * (e)->cascades : 1)
 #define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
 #define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
 #define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)

@@ -22,7 +22,7 @@ static uint32_t threads_per_ray(const struct gpu_device *device)
 }
 
 static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc,
-                                      bool list_grew)
+                                      bool list_grew, bool emitters_added)
 {
     return (struct frame_input){ .state = &gi->volume.state,
                                  .desc = desc,
@@ -33,6 +33,7 @@ static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi
                                  .counters = gi->volume.feedback.counters,
                                  .lists = sdfgi_volume_light_lists(&gi->volume),
                                  .list_grew = list_grew,
+                                 .emitters_added = emitters_added,
                                  .threads_per_ray = threads_per_ray(&gi->backend.device) };
 }
 
@@ -72,9 +73,10 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     const uint32_t slot = sdfgi_backend_slot(&gi->backend);
     sdfgi_volume_read_back(&gi->volume, slot);
     const bool list_grew = sdfgi_volume_make_room(&gi->volume);
+    const bool emitters_added = sdfgi_volume_add_emitters(&gi->volume, gi->scene.emission_unit > 0);
 
     /* Decide what this frame does. */
-    const struct frame_input input = frame_input(gi, desc, list_grew);
+    const struct frame_input input = frame_input(gi, desc, list_grew, emitters_added);
     sdfgi_frame_plan(&gi->frame, &input);
 
     /* Record it. */

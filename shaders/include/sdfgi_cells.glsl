@@ -99,11 +99,6 @@ bool sdfgi_cell_is_light(uint cascade, ivec3 cell)
     return sdfgi_cell_entry(cascade, cell, entry);
 }
 
-ivec3 sdfgi_axis_offset(int axis)
-{
-    return ivec3(axis == 0, axis == 1, axis == 2);
-}
-
 /* Moves a point out of an occupied cell, into a neighbouring light cell. Between the point and the face that
  * it leaves by, no sub-voxel of the cell is set: both are on the same side of a wall in the cell. Of several
  * faces the one along the normal is taken, or else the nearest. */
@@ -113,12 +108,11 @@ bool sdfgi_cells_leave(uint cascade, uvec2 bits, vec3 normal, inout vec3 at)
     const vec3 inside = at - vec3(cell);
     float best = -1e9;
     vec3 result = at;
-    for (int side = 0; side < 6; side++) {
-        const ivec3 axis = sdfgi_axis_offset(side >> 1);
-        const bool forward = (side & 1) == 0;
+    for (uint side = 0u; side < 6u; side++) {
+        const ivec3 unit = sdfgi_axis_direction(side), axis = abs(unit);
+        const bool forward = (side & 1u) == 0u;
         const ivec3 low = forward ? subvoxel : subvoxel * (1 - axis);
         const ivec3 high = forward ? max(subvoxel, 3 * axis) : subvoxel;
-        const ivec3 unit = forward ? axis : -axis;
         const float along = dot(inside, vec3(axis)), range = forward ? 1.0 - along : along;
         const float score = 2.0 * dot(normal, vec3(unit)) - range;
         if (score <= best || (bits & sdfgi_trace_box_bits(uvec3(low), uvec3(high))) != uvec2(0u) ||

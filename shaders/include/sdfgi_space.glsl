@@ -31,6 +31,13 @@ vec3 sdfgi_cells_from_metric(vec3 v)
     return vec3(v.x, v.y / sdfgi_space_y_scale(), v.z);
 }
 
+/* Unit vector of axis 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. */
+ivec3 sdfgi_axis_direction(uint axis)
+{
+    const uint major = axis >> 1u;
+    return ivec3(major == 0u, major == 1u, major == 2u) * ((axis & 1u) == 0u ? 1 : -1);
+}
+
 bool sdfgi_cell_is_inside(ivec3 cell)
 {
     return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(sdfgi_space_resolution())));

@@ -17,6 +17,7 @@ struct sdfgi_trace_hit {
     bool has_cell; /* `cell` is the light cell in front of the surface that was hit */
     uint cascade;
     ivec3 cell;     /* otherwise the occupied cell that was hit */
+    ivec3 solid;    /* the occupied cell that was hit */
     uint axis;      /* of the face that was hit: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z */
     float distance; /* cell widths of the cascade in which the ray began; the range if nothing was hit */
 };
@@ -195,7 +196,8 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 /* The cell of a hit counts from ray.base. */
 sdfgi_trace_hit sdfgi_trace_result(sdfgi_trace_query query, sdfgi_trace_state ray, uint end)
 {
-    sdfgi_trace_hit result = sdfgi_trace_hit(false, false, false, ray.cascade, ivec3(0), 0u, query.range);
+    sdfgi_trace_hit result =
+        sdfgi_trace_hit(false, false, false, ray.cascade, ivec3(0), ivec3(0), 0u, query.range);
     if (end != SDFGI_TRACE_MISS) {
         result.hit = true;
         result.distance = sdfgi_trace_length(ray);
@@ -203,7 +205,7 @@ sdfgi_trace_hit sdfgi_trace_result(sdfgi_trace_query query, sdfgi_trace_state ra
     }
     if (end == SDFGI_TRACE_HIT) {
         result.axis = sdfgi_trace_face(ray.axis, ray.dir);
-        result.cell = ray.cell;
+        result.cell = result.solid = ray.cell;
     }
     return result;
 }
@@ -314,6 +316,7 @@ sdfgi_trace_hit sdfgi_trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 
             sdfgi_trace_path(ray.origin, ray.inv_dir, ray.base, -ray.travelled / ray.scale);
         result.has_cell = sdfgi_trace_light_cell(ray.cascade, path, ray.axis, result.cell);
         result.cell += ray.base;
+        result.solid += ray.base;
     }
     return result;
 }

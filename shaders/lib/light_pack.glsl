@@ -13,6 +13,7 @@
 #ifndef SDFGI_LIGHT_PACK_GLSL
 #define SDFGI_LIGHT_PACK_GLSL
 
+#include "random.glsl"
 #include "rgbe.glsl"
 
 float sdfgi_light_luminance(vec3 color)
@@ -37,7 +38,7 @@ float sdfgi_light_mean_above(float levels[6], float least)
 
 uvec2 sdfgi_light_pack(vec3 axes[6], uint hash)
 {
-    const float rounding = float(hash >> 8u) / 16777216.0;
+    const float rounding = sdfgi_random_unit(hash);
     vec3 total = vec3(0.0);
     float levels[6], brightest = 0.0;
     for (int a = 0; a < 6; a++) {

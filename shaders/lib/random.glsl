@@ -11,6 +11,12 @@ uint sdfgi_random_hash(uint v)
     return (word >> 22u) ^ word;
 }
 
+/* A hash as a number in [0, 1). */
+float sdfgi_random_unit(uint hash)
+{
+    return float(hash >> 8u) * (1.0 / 16777216.0);
+}
+
 uint sdfgi_random_hash3(ivec3 v, uint seed)
 {
     return sdfgi_random_hash(
@@ -23,6 +29,15 @@ vec2 sdfgi_random_r2(uint index, uint shift)
 {
     const uvec2 p = uvec2(3242174889u, 2447445414u) * index + uvec2(shift, sdfgi_random_hash(shift));
     return vec2(p >> 8u) * (1.0 / 16777216.0);
+}
+
+/* Point `index` of the R3 sequence likewise, in [0, 1)^3. */
+vec3 sdfgi_random_r3(uint index, uint shift)
+{
+    const uint second = sdfgi_random_hash(shift);
+    const uvec3 p = uvec3(3518319155u, 2882110345u, 2360945575u) * index +
+                    uvec3(shift, second, sdfgi_random_hash(second));
+    return vec3(p >> 8u) * (1.0 / 16777216.0);
 }
 
 #endif

@@ -39,6 +39,10 @@ float likeness(vec3 a, vec3 b, float noise)
     return exp(-4.0 * difference * difference);
 }
 
+/* Most that a neighbour counts. A surface has about one cell in each of the eight columns around, so that a
+ * cell which all of them resemble becomes their mean with itself. */
+const float SHARE = 1.0 / 9.0;
+
 uint raw_word(uint cascade, uint axis, uint entry)
 {
     return sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + axis, entry)];
@@ -78,7 +82,7 @@ void main()
             if (word >= SDFGI_SURFACE_UNKNOWN)
                 continue;
             const vec3 a = sdfgi_rgbe_decode(own[axis]), b = sdfgi_rgbe_decode(word);
-            gained[axis] += likeness(a, b, both) / 9.0 * (b - a);
+            gained[axis] += SHARE * likeness(a, b, both) * (b - a);
         }
     }
     for (uint axis = 0u; axis < 6u; axis++) {

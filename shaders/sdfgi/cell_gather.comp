@@ -3,11 +3,17 @@
  * distributed by the cosine about the surface's normal, and adds the mean of what they meet to the cell's
  * sums. A ray reads what leaves the surface that it hits, or the sky. All bounces go from cell to cell.
  *
+ * Where the cascade lists emitters, SDFGI_VISIT_EMITTER_RAYS more rays go towards points of them. An emitter
+ * is chosen with a probability that follows how much light the cell may get from it (Shirley et al. 1996,
+ * "Monte Carlo techniques for direct lighting calculations"). Both kinds of rays bring a share of the light
+ * of what is listed, so nothing counts twice.
+ *
  * A workgroup visits SDFGI_VISIT_CELLS cells of the cascade gl_WorkGroupID.y. Its threads share the rays of
  * all their surfaces. A surface adds its rays in order, so that sums do not depend on which thread sent which
- * ray. Shared memory: 7 KiB. */
+ * ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "emitters.glsl"
 #include "gathered.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../include/sdfgi_trace.glsl"
@@ -20,6 +26,8 @@ layout(push_constant) uniform sdfgi_push
 };
 
 const uint CELLS = uint(SDFGI_VISIT_CELLS), RAYS = uint(SDFGI_VISIT_RAYS), THREADS = 64u;
+const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMITTER_RAYS;
+const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
 
 shared ivec3 cells[CELLS];
 shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not there */
@@ -27,28 +35,143 @@ shared gathered_state states[CELLS]; /* with which the visits begin */
 shared uint changes[CELLS];          /* float bits: how far a mean has changed */
 shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
-shared uvec2 found[6u * CELLS * RAYS]; /* per ray: radiance, and 1 if it is known */
+shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
+shared float importance[CELLS * PARTS];     /* per cell and part of the list: sums over emitters */
 
 uint entry_of(uint own)
 {
     return args.first[gl_WorkGroupID.y] + gl_WorkGroupID.x * CELLS + own;
 }
 
-/* Light at the end of a ray: 0 in a if the surface that it hit has no light cell. */
-vec4 ray_light(uint cascade, vec3 pos, vec3 dir)
+/* What rays of a surface need to know of it. */
+struct ray_source {
+    uint own;         /* its cell's index in `cells` */
+    vec3 pos, normal; /* pos: in the open, within the cell and close to the surface */
+    vec3 surface;     /* where the surface is */
+    uint visits;      /* so far in this cycle */
+    uint shift;       /* of its random sequences */
+};
+
+/* Cells. So far from all surfaces rays start at least: closer, those of a slanted surface would meet its own
+ * steps. Rays from the cell's centre saw a wall beside it from half a cell away; the indirect light of rooms
+ * was up to 2 % too bright. */
+const float RAY_CLEARANCE = 0.4;
+
+ray_source source_of(uint cascade, uint surface)
 {
-    const sdfgi_trace_hit hit = sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
-    if (!hit.hit)
-        return vec4(
-            sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground),
-            1.0);
-    if (!hit.has_cell)
-        return vec4(0.0);
-    uint entry;
-    if (!sdfgi_cell_entry(hit.cascade, hit.cell, entry))
-        return vec4(0.0);
-    return vec4(sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(hit.cascade, entry, hit.axis)]), 1.0);
+    const uint own = surface / 6u, axis = surface % 6u;
+    const ivec3 cell = cells[own];
+    const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(axis));
+    const uint shift = sdfgi_random_hash(light_cell_hash(cascade, cell) + 6u * sdfgi_frame.seed + axis);
+    const float distance = sdfgi_cell_distance(cascade, cell), depth = clamp(distance, 0.5, 1.0);
+    const vec3 centre = vec3(cell) + 0.5, towards = -vec3(sdfgi_axis_direction(axis));
+    return ray_source(own, centre + towards * clamp(distance - RAY_CLEARANCE, 0.0, 0.49),
+                      surface_normal(block, axis), centre + towards * depth, states[own].visits, shift);
 }
+
+/* ---- Emitters */
+
+uint first_of_part(uint part, uint count)
+{
+    return part * count / PARTS;
+}
+
+/* Sums the importance of a part of the cascade's emitters for a cell. */
+float sum_part(uint cascade, uint own, uint part)
+{
+    const uint count = emitter_count(cascade);
+    float sum = 0.0;
+    for (uint i = first_of_part(part, count); i < first_of_part(part + 1u, count); i++)
+        sum += emitter_importance(emitter_load(cascade, i), vec3(cells[own]) + 0.5);
+    return sum;
+}
+
+float sum_of_parts(uint own)
+{
+    float sum = 0.0;
+    for (uint part = 0u; part < PARTS; part++)
+        sum += importance[own * PARTS + part];
+    return sum;
+}
+
+/* Chooses an emitter by its importance for a cell: the one in which `place`, of the sum of all, lies. `place`
+ * then tells where in it, 0 to 1. `chance` is the probability of the choice; false if there is nothing to
+ * choose. */
+bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
+{
+    const float total = sum_of_parts(own);
+    float rest = place * total;
+    uint part = 0u;
+    for (; part < PARTS - 1u && rest >= importance[own * PARTS + part]; part++)
+        rest -= importance[own * PARTS + part];
+    const uint end = first_of_part(part + 1u, emitter_count(cascade));
+    float share = 0.0;
+    for (uint i = first_of_part(part, emitter_count(cascade)); i < end; i++) {
+        rest -= share;
+        chosen = emitter_load(cascade, i);
+        share = emitter_importance(chosen, vec3(cells[own]) + 0.5);
+        if (rest < share)
+            break;
+    }
+    place = clamp(rest / max(share, 1e-30), 0.0, 1.0);
+    chance = share / max(total, 1e-30);
+    return share > 0.0;
+}
+
+/* How much of an emitter's light rays towards emitters bring; the others bring the rest. The balance
+ * heuristic (Veach and Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering"):
+ * shares follow how densely each kind of ray meets the emitter. */
+float share_of_emitter_rays(emitter e, float chance, vec3 dir, float range, float cosine)
+{
+    const float nearest = max(range, EMITTER_NEAR), shown = emitter_area_towards(e, -dir);
+    const float towards = float(EMITTER_RAYS) * chance * nearest * nearest,
+                at_random = float(RAYS) * max(cosine, 0.0) / 3.14159265 * shown;
+    return towards / max(towards + at_random, 1e-30);
+}
+
+/* Light that a surface gets from the emitters, by one ray. */
+vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
+{
+    vec3 place = sdfgi_random_r3(source.visits * EMITTER_RAYS + ray, source.shift);
+    emitter chosen;
+    float chance;
+    if (!choose_emitter(cascade, source.own, place.x, chosen, chance))
+        return vec4(0.0);
+    const emitter_point point = emitter_point_at(chosen, source.surface, place);
+    const vec3 light = emitter_light(chosen, source.surface, source.normal, point.inside);
+    /* The ray starts in the open, and goes on through the emitter's box. */
+    const vec3 offset = sdfgi_metric_from_cells(point.face - source.pos);
+    const float range = max(length(offset), 1e-3),
+                beyond = length(sdfgi_metric_from_cells(chosen.high - chosen.low));
+    const vec3 dir = offset / range;
+    /* Rays at random start in the open, too: what they cannot meet does not count here either. */
+    const float cosine = dot(source.normal, dir);
+    if (light == vec3(0.0) || cosine <= 0.0)
+        return vec4(0.0);
+    const sdfgi_trace_hit hit = sdfgi_trace_solid(cascade, cascade, source.pos, dir, range + beyond);
+    if (hit.hit && !emitter_is_hit(chosen, hit, range))
+        return vec4(0.0);
+    const float share = share_of_emitter_rays(chosen, chance, dir, range, cosine);
+    return vec4(light * (share / chance), 1.0);
+}
+
+/* Emission of what a ray at random has hit. Rays towards emitters bring a share of it if it is listed. */
+vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit)
+{
+    if (!surfaces_emit())
+        return vec3(0.0);
+    const uint block = surface_block_index(hit.cascade, hit.solid);
+    const vec3 emission = surface_emission(block, hit.axis);
+    if (emission == vec3(0.0) || hit.cascade != cascade || !surface_is_listed_emitter(block))
+        return emission;
+    const emitter e =
+        emitter_load(cascade, emitter_of_block(cascade, sdfgi_albedo_block_index(cascade, hit.solid)));
+    const float chance =
+        emitter_importance(e, vec3(cells[source.own]) + 0.5) / max(sum_of_parts(source.own), 1e-30);
+    return emission * (1.0 - share_of_emitter_rays(e, chance, dir, hit.distance, dot(source.normal, dir)));
+}
+
+/* ---- Rays at random */
 
 /* Direction of ray `index` of a cycle: points of one sequence in the unit square, shifted by a hash of the
  * cell, and mapped to the hemisphere so that their density follows the cosine. */
@@ -62,25 +185,61 @@ vec3 ray_direction(vec3 normal, uint index, uint shift)
     return radius * (cos(turn) * side + sin(turn) * up) + sqrt(max(1.0 - point.x, 0.0)) * normal;
 }
 
-/* Sends a ray of a surface, one of the visit's. */
-vec4 send_ray(uint cascade, uint surface, uint ray)
+/* Light at the end of a ray: 0 in a if the surface that it hit has no light cell. */
+vec4 send_random_ray(uint cascade, ray_source source, vec3 dir)
 {
-    const uint own = surface / 6u, axis = surface % 6u;
-    const ivec3 cell = cells[own];
-    const uint block = surface_block_index(cascade, cell - surface_axis_direction(axis));
-    const uint shift = sdfgi_random_hash(light_cell_hash(cascade, cell) + 6u * sdfgi_frame.seed + axis);
-    const vec3 dir = ray_direction(surface_normal(block, axis), states[own].visits * RAYS + ray, shift);
-    return ray_light(cascade, vec3(cell) + 0.5, dir);
+    const sdfgi_trace_hit hit =
+        sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, source.pos, dir, 1e9);
+    if (!hit.hit)
+        return vec4(
+            sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground),
+            1.0);
+    if (!hit.has_cell)
+        return vec4(0.0);
+    uint entry;
+    if (!sdfgi_cell_entry(hit.cascade, hit.cell, entry))
+        return vec4(0.0);
+    const vec3 light = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(hit.cascade, entry, hit.axis)]);
+    return vec4(light + hit_emission(cascade, source, dir, hit), 1.0);
 }
 
-vec3 mean_of_rays(uint first)
+/* ---- A visit */
+
+/* Rays of a surface in a visit. */
+uint rays_of_visit(uint cascade)
+{
+    return emitter_count(cascade) > 0u ? MOST_RAYS : RAYS;
+}
+
+/* Sends a ray of the visits. Those at random come first, and then those towards emitters: neighbouring
+ * threads mostly do the same. Returns which surface's ray it is, and which of its rays. */
+vec4 send_ray(uint cascade, uint i, out uint of_surface, out uint ray)
+{
+    const uint at_random = surface_count * RAYS;
+    const bool to_emitter = i >= at_random;
+    of_surface = to_emitter ? (i - at_random) / EMITTER_RAYS : i / RAYS;
+    ray = to_emitter ? RAYS + (i - at_random) % EMITTER_RAYS : i % RAYS;
+    const uint surface = surfaces[of_surface];
+    const ray_source source = source_of(cascade, surface);
+    if (to_emitter)
+        return send_emitter_ray(cascade, source, ray - RAYS);
+    return send_random_ray(cascade, source,
+                           ray_direction(source.normal, source.visits * RAYS + ray, source.shift));
+}
+
+/* The mean of what the rays of a surface have found, and of what those towards emitters have. */
+vec3 light_of_rays(uint first, uint rays)
 {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < RAYS; i++) {
+    vec3 emitters = vec3(0.0);
+    for (uint i = 0u; i < rays; i++) {
         const vec4 ray = sdfgi_half4_decode(found[first + i]);
-        sum += vec4(ray.rgb * ray.a, ray.a);
+        if (i < RAYS)
+            sum += vec4(ray.rgb * ray.a, ray.a);
+        else
+            emitters += ray.rgb;
     }
-    return sum.rgb / max(sum.a, 1.0);
+    return sum.rgb / max(sum.a, 1.0) + emitters / float(EMITTER_RAYS);
 }
 
 /* The state with which a visit begins: under new lights a cycle begins anew. */
@@ -154,6 +313,8 @@ void end_visit(uint cascade, uint own)
     gathered_store_state(cascade, entry_of(own), state);
     if (changes[own] != 0u)
         atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_CHANGE + cascade], changes[own]);
+    if (uintBitsToFloat(changes[own]) >= SDFGI_SMALL_CHANGE)
+        counter_add(SDFGI_COUNTER_CELLS_CHANGING + cascade, 1u);
 }
 
 /* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */
@@ -189,14 +350,20 @@ void find_surfaces(uint cascade)
 void main()
 {
     const uint cascade = gl_WorkGroupID.y, lane = gl_LocalInvocationIndex;
+    const uint rays = rays_of_visit(cascade);
     find_surfaces(cascade);
     barrier();
-    for (uint i = lane; i < surface_count * RAYS; i += THREADS)
-        found[i] = sdfgi_half4_encode(
-            sdfgi_half4_round(min(send_ray(cascade, surfaces[i / RAYS], i % RAYS), vec4(65504.0))));
+    for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
+        importance[i] = sum_part(cascade, i / PARTS, i % PARTS);
+    barrier();
+    for (uint i = lane; i < surface_count * rays; i += THREADS) {
+        uint of_surface, ray;
+        const vec4 light = send_ray(cascade, i, of_surface, ray);
+        found[of_surface * rays + ray] = sdfgi_half4_encode(sdfgi_half4_round(min(light, vec4(65504.0))));
+    }
     barrier();
     for (uint i = lane; i < surface_count; i += THREADS)
-        add_visit(cascade, surfaces[i], mean_of_rays(i * RAYS));
+        add_visit(cascade, surfaces[i], light_of_rays(i * rays, rays));
     barrier();
     if (lane < CELLS && facing[lane] != 0u)
         end_visit(cascade, lane);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Per light cell, and per axis along which a surface faces: the irradiance that arrives, which lookups read;
- * and outgoing radiance, that is, direct light, the surface's emission, and the irradiance times bounce gain.
+ * and outgoing radiance, that is, direct light, and the irradiance times bounce gain. Emission is not part of
+ * it: whoever reads outgoing light adds that of the surface which a ray hits.
  * A thread per light cell that args names, in the cascade args.cascade + gl_WorkGroupID.y. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -80,10 +81,10 @@ void main()
     for (uint a = 0u; a < 6u; a++) {
         uint arriving = SDFGI_SURFACE_NONE;
         if ((facing >> a & 1u) != 0u) {
-            const uint block = surface_block_index(cascade, cell - surface_axis_direction(a));
+            const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(a));
             const surface_light light = light_arriving(cascade, entry, cell, a, surface_normal(block, a));
-            axes[a] = sdfgi_light_unpack_axis(direct, a) + surface_emission(block, a) +
-                      bounce_gain(surface_albedo(block)) * light.estimate;
+            axes[a] =
+                sdfgi_light_unpack_axis(direct, a) + bounce_gain(surface_albedo(block)) * light.estimate;
             arriving = light.known ? min(sdfgi_rgbe_encode(light.displayed), SDFGI_SURFACE_UNKNOWN - 1u)
                                    : SDFGI_SURFACE_UNKNOWN;
             if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
@@ -95,7 +96,7 @@ void main()
             sdfgi_surfaces[sdfgi_surface_index(cascade, entry, a)] = arriving;
     }
     light_fill_axes(facing, axes);
-    const float rounding = float(light_cell_hash(cascade, cell) >> 8u) / 16777216.0;
+    const float rounding = sdfgi_random_unit(light_cell_hash(cascade, cell));
     for (uint a = 0u; a < 6u; a++)
         sdfgi_light[sdfgi_surface_index(cascade, entry, a)] = sdfgi_rgbe_encode_rounded(axes[a], rounding);
 }

@@ -51,7 +51,7 @@ void light_cell_store_direct(uint slot, uvec2 light)
 /* True if a surface of the cell faces along an axis: the neighbour behind it is occupied. */
 bool light_cell_faces(uint cascade, ivec3 cell, uint axis)
 {
-    const ivec3 behind = cell - surface_axis_direction(axis);
+    const ivec3 behind = cell - sdfgi_axis_direction(axis);
     return sdfgi_cell_is_valid(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
 }
 

@@ -9,6 +9,7 @@
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"
+#include "surface.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../lib/rgbe.glsl"
 #include "../lib/sky.glsl"
@@ -18,6 +19,28 @@ layout(local_size_x = SDFGI_GROUP_PROBE) in;
 const uint MAX_RAYS = 128u;
 shared vec4 ray_dir[MAX_RAYS]; /* w: solid angle, 0 if the light is not known */
 shared vec3 ray_light[MAX_RAYS];
+
+vec3 emission_behind(uint cascade, ivec3 cell, uint axis)
+{
+    return surface_emission(surface_block_index(cascade, cell - sdfgi_axis_direction(axis)), axis);
+}
+
+/* Emission of the surface at a light cell that faces along an axis. If none does, the mean of the others
+ * stands for it, as in light_fill_axes. */
+vec3 cell_emission(uint cascade, uint entry, ivec3 cell, uint axis)
+{
+    if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)] != SDFGI_SURFACE_NONE)
+        return emission_behind(cascade, cell, axis);
+    vec3 sum = vec3(0.0);
+    float count = 0.0;
+    for (uint other = 0u; other < 6u; other++) {
+        if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, other)] == SDFGI_SURFACE_NONE)
+            continue;
+        sum += emission_behind(cascade, cell, other);
+        count += 1.0;
+    }
+    return sum / max(count, 1.0);
+}
 
 /* Light at the end of a ray. False where it is not known, because the light list was too short for the cell
  * and has not grown yet: the ray then has no weight, so the history stands for it instead of black. */
@@ -35,6 +58,8 @@ bool hit_light(uint code, vec3 dir, out vec3 light)
     if (!sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, entry))
         return false;
     light = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(cascade, entry, axis)]);
+    if (surfaces_emit())
+        light += cell_emission(cascade, entry, sdfgi_cell_from_texel(cascade, texel), axis);
     return true;
 }
 

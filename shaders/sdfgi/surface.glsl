@@ -21,7 +21,8 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 /* x: RGB9E5 mean radiance of the block, seen from the side on which it emits most, in units of the scene's
- * brightest emission. y: 5 bits per axis, the fraction of that radiance which leaves along this axis. */
+ * brightest emission. y: 5 bits per axis, the fraction of that radiance which leaves along this axis, and
+ * SURFACE_IS_LISTED. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
 {
@@ -38,13 +39,7 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 const uint SURFACE_NO_NORMAL = 31u;
-
-/* Unit vector of axis 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. */
-ivec3 surface_axis_direction(uint axis)
-{
-    const uint major = axis >> 1u;
-    return ivec3(major == 0u, major == 1u, major == 2u) * ((axis & 1u) == 0u ? 1 : -1);
-}
+const uint SURFACE_IS_LISTED = 0x80000000u; /* the block is in its cascade's list of emitters */
 
 /* Mean unit normal of the triangles whose dominant axis is `axis`, turned to that side. False if the block
  * has no such triangles. */
@@ -52,7 +47,7 @@ bool surface_class_normal(uint packed, uint axis, out vec3 normal)
 {
     const uint major = axis >> 1u;
     const uint slopes = packed >> (10u * major);
-    normal = vec3(surface_axis_direction(axis));
+    normal = vec3(sdfgi_axis_direction(axis));
     if ((slopes & 31u) == SURFACE_NO_NORMAL)
         return false;
     const vec2 slope = vec2(slopes & 31u, slopes >> 5u & 31u) / 15.0 - 1.0;
@@ -70,7 +65,7 @@ vec3 surface_normal(uint block, uint axis)
     vec3 normal;
     if (surface_class_normal(packed, axis, normal))
         return normal;
-    const vec3 towards = vec3(surface_axis_direction(axis));
+    const vec3 towards = vec3(sdfgi_axis_direction(axis));
     vec3 best = towards;
     float best_height = 0.2;
     for (uint other = 0u; other < 6u; other += 2u) {
@@ -89,6 +84,17 @@ vec3 surface_normal(uint block, uint axis)
 vec3 surface_albedo(uint block)
 {
     return unpackUnorm4x8(sdfgi_albedo[block]).rgb;
+}
+
+/* False if nothing in the scene emits: the emission of blocks need not be read. */
+bool surfaces_emit()
+{
+    return sdfgi_frame.emission_scale > 0.0;
+}
+
+bool surface_is_listed_emitter(uint block)
+{
+    return (sdfgi_emission[block].y & SURFACE_IS_LISTED) != 0u;
 }
 
 /* Emitted radiance times exposure towards `axis`. */

@@ -5,7 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_SURFACE
+#define SDFGI_WRITES_EMITTERS
+#include "block_slices.glsl"
 #include "dirty_bounds.glsl"
+#include "emitters.glsl"
 #include "surface.glsl"
 #include "workgroup.glsl"
 
@@ -44,60 +47,34 @@ uint resolve_normals(uint block)
     return packed;
 }
 
-/* ---- Slices. An albedo block is a cube of 8x8x8 sub-voxels. Along an axis it has eight slices of 8x8
- * sub-voxels, one for each depth, and a slice fits the 64 bits of a uvec2. The slices of an axis are equal
- * arrangements of bits, so that bitwise operations compare sub-voxels that lie behind one another. */
-
 /* Per cell (bit 0 of the index: x, bit 1: y, bit 2: z) its occupancy bits, and its emissive bits. */
 uvec2 block_bits[8];
 uvec2 block_emissive[8];
 
-/* The 16 sub-voxels of a cell at a depth along an axis. Where they lie in the two words depends on the axis:
- * every fourth bit along x, every fourth group of four bits along y, and the low half of one word along z. */
-uvec2 slice_of_cell(uvec2 bits, int axis, int depth)
-{
-    if (axis == 0)
-        return bits >> uint(depth) & 0x11111111u;
-    if (axis == 1)
-        return bits >> uint(4 * depth) & 0x000f000fu;
-    return uvec2((depth < 2 ? bits.x : bits.y) >> uint(16 * (depth & 1)) & 0xffffu, 0u);
-}
+/* What one side of the block shows. */
+struct side_view {
+    uint seen, emits; /* visible sub-voxels, and those of them that emit */
+    float depth;      /* mean depth of the latter behind the side, in sub-voxels */
+};
 
-/* The 64 sub-voxels of a block at a depth along an axis. Four cells lie side by side there, and each is
- * shifted to bits that the slices of the others leave free. */
-uvec2 slice_of_block(uvec2 cells[8], int axis, int depth)
-{
-    const int depth_of_cell = depth >> 2, depth_in_cell = depth & 3;
-    const int first = depth_of_cell << axis; /* then the next cells along the other two axes */
-    const int u = axis == 0 ? 2 : 1, v = axis == 2 ? 2 : 4;
-    const uvec2 a = slice_of_cell(cells[first], axis, depth_in_cell);
-    const uvec2 b = slice_of_cell(cells[first + u], axis, depth_in_cell);
-    const uvec2 c = slice_of_cell(cells[first + v], axis, depth_in_cell);
-    const uvec2 d = slice_of_cell(cells[first + u + v], axis, depth_in_cell);
-    if (axis == 0)
-        return a | b << 1u | c << 2u | d << 3u;
-    if (axis == 1)
-        return a | b << 4u | c << 8u | d << 12u;
-    return uvec2(a.x | b.x << 16u, c.x | d.x << 16u);
-}
-
-/* Fraction of the sub-voxels visible from one side of the block that emit. Of 64 lines of sight along the
- * axis each sees the first set sub-voxel that it meets. An emitter a sub-voxel before a wall, or on one side
- * of it, therefore keeps its power whatever lies behind it. `side` is +x -x +y -y +z -z, and a constant where
- * loops are unrolled. */
-float visible_emissive(uint side)
+/* Of 64 lines of sight along the axis each sees the first set sub-voxel that it meets. An emitter a sub-voxel
+ * before a wall, or on one side of it, therefore keeps its power whatever lies behind it. `side` is +x -x +y
+ * -y +z -z, and a constant where loops are unrolled. */
+side_view view_from(uint side)
 {
     const int axis = int(side >> 1u);
-    uvec2 hidden = uvec2(0u), emissive = uvec2(0u);
+    uvec2 hidden = uvec2(0u);
+    uint emits = 0u, depths = 0u;
     [[unroll]] for (int i = 0; i < 8; i++)
     {
         const int depth = (side & 1u) == 0u ? 7 - i : i;
         const uvec2 solid = slice_of_block(block_bits, axis, depth);
-        emissive |= solid & slice_of_block(block_emissive, axis, depth) & ~hidden;
+        const uint first = slice_count(solid & slice_of_block(block_emissive, axis, depth) & ~hidden);
+        emits += first;
+        depths += first * uint(i);
         hidden |= solid;
     }
-    const ivec2 seen = bitCount(hidden), emits = bitCount(emissive);
-    return seen.x + seen.y > 0 ? float(emits.x + emits.y) / float(seen.x + seen.y) : 0.0;
+    return side_view(slice_count(hidden), emits, float(depths) / float(max(emits, 1u)));
 }
 
 /* ---- Emission */
@@ -132,6 +109,45 @@ int load_block(uvec3 block_texel)
     return count;
 }
 
+/* What the six sides show of an emitter. */
+struct emitter_view {
+    uint facing;     /* a bit per side from which emission is seen */
+    float depths[6]; /* as in side_view */
+    float projected; /* sum of the areas that emit */
+};
+
+/* True if an emitter fills its box badly: it lies deep behind a face, like a room's corner in which floor and
+ * walls emit. */
+bool is_hollow(emitter_view view, uvec3 low, uvec3 high)
+{
+    bool hollow = false;
+    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    {
+        const uint axis = side >> 1u, face = (side & 1u) == 0u ? 7u - high[axis] : low[axis];
+        const float behind = view.depths[side] - float(face),
+                    half_width = 0.5 * float(high[axis] - low[axis] + 1u);
+        hollow = hollow || ((view.facing >> side & 1u) != 0u && behind > half_width);
+    }
+    return hollow;
+}
+
+/* Where the block's emissive sub-voxels are, and the emitters' own area over what the sides show. */
+void store_emitter_shape(uint block, emitter_view view)
+{
+    if (sdfgi_frame.lists_emitters == 0u)
+        return;
+    uvec3 low, high;
+    [[unroll]] for (int axis = 0; axis < 3; axis++)
+    {
+        const uvec2 bounds = slices_bounds(block_emissive, axis);
+        low[axis] = bounds.x;
+        high[axis] = bounds.y;
+    }
+    const float area = float(accumulated(SDFGI_ACCUM_EMISSION_AREA, block)) / SDFGI_EMISSION_STEPS;
+    const float fill = is_hollow(view, low, high) ? 0.0 : area / max(view.projected, 1e-6);
+    sdfgi_emitters[emitter_shape_word(args.cascade, block)] = emitter_shape_pack(low, high, fill);
+}
+
 /* Emission of the brightest side as RGB9E5, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, uvec3 block_texel)
 {
@@ -142,18 +158,28 @@ uvec2 resolve_emission(uint block, uvec3 block_texel)
     const int bits = load_block(block_texel);
     if (covered == 0.0)
         return uvec2(0u);
+    const float of_emissive = covered_fraction(covered, bits, facing);
+    emitter_view view;
+    view.facing = facing;
+    view.projected = 0.0;
     float fractions[6], largest = 0.0;
     [[unroll]] for (uint side = 0u; side < 6u; side++)
     {
-        fractions[side] = (facing >> side & 1u) != 0u ? visible_emissive(side) : 0.0;
+        side_view shown = side_view(0u, 0u, 0.0);
+        if ((facing >> side & 1u) != 0u)
+            shown = view_from(side);
+        fractions[side] = float(shown.emits) / float(max(shown.seen, 1u));
         largest = max(largest, fractions[side]);
+        view.depths[side] = shown.depth;
+        view.projected += of_emissive * float(shown.emits) * slices_column_area(int(side >> 1u));
     }
+    store_emitter_shape(block, view);
     /* Relative to the largest, because that of a lamp in a thousandth of its block would round to 0. */
     uint packed = 0u;
     for (uint side = 0u; side < 6u && largest > 0.0; side++)
         packed |= uint(round(31.0 * fractions[side] / largest)) << (5u * side);
     const vec3 mean = accumulated3(SDFGI_ACCUM_EMISSION, block) / covered;
-    return uvec2(sdfgi_rgbe_encode(mean * covered_fraction(covered, bits, facing) * largest), packed);
+    return uvec2(sdfgi_rgbe_encode(mean * of_emissive * largest), packed);
 }
 
 /* ---- Blocks */

@@ -339,6 +339,14 @@ float triangle_coverage(triangle t, ivec2 column)
     return 0.5 * abs(area);
 }
 
+/* Area of the triangle that emits, over the cross-section of the column that it covers. */
+float emitting_area(triangle t, uint flags)
+{
+    const float column = t.axis == 1 ? 1.0 : sdfgi_space_y_scale();
+    const float sides = (flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u ? 2.0 : 1.0;
+    return sides * column / max(abs(t.normal[t.axis]), 0.1);
+}
+
 /* Adds the emission of the part of a column that an emitter covers, even if it sets no sub-voxel there. */
 void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
 {
@@ -349,6 +357,7 @@ void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
     for (uint i = 0u; i < 3u; i++)
         accumulate(SDFGI_ACCUM_EMISSION + i, block, emission[i]);
     accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered + 0.5));
+    accumulate(SDFGI_ACCUM_EMISSION_AREA, block, uint(covered * emitting_area(t, s.flags) + 0.5));
 }
 
 /* Sets an emissive bit, and notes which sides the emission is seen from. `cell` is an index within the

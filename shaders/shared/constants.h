@@ -71,6 +71,17 @@
 #define SDFGI_VISIT_RAYS   16
 #define SDFGI_VISIT_CELLS  8
 
+/* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
+#define SDFGI_SMALL_CHANGE (1.0 / 512.0)
+
+/* Emitters: an albedo block in which something emits. A cascade lists so many at most; words of one in the
+ * list, and of the list of a cascade: see sdfgi/emitters.glsl. */
+#define SDFGI_MAX_EMITTERS    256
+#define SDFGI_EMITTER_WORDS   8
+#define SDFGI_EMITTERS_STRIDE (8 + SDFGI_EMITTER_WORDS * SDFGI_MAX_EMITTERS)
+/* Rays that a visit sends from a light cell along one axis towards listed emitters. */
+#define SDFGI_VISIT_EMITTER_RAYS 4
+
 /* Bounce gain is capped below 1, so that light between white surfaces converges (HARD_CASES row 34). */
 #define SDFGI_MAX_BOUNCE_GAIN 0.95
 
@@ -88,6 +99,7 @@
 #define SDFGI_GROUP_PROBE       32  /* threads that share one probe */
 #define SDFGI_GROUP_RAYS        128 /* one thread per ray of a frame, or threads that share a probe's rays */
 #define SDFGI_GROUP_OCCLUSION   64  /* threads that share one probe's 256 depths */
+#define SDFGI_GROUP_EMITTERS    128 /* threads that list the emitters of a cascade */
 #define SDFGI_GROUP_PIXELS      8   /* 8x8: one thread per pixel */
 
 /* gather_sparse: a workgroup looks up so many samples, one a thread, and fills the squares between them. Its
@@ -102,7 +114,8 @@
 #define SDFGI_ACCUM_EMISSION_COVERED 6 /* area that emitters cover of columns, in 1/SDFGI_EMISSION_STEPS */
 #define SDFGI_ACCUM_EMISSION_FACING  7 /* a bit per axis +x -x +y -y +z -z from which emission is seen */
 #define SDFGI_ACCUM_NORMAL           8 /* per dominant axis 3 planes: count, sums of two slopes */
-#define SDFGI_ACCUM_PLANES           17
+#define SDFGI_ACCUM_EMISSION_AREA    17 /* the emitters' own area, in 1/SDFGI_EMISSION_STEPS */
+#define SDFGI_ACCUM_PLANES           18
 #define SDFGI_EMISSION_STEPS         65535.0
 #define SDFGI_SLOPE_STEPS            127.0
 

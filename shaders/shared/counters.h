@@ -23,7 +23,9 @@
 #define SDFGI_COUNTER_LIGHT_DIRTY 24
 /* Per cascade: float bits of the largest relative change of a light cell over a gather cycle. */
 #define SDFGI_COUNTER_CELL_CHANGE 32
-#define SDFGI_COUNTER_COUNT       40
+/* Per cascade: light cells that changed by SDFGI_SMALL_CHANGE or more over a gather cycle. */
+#define SDFGI_COUNTER_CELLS_CHANGING 40
+#define SDFGI_COUNTER_COUNT          48
 
 /* X(id, cleared, health): the counters that are not per cascade.
  *   cleared  CHANGE: in a frame that voxelises anything; CYCLE: then, and at the start of every sample cycle

@@ -9,6 +9,8 @@
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
  * - Light list (light_mark, _list, _direct, _bounce, cell_mask): light blocks, rows and entries, see
  *   light_blocks.glsl.
+ * - Emitters (emitter_mark, _list): their number, and from word SDFGI_SCRATCH_EMITTERS on the indices of
+ *   their blocks, in any order.
  * - Ray queue (ray_list, probe_trace): a word per ray of the frame. */
 #ifndef SDFGI_SHARED_SCRATCH_H
 #define SDFGI_SHARED_SCRATCH_H
@@ -56,6 +58,8 @@ SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
 {
     return 2u << (3u * bits);
 }
+
+#define SDFGI_SCRATCH_EMITTERS 4
 
 /* Light list: eight words per light block (4^3 cells) from word 0, then two per row of SDFGI_GROUP_LINEAR
  * blocks. */

@@ -114,7 +114,8 @@ static void read_back(struct drive *d)
         sdfgi_accumulation_add_known(&d->state.accumulation, slot->feedback.ended_cycle, d->change, 1);
     for (uint32_t c = 0; c < d->state.cascades.count; c++)
         if (slot->feedback.ended_gathers[c] > 0)
-            sdfgi_gathering_add_known(&d->state.gathering, c, slot->feedback.ended_gathers[c], d->change);
+            sdfgi_gathering_add_known(&d->state.gathering, c, slot->feedback.ended_gathers[c],
+                                      &(struct gather_change){ .most = d->change });
     memset(slot, 0, sizeof *slot);
 }
 
@@ -139,6 +140,7 @@ void drive_plan(const struct drive *d, struct frame *frame)
                                        .counters = d->counters,
                                        .lists = lists_of(d),
                                        .list_grew = d->list_grew,
+                                       .emitters_added = d->emitters_added,
                                        .threads_per_ray = SDFGI_GROUP_SURFACES };
     sdfgi_frame_plan(frame, &input);
 }
@@ -150,13 +152,15 @@ void drive_commit(struct drive *d)
     slot->feedback = sdfgi_frame_feedback(&d->frame);
     memcpy(slot->counters + SDFGI_COUNTER_LIGHT_CELLS, d->light_cells, sizeof d->light_cells);
     sdfgi_journal_clear(&d->journal);
-    d->list_grew = false;
+    d->list_grew = d->emitters_added = false;
 }
 
 void drive_begin_frame(struct drive *d)
 {
     d->frames++;
     read_back(d);
+    d->emitters_added = d->scene.emission_unit > 0 && !d->extent.emits;
+    d->extent.emits = d->extent.emits || d->emitters_added;
 }
 
 void drive_frame(struct drive *d)

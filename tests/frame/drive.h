@@ -29,6 +29,7 @@ struct drive {
     uint32_t light_cells[SDFGI_MAX_CASCADES]; /* in each list, from the next frame on */
     float change;                             /* of light, in the sample cycles that end from now on */
     bool list_grew;                           /* the light lists are empty before the next frame */
+    bool emitters_added;                      /* the emitter lists are new in this frame */
     struct frame frame;                       /* the newest */
 };
 

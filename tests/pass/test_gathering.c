@@ -2,6 +2,8 @@
  * Which light cells gather in a frame, without a device. */
 #include "volume/gathering.h"
 
+#include "shaders/shared/constants.h"
+
 #include "require.h"
 
 enum { CASCADES = 3, ENTRIES = 1000, VISITS = 32, ROUGH = 8 };
@@ -39,11 +41,17 @@ static uint32_t cells_of(const struct scene *s, uint32_t cascade)
     return cells;
 }
 
-/* All cascades end a cycle in which light has changed by so much. */
+/* All cascades end a cycle in which the light of so many cells has changed by so much. */
+static void end_cycles_of(struct scene *s, float change, uint32_t changing)
+{
+    const struct gather_change found = { change, changing, ENTRIES };
+    for (uint32_t c = 0; c < CASCADES; c++)
+        sdfgi_gathering_add_known(&s->gathering, c, s->gathering.at[c].cycle, &found);
+}
+
 static void end_cycles(struct scene *s, float change)
 {
-    for (uint32_t c = 0; c < CASCADES; c++)
-        sdfgi_gathering_add_known(&s->gathering, c, s->gathering.at[c].cycle, change);
+    end_cycles_of(s, change, change >= SDFGI_SMALL_CHANGE ? 1 : 0);
 }
 
 static void near_cascades_get_most_of_the_budget(void **state)
@@ -105,6 +113,22 @@ static void cycles_grow_long_when_light_changes_little(void **state)
     REQUIRE_TRUE(!sdfgi_gathering_has_settled(&s.gathering, CASCADES));
 }
 
+/* A white room: all cells change, a little in each cycle. */
+static void cycles_stay_rough_while_many_cells_change(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    for (int i = 0; i < 64; i++) {
+        take(&s, 100);
+        REQUIRE_CMP(s.ranges[0].visits, ==, (uint32_t)ROUGH);
+        s.gathering.at[0].cycle++;
+        end_cycles_of(&s, 0.02f, ENTRIES / 8 + 1);
+    }
+    take(&s, 100);
+    REQUIRE_CMP(s.ranges[0].visits, ==, (uint32_t)VISITS);
+}
+
 /* Rough cycles that change nothing do not settle: long ones must follow. */
 static void settle(struct scene *s)
 {
@@ -112,7 +136,7 @@ static void settle(struct scene *s)
         REQUIRE_TRUE(!sdfgi_gathering_has_settled(&s->gathering, CASCADES));
         for (uint32_t c = 0; c < CASCADES; c++)
             s->gathering.at[c].cycle++;
-        end_cycles(s, 0.001f);
+        end_cycles(s, 0.0005f);
     }
     REQUIRE_TRUE(sdfgi_gathering_has_settled(&s->gathering, CASCADES));
 }
@@ -169,6 +193,7 @@ int main(void)
         cmocka_unit_test(a_sweep_visits_each_cell_once),
         cmocka_unit_test(a_cycle_ends_with_its_last_visit),
         cmocka_unit_test(cycles_grow_long_when_light_changes_little),
+        cmocka_unit_test(cycles_stay_rough_while_many_cells_change),
         cmocka_unit_test(settled_cells_get_no_rays_until_light_changes),
         cmocka_unit_test(one_cascade_that_has_settled_leaves_its_share_to_others),
         cmocka_unit_test(lights_that_change_in_every_frame_begin_an_epoch_now_and_then),

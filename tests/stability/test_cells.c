@@ -107,7 +107,7 @@ static uint32_t *read_surfaces(struct gi_test *t, uint32_t *count)
     return surfaces;
 }
 
-/* Of a room with a lamp, once light has settled. */
+/* Of a room with a lamp: after some frames if surfaces are asked for, or else once light has settled. */
 static void light_lamp_room(uint32_t rays_per_frame, float found[POINT_COUNT][3], uint32_t **surfaces,
                             uint32_t *count)
 {
@@ -117,7 +117,10 @@ static void light_lamp_room(uint32_t rays_per_frame, float found[POINT_COUNT][3]
     open_room(&t, &settings, 0.5f, 0);
     const struct sdfgi_light_desc lamp = light_point(0.2, 0.9, 0.1, 5);
     light_create(&t, &lamp);
-    gi_test_converge(&t, 1200);
+    if (surfaces)
+        gi_test_update(&t, 40);
+    else
+        gi_test_converge(&t, 1200);
     look(&t, found);
     if (surfaces)
         *surfaces = read_surfaces(&t, count);
@@ -137,6 +140,47 @@ static void the_same_input_gives_the_same_bits(void **state)
     REQUIRE_BYTES(surfaces[0], surfaces[1], counts[0] * sizeof *surfaces[0]);
     free(surfaces[0]);
     free(surfaces[1]);
+}
+
+/* RGB9E5. */
+static double green(uint32_t packed)
+{
+    return ldexp(packed >> 9 & 511, (int)(packed >> 27) - 24);
+}
+
+/* What the filter has changed, and what it has left of the sum of all cells' light. */
+static void the_filter_smooths_and_keeps_the_sum(void **state)
+{
+    (void)state;
+    enum { FIRST_RAW_PLANE = 19 };
+    struct gi_test t;
+    const struct sdfgi_settings settings = cell_settings();
+    open_room(&t, &settings, 0.5f, 0);
+    const struct sdfgi_light_desc lamp = light_point(0.2, 0.9, 0.1, 5);
+    light_create(&t, &lamp);
+    gi_test_update(&t, 12);
+    const uint64_t room = t.gi->volume.resources->extent.light_cells;
+    uint32_t *counters = gi_test_read(&t, RESOURCE_COUNTERS, NULL),
+             *surfaces = gi_test_read(&t, RESOURCE_SURFACES, NULL),
+             *gathered = gi_test_read(&t, RESOURCE_GATHERED, NULL);
+    double raw = 0, filtered = 0, moved = 0;
+    for (uint64_t axis = 0; axis < 6; axis++)
+        for (uint32_t i = 0; i < counters[SDFGI_COUNTER_LIGHT_CELLS]; i++) {
+            const uint32_t before = gathered[(FIRST_RAW_PLANE + axis) * room + i],
+                           after = surfaces[axis * room + i];
+            if (before >= SDFGI_SURFACE_UNKNOWN)
+                continue;
+            raw += green(before);
+            filtered += green(after);
+            moved += fabs(green(after) - green(before));
+        }
+    printf("sum %.4f before the filter, %.4f after, %.4f moved\n", raw, filtered, moved);
+    REQUIRE_NEAR(filtered / raw, 1, 0.001);
+    REQUIRE_CMP(moved / raw, >=, 0.02);
+    free(counters);
+    free(surfaces);
+    free(gathered);
+    gi_test_close(&t);
 }
 
 /* A budget that visits all cells in a frame, and one that takes several frames. */
@@ -207,6 +251,7 @@ int main(void)
         cmocka_unit_test(a_furnace_of_albedo_four_fifths_is_exact),
         cmocka_unit_test(light_in_a_room_settles_and_then_nothing_is_recorded),
         cmocka_unit_test(the_same_input_gives_the_same_bits),
+        cmocka_unit_test(the_filter_smooths_and_keeps_the_sum),
         cmocka_unit_test(settled_light_does_not_depend_on_the_budget),
         cmocka_unit_test(a_lamp_that_goes_off_is_followed_at_once),
         cmocka_unit_test(a_sealed_room_is_dark_under_the_sun),

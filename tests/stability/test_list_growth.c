@@ -80,7 +80,7 @@ static struct outcome run_with_room(void)
     gi_test_converge(&t, 200);
     REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, 0ul);
     struct outcome o = take(&t);
-    REQUIRE_CMP(o.room, ==, 6 * 32 * 32ul);
+    REQUIRE_CMP(o.room, ==, 23 * 32 * 32ul / 4);
     gi_test_close(&t);
     return o;
 }

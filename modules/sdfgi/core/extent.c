@@ -4,9 +4,9 @@
 #include "shaders/shared/constants.h"
 #include "shaders/shared/scratch.h"
 
-/* Light cells that a list has room for at first, in layers of n^2 cells: surfaces grow with the square of the
- * resolution. The sample world's village has 5.3. */
-#define LIGHT_CELL_LAYERS 6
+/* Light cells that a list has room for at first, in quarters of a layer of n^2 cells: surfaces grow with the
+ * square of the resolution. The sample world's village has 5.3 layers. */
+#define LIGHT_CELL_QUARTER_LAYERS 23
 
 /* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades. With the defaults a
  * cascade takes just under 64 MiB, scratch included, and 99 MiB with the longest list. */
@@ -84,6 +84,11 @@ void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells)
     extent->scratch = scratch_size(extent);
 }
 
+uint32_t sdfgi_extent_visit_rays(const struct extent *extent)
+{
+    return SDFGI_VISIT_RAYS + (extent->emits ? SDFGI_VISIT_EMITTER_RAYS : 0);
+}
+
 struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
 {
     const uint64_t n = settings->resolution, side = n / SDFGI_PROBE_SPACING + 1;
@@ -99,7 +104,7 @@ struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
         .occlusion = 1,
         .gathers = sdfgi_settings_cycle_visits(settings) > 0,
     };
-    sdfgi_extent_set_light_cells(&e, LIGHT_CELL_LAYERS * n * n);
+    sdfgi_extent_set_light_cells(&e, LIGHT_CELL_QUARTER_LAYERS * n * n / 4);
     if (settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
         e.occlusion = e.probes * e.cascades * SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE;
     return e;

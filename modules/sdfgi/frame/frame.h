@@ -19,6 +19,7 @@ struct frame_input {
     const uint32_t *counters; /* of the newest finished frame */
     struct light_lists lists;
     bool list_grew;           /* the light lists are empty now */
+    bool emitters_added;      /* the emitter lists are new, and hold anything */
     uint32_t threads_per_ray; /* of light_direct: few threads at once should not idle */
 };
 

@@ -37,6 +37,11 @@ static bool needs_list(const struct situation *s)
     return s->completes || s->list_grew;
 }
 
+static bool needs_emitters(const struct situation *s)
+{
+    return s->completes && s->lists_emitters;
+}
+
 static bool needs_exact(const struct situation *s)
 {
     return s->distances_due && !s->flood;
@@ -120,6 +125,8 @@ static const struct need_row needs[NEED_COUNT] = {
                     "no change completes in this frame, or nothing of before is left" },
     [NEED_LIST] = { needs_list, "surfaces in a cascade changed, or the light list grew",
                     "no change completes in this frame, and the light list did not grow" },
+    [NEED_EMITTERS] = { needs_emitters, "surfaces in a cascade changed, and a material emits",
+                        "no material emits, or no change completes in this frame" },
     [NEED_EXACT] = { needs_exact, "a change calls for distances and sdfgi_sdf_method is exact",
                      "sdfgi_sdf_method is flood, or no distances are due" },
     [NEED_FLOOD] = { needs_flood, "a change calls for distances and sdfgi_sdf_method is flood",

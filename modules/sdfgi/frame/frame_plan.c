@@ -127,7 +127,8 @@ static void plan_gathering(struct frame *frame, const struct frame_input *input)
         return;
     frame->gather_count =
         sdfgi_gathering_take(&next->gathering, &next->relight, &input->lists,
-                             input->settings->cell_rays_per_frame / SDFGI_VISIT_RAYS, visits, frame->gathers);
+                             input->settings->cell_rays_per_frame / sdfgi_extent_visit_rays(&input->extent),
+                             visits, frame->gathers);
     frame->situation.gathers = ranges_hold_cells(frame);
     frame->situation.gathering = next->accumulation.phase >= LIGHTING_RUNNING;
 }
@@ -157,7 +158,7 @@ static void plan_methods(struct situation *s, const struct sdfgi_settings *setti
 static void plan_uploads(struct frame *frame, const struct frame_input *input,
                          const struct situation_needs *needs)
 {
-    const struct params_input params_input = { input->settings, input->scene, input->extent.light_cells };
+    const struct params_input params_input = { input->settings, input->scene, &input->extent };
     struct sdfgi_frame_params params;
     sdfgi_params_fill(&params, &frame->next, &params_input);
     if (memcmp(&params, &frame->next.params, sizeof params) != 0)
@@ -183,6 +184,7 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
     memset(frame, 0, sizeof *frame);
     frame->next = *input->state;
     frame->situation.list_grew = input->list_grew;
+    frame->situation.lists_emitters = input->extent.emits;
     take_input(frame, input);
     plan_scroll(frame, input);
     plan_cycle(frame, input);

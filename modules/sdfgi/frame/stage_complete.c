@@ -26,6 +26,15 @@ static void clear_list(const struct plan_stage *stage)
                          4 * (uint64_t)sdfgi_scratch_light_before(bits));
 }
 
+/* The emitters of a cascade, before the light list takes the scratch buffer. */
+static void list_emitters(const struct plan_stage *stage, uint32_t c)
+{
+    if (!stage->needs->holds[NEED_EMITTERS])
+        return;
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0, 4 * SDFGI_SCRATCH_EMITTERS);
+    sdfgi_stage_add_phase(stage, PHASE_EMITTERS, &(struct plan_target){ .cascade = c });
+}
+
 /* Where light cells are: blocks that have none are not written. */
 static void clear_blocks(const struct plan_stage *stage, uint32_t c)
 {
@@ -90,6 +99,8 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
     const bool completes = sdfgi_cascade_completes(&stage->frame->next.cascades.at[c]);
     const struct plan_target target = { .cascade = c };
     const union work_args mask = { .cascade = { c } };
+    if (completes)
+        list_emitters(stage, c);
     clear_list(stage);
 
     const uint32_t first = sdfgi_stage_begin_group(stage);

@@ -102,8 +102,9 @@ static void add_probe_trace(const struct plan_stage *stage)
 
 static void clear_change(const struct plan_stage *stage, const struct gather_range *range)
 {
-    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS,
-                         4 * (SDFGI_COUNTER_CELL_CHANGE + range->cascade), 4);
+    static const uint32_t counters[] = { SDFGI_COUNTER_CELL_CHANGE, SDFGI_COUNTER_CELLS_CHANGING };
+    for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (counters[i] + range->cascade), 4);
 }
 
 /* Rays of light cells. */
@@ -118,7 +119,7 @@ static void gather(const struct plan_stage *stage)
     fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count);
     for (uint32_t i = 0; i < frame->gather_count; i++)
         args->visits[frame->gathers[i].cascade] = frame->gathers[i].visits;
-    work->units *= SDFGI_VISIT_RAYS;
+    work->units *= sdfgi_extent_visit_rays(&stage->input->extent);
 }
 
 /* This frame's rays, and then some direct light. */

@@ -88,6 +88,10 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
     case DOMAIN_CELLS:
         work->units = e->cells;
         break;
+    case DOMAIN_BLOCKS:
+    case DOMAIN_CASCADE:
+        work->units = e->blocks;
+        break;
     case DOMAIN_INSTANCES: /* the recorder counts triangles */
         break;
     case DOMAIN_LIGHT_CELLS:

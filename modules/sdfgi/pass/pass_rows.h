@@ -24,6 +24,7 @@ enum need {
     NEED_COMPLETE,
     NEED_SEED,
     NEED_LIST,
+    NEED_EMITTERS,
     NEED_EXACT,
     NEED_FLOOD,
     NEED_OCCLUSION,
@@ -44,6 +45,7 @@ enum need {
 enum pass_phase {
     PHASE_VOXELS,    /* for each box whose voxels are due */
     PHASE_DISTANCES, /* for each range of layers whose distances are due */
+    PHASE_EMITTERS,  /* for each cascade that a change completes, before its light list is written */
     PHASE_MARK,      /* for each cascade whose light list is written; beside PLACE */
     PHASE_PLACE,     /* for each cascade that a change completes */
     PHASE_LIST,      /* as MARK, afterwards */

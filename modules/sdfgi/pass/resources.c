@@ -179,51 +179,80 @@ void sdfgi_resources_retire(struct backend *backend, struct resources *resources
         gpu_retire(&backend->retired, &resources->retired, destroy, backend);
 }
 
-/* ---- The light list grows */
+/* ---- Buffers that grow */
 
 /* What is as long as the light list, or grows with it. */
 static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_LIGHT, RESOURCE_SURFACES,
                                         RESOURCE_GATHERED, RESOURCE_SCRATCH };
-enum { LISTED = sizeof listed / sizeof *listed };
+/* What is there only if something emits. */
+static const enum resource emitting[] = { RESOURCE_EMITTERS };
 
-/* What the longer list replaces. */
-struct old_list {
+enum { MAX_GROWN = sizeof listed / sizeof *listed };
+
+/* What larger buffers replace. */
+struct outgrown {
     struct gpu_retired retired;
-    struct gpu_buffer buffers[LISTED];
+    const enum resource *which;
+    uint32_t count;
+    struct gpu_buffer buffers[MAX_GROWN];
     VkDescriptorPool pool;
 };
 
-_Static_assert(offsetof(struct old_list, retired) == 0, "destroy_list() finds the list by its first member");
+_Static_assert(offsetof(struct outgrown, retired) == 0,
+               "destroy_outgrown() finds the buffers by their first member");
 
-static void destroy_list(struct gpu_retired *item, void *user)
+static void destroy_outgrown(struct gpu_retired *item, void *user)
 {
     struct backend *backend = user;
-    struct old_list *old = (struct old_list *)item;
-    for (int i = 0; i < LISTED; i++)
-        sdfgi_backend_buffer_finish(backend, &old->buffers[i], sdfgi_resource_row(listed[i])->category);
+    struct outgrown *old = (struct outgrown *)item;
+    for (uint32_t i = 0; i < old->count; i++)
+        sdfgi_backend_buffer_finish(backend, &old->buffers[i], sdfgi_resource_row(old->which[i])->category);
     backend->device.fn.DestroyDescriptorPool(backend->device.handle, old->pool, backend->device.callbacks);
     sdfgi_hooks_free(&backend->hooks, old);
 }
 
-static VkResult create_list(struct backend *backend, struct old_list *list, const struct extent *extent,
-                            VkDescriptorSet sets[static RESOURCE_SET_COUNT])
+static VkResult create_grown(struct backend *backend, struct outgrown *grown, const struct extent *extent,
+                             VkDescriptorSet sets[static RESOURCE_SET_COUNT])
 {
     VkResult result = VK_SUCCESS;
-    for (int i = 0; i < LISTED && result == VK_SUCCESS; i++)
-        result = create_buffer(backend, &list->buffers[i], listed[i], extent);
-    return result == VK_SUCCESS ? create_sets(backend, &list->pool, sets) : result;
+    for (uint32_t i = 0; i < grown->count && result == VK_SUCCESS; i++)
+        result = create_buffer(backend, &grown->buffers[i], grown->which[i], extent);
+    return result == VK_SUCCESS ? create_sets(backend, &grown->pool, sets) : result;
 }
 
-static void exchange_list(struct resources *r, struct old_list *list)
+static void exchange(struct resources *r, struct outgrown *grown)
 {
-    for (int i = 0; i < LISTED; i++) {
-        const struct gpu_buffer buffer = list->buffers[i];
-        list->buffers[i] = r->buffers[listed[i]];
-        r->buffers[listed[i]] = buffer;
+    for (uint32_t i = 0; i < grown->count; i++) {
+        const struct gpu_buffer buffer = grown->buffers[i];
+        grown->buffers[i] = r->buffers[grown->which[i]];
+        r->buffers[grown->which[i]] = buffer;
     }
-    const VkDescriptorPool pool = list->pool;
-    list->pool = r->pool;
+    const VkDescriptorPool pool = grown->pool;
+    grown->pool = r->pool;
     r->pool = pool;
+}
+
+/* Makes some buffers anew with another extent. False, and nothing changes, if there is no memory. */
+static bool grow(struct backend *backend, struct resources *r, const struct extent *extent,
+                 const enum resource *which, uint32_t count)
+{
+    /* Made as what is to be destroyed, and exchanged for the old ones. */
+    struct outgrown *grown = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *grown);
+    if (!grown)
+        return false;
+    grown->which = which;
+    grown->count = count;
+    VkDescriptorSet sets[RESOURCE_SET_COUNT];
+    if (create_grown(backend, grown, extent, sets) != VK_SUCCESS) {
+        destroy_outgrown(&grown->retired, backend);
+        return false;
+    }
+    exchange(r, grown);
+    memcpy(r->sets, sets, sizeof sets);
+    r->extent = *extent;
+    write_sets(backend, r);
+    gpu_retire(&backend->retired, &grown->retired, destroy_outgrown, backend);
+    return true;
 }
 
 bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources *r, uint64_t light_cells)
@@ -231,21 +260,14 @@ bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources 
     assert(light_cells > r->extent.light_cells && light_cells <= r->extent.light_cells_max);
     struct extent extent = r->extent;
     sdfgi_extent_set_light_cells(&extent, light_cells);
-    /* Made as what is to be destroyed, and exchanged for the old ones. */
-    struct old_list *list = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *list);
-    if (!list)
-        return false;
-    VkDescriptorSet sets[RESOURCE_SET_COUNT];
-    if (create_list(backend, list, &extent, sets) != VK_SUCCESS) {
-        destroy_list(&list->retired, backend);
-        return false;
-    }
-    exchange_list(r, list);
-    memcpy(r->sets, sets, sizeof sets);
-    r->extent = extent;
-    write_sets(backend, r);
-    gpu_retire(&backend->retired, &list->retired, destroy_list, backend);
-    return true;
+    return grow(backend, r, &extent, listed, MAX_GROWN);
+}
+
+bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *r)
+{
+    struct extent extent = r->extent;
+    extent.emits = true;
+    return grow(backend, r, &extent, emitting, sizeof emitting / sizeof *emitting);
 }
 
 /* ---- The blank set */

@@ -36,6 +36,9 @@ void sdfgi_resources_retire(struct backend *backend, struct resources *resources
  * sets with them. Changes nothing and returns false if memory is short. */
 bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources *resources,
                                       uint64_t light_cells);
+/* Adds what only scenes need in which something emits; it is not cleared. Changes nothing and returns false
+ * if memory is short. */
+bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *resources);
 
 /* The LOOKUP set of a context that has no light to show: every lookup is black. At most 64 KiB, and no
  * command. */

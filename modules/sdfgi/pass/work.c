@@ -68,6 +68,10 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return in_rows(groups_for(sdfgi_cell_box_cells(&work->box), group));
     case DOMAIN_CELLS:
         return (struct work_groups){ n / group, n / group, n / group };
+    case DOMAIN_BLOCKS:
+        return in_rows(groups_for(e->blocks, group));
+    case DOMAIN_CASCADE:
+        return (struct work_groups){ 1, 1, 1 };
     case DOMAIN_DISTANCE_ROWS:
         return (struct work_groups){ n * n / group + n / 4 * work->count, 1, 1 };
     case DOMAIN_DISTANCE_LAYERS:

@@ -27,7 +27,11 @@ static void read_counters(struct volume *volume, const struct feedback_slot *slo
     for (uint32_t c = 0; c < volume->state.cascades.count; c++)
         if (slot->ended_gathers[c] > 0)
             sdfgi_gathering_add_known(&volume->state.gathering, c, slot->ended_gathers[c],
-                                      float_of(counters[SDFGI_COUNTER_CELL_CHANGE + c]));
+                                      &(struct gather_change){
+                                          .most = float_of(counters[SDFGI_COUNTER_CELL_CHANGE + c]),
+                                          .changing = counters[SDFGI_COUNTER_CELLS_CHANGING + c],
+                                          .cells = counters[SDFGI_COUNTER_LIGHT_CELLS + c],
+                                      });
 }
 
 static void read_times(struct volume *volume, uint32_t index)

@@ -5,9 +5,10 @@
  * up two visits. */
 #define EPOCH_FRAMES 16
 
-/* The largest relative change of a light cell, from one cycle to the next, of light that has settled. Stored
- * radiance is rounded by that much. */
-#define SETTLED_CHANGE (1.0f / 512.0f)
+/* The largest relative change of a light cell, from one cycle to the next, of light that has settled: a unit
+ * of the half floats that hold means, and a little. With a loop gain of 0.95 the light still missing is 1.9
+ * %. */
+#define SETTLED_CHANGE (1.01f / 1024.0f)
 
 void sdfgi_gathering_init(struct gathering *gathering)
 {
@@ -24,9 +25,11 @@ void sdfgi_gathering_outdate(struct gathering *gathering)
     gathering->epoch_over = true;
 }
 
-/* As long as light changes much from cycle to cycle, cycles are rough: light makes a bounce in each. */
-#define ROUGH_CHANGE (1.0f / 64.0f)
-#define ROUGH_CYCLES 3 /* at most: in a large scene some light somewhere changes for long */
+/* Cycles are rough at first, as long as light changes much; and further, as long as many cells change, as in
+ * a white room, where light makes many bounces. In a large scene some light somewhere changes for long. */
+#define ROUGH_CHANGE      (1.0f / 64.0f)
+#define FIRST_CYCLES      3
+#define MOST_ROUGH_CYCLES 64
 
 static uint32_t visits_of(const struct gather_cursor *cursor, uint32_t cycle_visits)
 {
@@ -98,16 +101,24 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
     return count;
 }
 
-void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t cycle, float change)
+static bool stays_rough(const struct gather_cursor *cursor, const struct gather_change *change)
+{
+    if (cursor->rough_cycles < FIRST_CYCLES)
+        return change->most >= ROUGH_CHANGE;
+    return change->changing > change->cells / 8 && cursor->rough_cycles < MOST_ROUGH_CYCLES;
+}
+
+void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t cycle,
+                               const struct gather_change *change)
 {
     struct gather_cursor *cursor = &gathering->at[c];
     if (cycle <= cursor->invalid_cycle)
         return;
-    sdfgi_convergence_add(&cursor->convergence, change);
-    const bool done = change < SETTLED_CHANGE || sdfgi_convergence_done(&cursor->convergence);
+    sdfgi_convergence_add(&cursor->convergence, change->most);
+    const bool done = change->most < SETTLED_CHANGE || sdfgi_convergence_done(&cursor->convergence);
     cursor->settled = done && !cursor->rough;
     cursor->rough_cycles += cursor->rough;
-    if (!cursor->rough || (change >= ROUGH_CHANGE && cursor->rough_cycles < ROUGH_CYCLES))
+    if (!cursor->rough || stays_rough(cursor, change))
         return;
     cursor->rough = false;
     cursor->invalid_cycle = cursor->cycle;

@@ -3,9 +3,9 @@
  *
  * A sweep visits each entry of a cascade's light list once. A gather cycle takes as many sweeps as a cell has
  * visits in a cycle: few after the lights have changed, because light makes a bounce in each cycle, and more
- * once it changes little. Near cascades get most of a frame's rays: each gets half of what is left, and the
- * last one all of it. A cascade whose light changes no more from cycle to cycle has settled, and gets none.
- * Plain data.
+ * once most of the light changes little. Near cascades get most of a frame's rays: each gets half of what is
+ * left, and the last one all of it. A cascade whose light changes no more from cycle to cycle has settled,
+ * and gets none. Plain data.
  */
 #ifndef SDFGI_GATHERING_H
 #define SDFGI_GATHERING_H
@@ -39,6 +39,12 @@ struct gather_range {
     uint32_t visits;     /* of a cell in a cycle */
 };
 
+/* What a cycle of a cascade has changed. */
+struct gather_change {
+    float most;               /* largest relative change of a light cell */
+    uint32_t changing, cells; /* light cells that changed by SDFGI_SMALL_CHANGE or more, and all of them */
+};
+
 void sdfgi_gathering_init(struct gathering *gathering);
 /* The lights are others: what cells have gathered is outdated. */
 void sdfgi_gathering_outdate(struct gathering *gathering);
@@ -49,7 +55,8 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
                               const struct light_lists *lists, uint32_t cells, uint32_t cycle_visits,
                               struct gather_range ranges[static SDFGI_MAX_CASCADES]);
 /* A cycle that ended came back from the GPU. */
-void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle, float change);
+void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle,
+                               const struct gather_change *change);
 /* True if the cells of all cascades have settled. */
 bool sdfgi_gathering_has_settled(const struct gathering *gathering, uint32_t cascades);
 

@@ -121,7 +121,8 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     p->exposure_inverse = 1.0f / state->exposure;
     p->emission_scale = input->scene->emission_unit * state->exposure;
     p->light_count = input->scene->lights.count;
-    p->light_cell_room = (uint32_t)input->light_cell_room;
+    p->light_cell_room = (uint32_t)input->extent->light_cells;
+    p->lists_emitters = input->extent->emits;
     p->seed = state->seed;
     fill_cycle(p, state, input->settings);
 }

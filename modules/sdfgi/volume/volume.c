@@ -85,6 +85,18 @@ bool sdfgi_volume_make_room(struct volume *volume)
     return false;
 }
 
+bool sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
+{
+    if (!scene_emits || volume->resources->extent.emits || volume->feedback.emitters_refused)
+        return false;
+    if (sdfgi_resources_add_emitters(volume->backend, volume->resources))
+        return true;
+    volume->feedback.emitters_refused = true;
+    sdfgi_message_log(&volume->backend->hooks, SDFGI_MESSAGE_OUT_OF_DEVICE_MEMORY,
+                      "sdfgi_update: no memory for lists of emitters: light of small lamps will be noisy");
+    return false;
+}
+
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume)
 {
     struct light_lists lists = { .cascades = volume->state.cascades.count,

@@ -45,6 +45,7 @@ struct feedback {
     uint32_t counters[SDFGI_COUNTER_COUNT]; /* of the newest finished frame */
     struct feedback_time times[PASS_COUNT];
     uint64_t light_cells_refused; /* light cells for which there was no room; 0: there always was */
+    bool emitters_refused;        /* there was no memory for the emitter lists */
 };
 
 struct volume {
@@ -73,6 +74,9 @@ void sdfgi_volume_read_back(struct volume *volume, uint32_t slot);
 /* Makes the light lists longer where the newest counters say that they were too short. Returns true if they
  * are empty now and have to be written again. */
 bool sdfgi_volume_make_room(struct volume *volume);
+/* Makes the emitter lists as soon as something emits. Returns true if they are there now and hold nothing of
+ * use. */
+bool sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
 /* The lists as far as counters know them. */
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume);
 
@@ -80,7 +84,7 @@ struct light_lists sdfgi_volume_light_lists(const struct volume *volume);
 struct params_input {
     const struct sdfgi_settings *settings;
     const struct scene *scene;
-    uint64_t light_cell_room;
+    const struct extent *extent;
 };
 void sdfgi_params_fill(struct sdfgi_frame_params *params, const struct volume_state *state,
                        const struct params_input *input);

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT
+ * Emitters: albedo blocks in which something emits. A cascade lists those that emit most, and light cells
+ * send rays towards them, because few rays at random meet a small lamp. An emitter counts as the box around
+ * its emissive sub-voxels. Per axis it has the area that emits along it. */
+#ifndef SDFGI_EMITTERS_GLSL
+#define SDFGI_EMITTERS_GLSL
+
+#include "surface.glsl"
+#include "../include/sdfgi_trace.glsl"
+#include "../lib/light_pack.glsl"
+
+#ifdef SDFGI_WRITES_EMITTERS
+#define SDFGI_ACCESS_EMITTERS
+#else
+#define SDFGI_ACCESS_EMITTERS readonly
+#endif
+
+/* Per cascade: the number of listed emitters; from word 8 on the list, SDFGI_EMITTER_WORDS each, in the order
+ * of their blocks; from word SDFGI_EMITTERS_STRIDE on the shape of each block that emits. */
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_EMITTERS) SDFGI_ACCESS_EMITTERS buffer sdfgi_emitters_buffer
+{
+    uint sdfgi_emitters[];
+};
+
+/* Word of the number of a cascade's emitters. */
+uint emitter_count_word(uint cascade)
+{
+    return cascade * (uint(SDFGI_EMITTERS_STRIDE) + sdfgi_albedo_block_count());
+}
+
+uint emitter_shape_word(uint cascade, uint block)
+{
+    return emitter_count_word(cascade) + uint(SDFGI_EMITTERS_STRIDE) + block;
+}
+
+/* The words of an emitter: its block, its shape, RGB9E5 radiance, the areas along the six axes as half
+ * floats, and the power that its axes emit in all. */
+uint emitter_word(uint cascade, uint i)
+{
+    return emitter_count_word(cascade) + 8u + uint(SDFGI_EMITTER_WORDS) * i;
+}
+
+uint emitter_count(uint cascade)
+{
+    return sdfgi_frame.lists_emitters != 0u ? sdfgi_emitters[emitter_count_word(cascade)] : 0u;
+}
+
+/* Bounds of sub-voxels in the block, both included, 3 bits per axis, and `fill` in 14 bits: the emitters' own
+ * area over the sum of the areas that the block's six sides see. It is 1 for a level square or for a box, and
+ * 2/3 for a sphere; more belongs to what no side sees. 0 stands for an emitter that its box does not
+ * describe, and that is not to be listed. */
+uint emitter_shape_pack(uvec3 low, uvec3 high, float fill)
+{
+    return low.x | low.y << 3u | low.z << 6u | high.x << 9u | high.y << 12u | high.z << 15u |
+           uint(round(clamp(fill, 0.0, 1.0) * 16383.0)) << 18u;
+}
+
+float emitter_shape_fill(uint shape)
+{
+    return float(shape >> 18u) / 16383.0;
+}
+
+/* The place of a listed block in the list of a cascade. */
+uint emitter_of_block(uint cascade, uint block)
+{
+    uint first = 0u, count = emitter_count(cascade);
+    while (count > 1u) {
+        const uint half_count = count / 2u;
+        if (sdfgi_emitters[emitter_word(cascade, first + half_count)] <= block)
+            first += half_count;
+        count -= half_count;
+    }
+    return first;
+}
+
+struct emitter {
+    vec3 low, high; /* corners, in cells */
+    uint radiance;  /* RGB9E5, in units of the scene's brightest emission */
+    float areas[6]; /* in squares of a cell's width */
+    float power;    /* luminance of the radiance times the sum of the areas */
+};
+
+emitter emitter_load(uint cascade, uint i)
+{
+    const uint word = emitter_word(cascade, i), block = sdfgi_emitters[word],
+               shape = sdfgi_emitters[word + 1u];
+    const uint bits = sdfgi_frame.resolution_log2 - 1u, mask = (1u << bits) - 1u;
+    const uvec3 texel = 2u * (uvec3(block, block >> bits, block >> (2u * bits)) & mask);
+    const vec3 corner = vec3(sdfgi_cell_from_texel(cascade, texel));
+    emitter e;
+    e.low = corner + vec3(uvec3(shape, shape >> 3u, shape >> 6u) & 7u) / float(SDFGI_SUBVOXELS);
+    e.high =
+        corner + vec3((uvec3(shape >> 9u, shape >> 12u, shape >> 15u) & 7u) + 1u) / float(SDFGI_SUBVOXELS);
+    e.radiance = sdfgi_emitters[word + 2u];
+    for (uint k = 0u; k < 3u; k++) {
+        const vec2 pair = unpackHalf2x16(sdfgi_emitters[word + 3u + k]);
+        e.areas[2u * k] = pair.x;
+        e.areas[2u * k + 1u] = pair.y;
+    }
+    e.power = uintBitsToFloat(sdfgi_emitters[word + 6u]);
+    return e;
+}
+
+/* Area that an emitter shows in a direction. */
+float emitter_area_towards(emitter e, vec3 dir)
+{
+    float area = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        area += abs(dir[axis]) * (dir[axis] > 0.0 ? e.areas[2 * axis] : e.areas[2 * axis + 1]);
+    return area;
+}
+
+/* Cells: from nearer than that light grows no more, because the place of surfaces is not known so closely. */
+const float EMITTER_NEAR = 0.5;
+
+/* About the light that a place may get from an emitter, and never 0 where a surface there gets any. */
+float emitter_importance(emitter e, vec3 pos)
+{
+    const vec3 offset = sdfgi_metric_from_cells(0.5 * (e.low + e.high) - pos);
+    const float radius = 0.5 * length(sdfgi_metric_from_cells(e.high - e.low));
+    const float range = max(length(offset), 1e-3), slack = (radius + 1.0) / range;
+    const float all_areas = e.areas[0] + e.areas[1] + e.areas[2] + e.areas[3] + e.areas[4] + e.areas[5];
+    const float shown = emitter_area_towards(e, -offset / range) / max(all_areas, 1e-12) + slack;
+    const float nearest = max(range, max(radius, EMITTER_NEAR));
+    return e.power * min(shown, 1.0) / (nearest * nearest);
+}
+
+/* A point of an emitter. */
+struct emitter_point {
+    vec3 face;   /* on a face of the box: whether it is seen tells whether the emitter is */
+    vec3 inside; /* where light comes from: the surface lies half a sub-voxel behind the face on average */
+};
+
+/* A point on those faces of an emitter's box that emit towards `from`; `place` is in [0, 1]^3. A face counts
+ * as much as it shows. */
+emitter_point emitter_point_at(emitter e, vec3 from, vec3 place)
+{
+    const vec3 offset = sdfgi_metric_from_cells(from - 0.5 * (e.low + e.high));
+    vec3 shown;
+    for (int axis = 0; axis < 3; axis++)
+        shown[axis] = abs(offset[axis]) * (offset[axis] > 0.0 ? e.areas[2 * axis] : e.areas[2 * axis + 1]);
+    float rest = place.x * (shown.x + shown.y + shown.z);
+    int axis = 0;
+    for (; axis < 2 && rest >= shown[axis]; axis++)
+        rest -= shown[axis];
+    vec3 point = vec3(clamp(rest / max(shown[axis], 1e-30), 0.0, 1.0), place.yz);
+    point = axis == 0 ? point.yxz : (axis == 1 ? point.xyz : point.xzy);
+    point[axis] = offset[axis] > 0.0 ? 1.0 : 0.0;
+    const vec3 face = mix(e.low, e.high, point);
+    vec3 inside = face;
+    inside[axis] += (offset[axis] > 0.0 ? -0.5 : 0.5) / float(SDFGI_SUBVOXELS);
+    return emitter_point(face, inside);
+}
+
+/* Irradiance over pi times exposure that a surface would get from an emitter, if all of it were seen and lay
+ * at `point`. */
+vec3 emitter_light(emitter e, vec3 pos, vec3 normal, vec3 point)
+{
+    const vec3 offset = sdfgi_metric_from_cells(point - pos);
+    const float range = max(length(offset), 1e-3), nearest = max(range, EMITTER_NEAR);
+    const vec3 dir = offset / range;
+    return sdfgi_rgbe_decode(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) *
+           emitter_area_towards(e, -dir) * max(dot(normal, dir), 0.0) / (nearest * nearest);
+}
+
+/* True if a ray that has hit something at `distance` met the emitter, towards a point on whose box it went,
+ * `range` away: in the box, unless the emitter emits to the other side alone. */
+bool emitter_is_hit(emitter e, sdfgi_trace_hit hit, float range)
+{
+    const float NEAR = 0.02;
+    return !hit.capped && hit.distance >= range - NEAR && e.areas[hit.axis] >= e.areas[hit.axis ^ 1u];
+}
+
+#endif

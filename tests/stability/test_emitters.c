@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT
+ * Emitters as lights: lamps over a floor whose light is known, whatever their size and number. */
+#include "light_scene.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Lamps hang at this height and shine downwards. */
+#define HEIGHT 2.02
+
+static struct sdfgi_settings emitter_settings(void)
+{
+    struct sdfgi_settings s = light_settings(32, 0.2f);
+    s.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    s.cell_rays = 256;
+    s.cell_rays_per_frame = 1 << 18;
+    s.bounce_feedback = 0;
+    return s;
+}
+
+static void add_lamp(struct gi_test *t, const double center[static 3], double side, double watts_per_sr)
+{
+    const double u[3] = { side / 2, 0, 0 }, v[3] = { 0, 0, side / 2 };
+    light_add(t, test_mesh_plane(center, u, v, 1), 0, (float)(watts_per_sr / (side * side)));
+}
+
+/* A floor whose top is at -0.05, in the middle of a sub-voxel. */
+static void add_floor(struct gi_test *t)
+{
+    light_add_box(t, (double[]){ -3, -0.6, -3 }, (double[]){ 3, -0.05, 3 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+}
+
+/* Irradiance on the floor of a square lamp over the origin: a sum over its parts. */
+static double lamp_irradiance(double side, double watts_per_sr, const float at[static 3])
+{
+    enum { PARTS = 16 };
+    double sum = 0;
+    for (int i = 0; i < PARTS * PARTS; i++) {
+        const double x = side * ((i % PARTS + 0.5) / PARTS - 0.5) - (double)at[0],
+                     z = side * (((double)(i / PARTS) + 0.5) / PARTS - 0.5) - (double)at[2],
+                     h = HEIGHT - (double)at[1], square = x * x + z * z + h * h;
+        sum += h * h / (square * square);
+    }
+    return watts_per_sr * sum / (PARTS * PARTS);
+}
+
+enum { POINTS = 5 };
+static const struct gi_test_point floor_points[POINTS] = {
+    { { 0, -0.05f, 0 }, { 0, 1, 0 } },        { { 0.5f, -0.05f, 0.3f }, { 0, 1, 0 } },
+    { { -1.1f, -0.05f, 0.7f }, { 0, 1, 0 } }, { { 1.1f, -0.05f, -1.2f }, { 0, 1, 0 } },
+    { { -1.3f, -0.05f, 0.1f }, { 0, 1, 0 } },
+};
+
+static void lamps_of_all_sizes_give_the_light_of_their_power(void **state)
+{
+    (void)state;
+    static const double sides[] = { 0.05, 0.2, 0.8 };
+    static struct gi_test t;
+    const struct sdfgi_settings settings = emitter_settings();
+    gi_test_open(&t, &settings);
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+        float found[POINTS][3];
+        gi_test_restart(&t, &settings);
+        add_floor(&t);
+        add_lamp(&t, (double[]){ 0, HEIGHT, 0 }, sides[i], 20);
+        gi_test_converge(&t, 400);
+        gi_test_irradiance(&t, floor_points, POINTS, found);
+        for (int k = 0; k < POINTS; k++) {
+            const double expected = lamp_irradiance(sides[i], 20, floor_points[k].position),
+                         ratio = (double)found[k][1] / expected;
+            printf("lamp of %.2f m, point %d: %.3f W/m^2, ratio %.3f\n", sides[i], k, expected, ratio);
+            REQUIRE_NEAR(ratio, 1, 0.03);
+        }
+    }
+    gi_test_close(&t);
+}
+
+/* A lamp with a lampshade: a box without a bottom, so that none of its light goes sideways or up. A second
+ * floor above it and the floor outside the cone stay black. */
+static void nothing_comes_through_a_lampshade(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = emitter_settings();
+    const float white[3] = { 0.5f, 0.5f, 0.5f };
+    gi_test_open(&t, &settings);
+    add_floor(&t);
+    add_lamp(&t, (double[]){ 0, HEIGHT, 0 }, 0.2, 20);
+    for (int side = 0; side < 4; side++) {
+        const double at = side % 2 ? -0.5 : 0.4, other = at + 0.1;
+        light_add_box(&t, (double[]){ side < 2 ? at : -0.5, 1.25, side < 2 ? -0.5 : at },
+                      (double[]){ side < 2 ? other : 0.5, 2.2, side < 2 ? 0.5 : other }, white, 0);
+    }
+    light_add_box(&t, (double[]){ -0.5, 2.1, -0.5 }, (double[]){ 0.5, 2.3, 0.5 }, white, 0);
+    gi_test_converge(&t, 400);
+    static const struct gi_test_point dark[] = {
+        { { 2.5f, -0.05f, 0.1f }, { 0, 1, 0 } },
+        { { 0.1f, 2.3f, 0.1f }, { 0, 1, 0 } },
+        { { 0.5f, 1.7f, 0.1f }, { 1, 0, 0 } },
+    };
+    float found[3][3];
+    gi_test_irradiance(&t, dark, 3, found);
+    for (int i = 0; i < 3; i++)
+        REQUIRE_CMP(found[i][1], ==, 0.0f);
+    const double below = light_white_at(&t, floor_points[0]);
+    REQUIRE_NEAR(below / lamp_irradiance(0.2, 20, floor_points[0].position), 1, 0.06);
+    gi_test_close(&t);
+}
+
+/* The number of emitters that cascade 0 lists. */
+static uint32_t listed(struct gi_test *t)
+{
+    uint32_t *words = gi_test_read(t, RESOURCE_EMITTERS, NULL);
+    const uint32_t count = words[0];
+    free(words);
+    return count;
+}
+
+/* Twice as many lamps as a list takes, of equal power: those that it leaves out light what random rays find,
+ * so that nothing is lost, and nothing counts twice. The ceiling of lamps is so dense that its light is even
+ * in the middle of the floor: pi L times the form factor of the square. */
+static void more_lamps_than_a_list_takes_lose_nothing(void **state)
+{
+    (void)state;
+    enum { SIDE = 24 }; /* lamps along a side, each in an albedo block of its own at a spacing of 0.4 m */
+    struct gi_test t;
+    struct sdfgi_settings settings = emitter_settings();
+    settings.min_cell_size_m = 0.1f;
+    settings.resolution = 64;
+    settings.cell_rays = 512;
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3, -1.5, -3 }, (double[]){ 3, -0.975, 3 }, (float[]){ 0.5f, 0.5f, 0.5f },
+                  0);
+    struct test_mesh lamps = { 0 };
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double center[3] = { 0.2 * (i % SIDE) - 0.2 * SIDE / 2 + 0.1, 1.0125,
+                                   0.2 * (double)(i / SIDE) - 0.2 * SIDE / 2 + 0.1 };
+        const double u[3] = { 0.05, 0, 0 }, v[3] = { 0, 0, 0.05 };
+        struct test_mesh lamp = test_mesh_plane(center, u, v, 1);
+        test_mesh_append(&lamps, &lamp);
+        test_mesh_destroy(&lamp);
+    }
+    light_add(&t, lamps, 0, 4);
+    gi_test_converge(&t, 600);
+    REQUIRE_CMP(listed(&t), <=, (uint32_t)SDFGI_MAX_EMITTERS);
+    REQUIRE_CMP(listed(&t), >, (uint32_t)SDFGI_MAX_EMITTERS / 2);
+    double expected = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double x = 0.2 * (i % SIDE) - 0.2 * SIDE / 2 + 0.1,
+                     z = 0.2 * (double)(i / SIDE) - 0.2 * SIDE / 2 + 0.1, h = 1.0125 + 0.975,
+                     square = x * x + z * z + h * h;
+        expected += 4 * 0.01 * h * h / (square * square);
+    }
+    double mean = 0;
+    for (int i = 0; i < 9; i++) {
+        const struct gi_test_point point = {
+            { 0.3f * (float)(i % 3 - 1), -0.975f, 0.3f * (float)(i / 3 - 1) }, { 0, 1, 0 }
+        };
+        mean += light_white_at(&t, point) / 9;
+    }
+    printf("%u lamps of %d listed: mean %.3f, expected at the centre %.3f\n", listed(&t), SIDE * SIDE, mean,
+           expected);
+    REQUIRE_NEAR(mean / expected, 1, 0.06);
+    gi_test_close(&t);
+}
+
+/* Where nothing emits there is no list: neither memory nor work. */
+static void nothing_is_there_where_nothing_emits(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    static struct sdfgi_report report;
+    const struct sdfgi_settings settings = emitter_settings();
+    uint64_t before, size;
+    gi_test_open(&t, &settings);
+    add_floor(&t);
+    light_set_uniform_sky(&t, 1);
+    gi_test_update(&t, 1);
+    sdfgi_get_report(t.gi, &report);
+    before = report.memory.total_bytes;
+    REQUIRE_TRUE(!report.passes[PASS_EMITTER_MARK].ran && !report.passes[PASS_EMITTER_LIST].ran);
+    free(gi_test_read(&t, RESOURCE_EMITTERS, &size));
+    REQUIRE_CMP(size, ==, 4ul);
+
+    add_lamp(&t, (double[]){ 0, HEIGHT, 0 }, 0.2, 20);
+    gi_test_update(&t, 1);
+    sdfgi_get_report(t.gi, &report);
+    REQUIRE_TRUE(report.passes[PASS_EMITTER_MARK].ran && report.passes[PASS_EMITTER_LIST].ran);
+    REQUIRE_CMP(report.memory.total_bytes, >, before);
+    REQUIRE_CMP(listed(&t), ==, 4u);
+    gi_test_close(&t);
+}
+
+/* The list is that of a fresh start, to the bit, after the camera has moved there. */
+static void lists_do_not_depend_on_the_way(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = emitter_settings();
+    uint32_t *words[2];
+    gi_test_open(&t, &settings);
+    for (int moves = 0; moves < 2; moves++) {
+        gi_test_restart(&t, &settings);
+        add_floor(&t);
+        for (int i = 0; i < 12; i++)
+            add_lamp(&t, (double[]){ 0.7 * i - 4, 1 + 0.1 * i, 0.3 * (i % 3) }, 0.1 + 0.02 * i, 3);
+        t.frame.camera_position[0] = moves ? 0 : 2;
+        gi_test_update(&t, 1);
+        for (int step = 1; moves && step <= 8; step++) {
+            t.frame.camera_position[0] = 0.25 * step;
+            gi_test_update(&t, 6);
+        }
+        words[moves] = gi_test_read(&t, RESOURCE_EMITTERS, NULL);
+    }
+    REQUIRE_CMP(words[0][0], >, 4u);
+    REQUIRE_CMP(words[0][0], ==, words[1][0]);
+    REQUIRE_BYTES(words[0] + 8, words[1] + 8, words[0][0] * SDFGI_EMITTER_WORDS * sizeof(uint32_t));
+    free(words[0]);
+    free(words[1]);
+    gi_test_close(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lamps_of_all_sizes_give_the_light_of_their_power),
+        cmocka_unit_test(nothing_comes_through_a_lampshade),
+        cmocka_unit_test(more_lamps_than_a_list_takes_lose_nothing),
+        cmocka_unit_test(nothing_is_there_where_nothing_emits),
+        cmocka_unit_test(lists_do_not_depend_on_the_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
