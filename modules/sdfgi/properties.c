@@ -262,7 +262,7 @@ static bool refuse(const struct row *row, const char *value, char *error, size_t
     if (info->choices[0] != '\0')
         return base_text_error(error, error_size, "%s is \"%s\", expected one of %s", info->name, value,
                                info->choices);
-    return base_text_error(error, error_size, "%s is \"%s\", expected a %snumber from %g to %.7g%s%s",
+    return base_text_error(error, error_size, "%s is \"%s\", expected a %snumber from %g to %.9g%s%s",
                            info->name, value, info->type == SDFGI_PROPERTY_INT ? "whole " : "", info->minimum,
                            info->maximum, info->unit[0] ? " " : "", info->unit);
 }

@@ -37,7 +37,7 @@ static void write_range(const struct sdfgi_property_info *info, FILE *out)
     else if (info->type == SDFGI_PROPERTY_BOOL)
         fputs("true, false", out);
     else
-        fprintf(out, "%g to %.7g", info->minimum, info->maximum);
+        fprintf(out, "%g to %.9g", info->minimum, info->maximum);
     if (info->unit[0])
         fprintf(out, " %s", info->unit);
 }

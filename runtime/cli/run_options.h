@@ -16,7 +16,7 @@ struct gltf_scene;
 bool run_apply_settings(const char *command, const struct cli_list *pairs, struct sdfgi_settings *settings);
 
 /* The one place that says where light is looked up unless --lookup does. */
-#define RUN_LOOKUP_DEFAULT "forward"
+#define RUN_LOOKUP_DEFAULT "full"
 #define RUN_LOOKUP_HELP    "where light is looked up: forward, full, half, quarter; " RUN_LOOKUP_DEFAULT
 
 /* Reads the value of --lookup; on failure prints one line and returns false. */

@@ -7,9 +7,14 @@
 
 #include <stdlib.h>
 
+bool scroll_is_full(void)
+{
+    return getenv("SDFGI_TEST_FULL") != NULL;
+}
+
 uint32_t scroll_resolution(void)
 {
-    return getenv("SDFGI_TEST_FULL") ? 128 : 64;
+    return scroll_is_full() ? 128 : 64;
 }
 
 struct sdfgi_settings scroll_settings(uint32_t resolution)

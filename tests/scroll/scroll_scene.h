@@ -5,6 +5,8 @@
 
 #include "gi_test.h"
 
+/* True in suite `full`. */
+bool scroll_is_full(void);
 /* 64, or with SDFGI_TEST_FULL the default, 128: for the rows of HARD_CASES. */
 uint32_t scroll_resolution(void);
 

@@ -169,7 +169,7 @@ static void a_step_over_a_plain_searches_little(void **state)
 }
 
 /* Steps of one cascade, one a frame, anywhere within a world: nothing adds up, and nothing is left behind. */
-static void hard_19_a_journey_of_a_thousand_steps_leaves_no_trace(void **state)
+static void hard_19_a_long_journey_leaves_no_trace(void **state)
 {
     (void)state;
     static struct gi_test t;
@@ -178,15 +178,16 @@ static void hard_19_a_journey_of_a_thousand_steps_leaves_no_trace(void **state)
     open_scene(&t, scroll_air, &settings, home);
     struct test_random random = { 19 };
     double camera[3] = { home[0], home[1], home[2] };
+    const uint32_t scrolls = scroll_is_full() ? 1000 : 400;
     uint32_t checked = 0;
-    while (t.gi->volume.state.scroll.scrolls_begun < 1000) {
+    while (t.gi->volume.state.scroll.scrolls_begun < scrolls) {
         for (int i = 0; i < 3; i++) {
             camera[i] += test_random_real(&random, -9, 9) * (i == 1 ? 0.5 : 1);
             camera[i] = fmin(fmax(camera[i], -world_reach()), world_reach());
         }
         scroll_stand(&t, camera);
         gi_test_update(&t, 1);
-        if (t.gi->volume.state.scroll.scrolls_begun / 500 > checked) {
+        if (t.gi->volume.state.scroll.scrolls_begun / (scrolls / 2) > checked) {
             checked++;
             scroll_settle(&t);
             require_fresh_scene(&t, scroll_air, camera, "journey");
@@ -311,7 +312,7 @@ int main(void)
         cmocka_unit_test(only_depths_that_look_into_news_are_made_again),
         cmocka_unit_test(hard_18_a_step_along_each_axis_equals_a_fresh_start),
         cmocka_unit_test(hard_21_all_axes_in_one_frame_equal_a_fresh_start),
-        cmocka_unit_test(hard_19_a_journey_of_a_thousand_steps_leaves_no_trace),
+        cmocka_unit_test(hard_19_a_long_journey_leaves_no_trace),
         cmocka_unit_test(hard_20_a_closed_loop_ends_where_it_began),
         cmocka_unit_test(hard_22_a_teleport_equals_a_fresh_start),
         cmocka_unit_test(flat_cells_scroll_too),
