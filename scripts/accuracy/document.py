@@ -186,11 +186,18 @@ def how(results):
     )
 
 
-def text(results):
+def front(docs):
+    """What scripts/front.sh wrote, if it did."""
+    path = docs / "accuracy" / "front.md"
+    return ["## The front of error against time", path.read_text(encoding="utf-8")] if path.exists() else []
+
+
+def text(results, docs):
     notes = read_notes()
     parts = ["# Accuracy", notes[""], how(results), "## The picture", picture_table(results)]
     legend = [ALL] + [FINER] * results["options"]["finer"] + [SPLIT] * results["voxels"]
     parts += ["## Indirect light", "\n".join(legend), indirect_table(results)]
+    parts += front(docs)
     parts += ["## Leaks", LEAK.format(lit="two_rooms_lit"), leak_table(results), "## Scene by scene"]
     parts += [STRIPS]
     for scene in results["scenes"]:
@@ -204,5 +211,5 @@ def text(results):
 def write(results, docs):
     docs.mkdir(parents=True, exist_ok=True)
     temporary = docs / "accuracy.md.part"
-    temporary.write_text(text(results), encoding="utf-8")
+    temporary.write_text(text(results, docs), encoding="utf-8")
     os.replace(temporary, docs / "accuracy.md")
