@@ -15,12 +15,12 @@
 /* Cell widths: farthest place towards the viewer from which a surface point reads. */
 #define SDFGI_CELLS_REACH 2.5
 /* Part of that by which a point in a set sub-voxel moves: half a cell, beyond the far side of its sub-voxel.
- */
+ * The second place is as far away, the third four times as far. */
 #define SDFGI_CELLS_TOWARDS_EYE 0.2
 /* Cell widths. Beyond the sub-voxels of a flat surface, which are a quarter of a cell wide. */
 #define SDFGI_CELLS_OFF_SURFACE 0.35
 /* Places from which a surface point tries to read. */
-#define SDFGI_CELLS_TRIES 6
+#define SDFGI_CELLS_TRIES 3
 /* Added to each weight, so that a cell that is alone counts although the point lies on the edge of its
  * reach. */
 #define SDFGI_CELLS_LEAST_WEIGHT 1e-4
@@ -125,22 +125,40 @@ bool sdfgi_cells_leave(uint cascade, uvec2 bits, vec3 normal, inout vec3 at)
     return best > -1e9;
 }
 
+bool sdfgi_cells_is_set(uvec2 bits, vec3 at)
+{
+    return sdfgi_trace_is_set(bits, sdfgi_trace_pack_subvoxel(ivec3(floor(at * 4.0)) & 3));
+}
+
+/* Moves a point off level ground, or a ceiling: out of a layer of sub-voxels that are all set, into one above
+ * or below it that is not set and is nearer to the viewer. A sight line that grazes the ground runs in its
+ * set sub-voxels for many cells, and a level normal does not lead out of them either. A surface at an angle
+ * fills no layer: there the way up could lead to its far side. */
+bool sdfgi_cells_step_out(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout vec3 at)
+{
+    const uint y = uint(floor(at.y * 4.0)) & 3u;
+    const uvec2 layer = sdfgi_trace_box_bits(uvec3(0u, y, 0u), uvec3(3u, y, 3u));
+    const float up = sign(eye.y);
+    at.y += 0.25 * up;
+    return (bits & layer) == layer && normal.y * up > -0.5 &&
+           !sdfgi_cells_is_set(sdfgi_cell_bits(cascade, ivec3(floor(at))), at);
+}
+
 /* Moves a point into an empty cell, if it is not in one. A point in a set sub-voxel is first moved a little
  * towards the viewer, who is known to be on the open side of the surface. False if there is no way. */
 bool sdfgi_cells_find_open(uint cascade, vec3 normal, vec3 eye, inout vec3 at)
 {
     uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-    if (bits == uvec2(0u))
-        return true;
-    if (sdfgi_trace_is_set(bits, sdfgi_trace_pack_subvoxel(ivec3(floor(at * 4.0)) & 3))) {
+    if (sdfgi_cells_is_set(bits, at)) {
         at += sdfgi_cells_from_metric(eye) * SDFGI_CELLS_TOWARDS_EYE;
         bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-        if (bits == uvec2(0u))
-            return true;
-        if (sdfgi_trace_is_set(bits, sdfgi_trace_pack_subvoxel(ivec3(floor(at * 4.0)) & 3)))
-            return false;
+        if (sdfgi_cells_is_set(bits, at)) {
+            if (!sdfgi_cells_step_out(cascade, bits, normal, eye, at))
+                return false;
+            bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
+        }
     }
-    return sdfgi_cells_leave(cascade, bits, normal, at);
+    return bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
 }
 
 /* ---- Interpolation */
@@ -183,19 +201,21 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around)
  * leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
  *
  * A first try begins right above the surface. Where that finds nothing, in a niche or at a small thing,
- * others begin farther off and nearer to the viewer. A point in the air has no others: what is near it need
- * not be on its side of a wall. */
+ * others begin farther off and nearer to the viewer. A point in the air has no other places: what is near it
+ * need not be on its side of a wall. But the surfaces around stand for one that the air's cell does not know.
+ */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye)
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
                high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
     const bool at_surface = sdfgi_cell_bits(cascade, ivec3(floor(clamp(pos, low, high)))) != uvec2(0u);
-    const int tries = at_surface ? SDFGI_CELLS_TRIES : 1;
+    const int tries = at_surface ? SDFGI_CELLS_TRIES : 2;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < tries && sum.a <= 0.0; i++) {
-        const float part = float(i) / float(SDFGI_CELLS_TRIES - 1);
-        const float above = min(float(i + 1), 3.0) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias;
-        vec3 at = clamp(pos + sdfgi_cells_from_metric(above * normal + part * eye), low, high);
+        const float place = at_surface ? float(i) : 0.0;
+        const vec3 above = (place + 1.0) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias * normal;
+        const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
+        vec3 at = clamp(pos + sdfgi_cells_from_metric(above + towards), low, high);
         if (sdfgi_cells_find_open(cascade, normal, eye, at))
             sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0);
     }

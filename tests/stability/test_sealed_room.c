@@ -52,18 +52,24 @@ static void room_points(const double rotation[static 9], struct gi_test_point po
 static struct gi_test_point points[POINT_COUNT];
 static float found[POINT_COUNT][3];
 
-/* What the points inside get while sun and sky shine on `room`, which is taken over. */
+/* Sun and sky shine on `room`, which is taken over. */
+static void open_room(struct gi_test *t, struct test_mesh room)
+{
+    const struct sdfgi_settings settings = light_settings(64, (float)CELL_M);
+    gi_test_open(t, &settings);
+    light_add(t, room, 0.5f, 0);
+    light_add_box(t, (double[]){ -20, -6, -20 }, (double[]){ 20, -5, 20 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    const struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, -0.36f, (float)SUN);
+    light_create(t, &sun);
+    light_set_uniform_sky(t, (float)SKY);
+    gi_test_converge(t, 120);
+}
+
+/* What the points inside get. */
 static void light_room(struct test_mesh room, const double rotation[static 9])
 {
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(64, (float)CELL_M);
-    gi_test_open(&t, &settings);
-    light_add(&t, room, 0.5f, 0);
-    light_add_box(&t, (double[]){ -20, -6, -20 }, (double[]){ 20, -5, 20 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
-    const struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, -0.36f, (float)SUN);
-    light_create(&t, &sun);
-    light_set_uniform_sky(&t, (float)SKY);
-    gi_test_converge(&t, 120);
+    open_room(&t, room);
     room_points(rotation, points);
     gi_test_irradiance(&t, points, POINT_COUNT, found);
     gi_test_close(&t);
@@ -116,6 +122,82 @@ static void hard_45_walls_of_a_quarter_cell_at_45_degrees_are_tight(void **state
     check_room(CELL_M / 4, 45, 1e-2);
 }
 
+/* ---- Edges and corners, seen from afar */
+
+enum { EDGE_STEPS = 13, EDGE_POINTS = 6 * EDGE_STEPS * EDGE_STEPS };
+
+/* Metres from one edge of a face, or else from the opposite one. */
+static const double from_edge_m[EDGE_STEPS] = { 0.004, 0.03,  0.08,  0.15,  0.3,   0.6,   1,
+                                                -0.7,  -0.35, -0.17, -0.09, -0.04, -0.006 };
+
+static void edge_points(const double rotation[static 9], struct gi_test_point at[static EDGE_POINTS])
+{
+    for (int i = 0; i < EDGE_POINTS; i++) {
+        const int face = i / (EDGE_STEPS * EDGE_STEPS), axis = face >> 1, u = (axis + 1) % 3,
+                  v = (axis + 2) % 3;
+        const double sign = (face & 1) ? -1 : 1, along_u = from_edge_m[i % EDGE_STEPS],
+                     along_v = from_edge_m[i / EDGE_STEPS % EDGE_STEPS];
+        double p[3], n[3] = { 0, 0, 0 };
+        p[axis] = sign * half[axis];
+        p[u] = along_u - copysign(half[u], along_u);
+        p[v] = along_v - copysign(half[v], along_v);
+        n[axis] = -sign;
+        to_world(rotation, p, at[i].position);
+        to_world(rotation, n, at[i].normal);
+        for (int k = 0; k < 3; k++)
+            at[i].position[k] += (float)center[k];
+    }
+}
+
+/* Viewers whose sight lines touch a face all along, and others, as parts of the room. */
+static const double viewers[][3] = {
+    { 0, 0, 0 },          { -0.8, -0.95, -0.9 }, { 0.9, 0.95, 0.1 },
+    { -0.97, 0.3, -0.8 }, { 0.5, -0.6, 0.97 },   { 0.95, -0.97, 0.96 },
+};
+
+static void check_edges(double wall_m, const double axis[static 3], double angle_deg)
+{
+    static struct gi_test_point at[EDGE_POINTS];
+    static float light[EDGE_POINTS][3];
+    struct gi_test t;
+    double rotation[9];
+    test_rotation(axis, angle_deg * PI / 180, rotation);
+    open_room(&t, test_mesh_room(center, half, wall_m, rotation));
+    edge_points(rotation, at);
+    uint32_t lit = 0;
+    double most = 0;
+    for (size_t k = 0; k < sizeof viewers / sizeof *viewers; k++) {
+        float viewer[3];
+        to_world(rotation,
+                 (double[]){ viewers[k][0] * half[0], viewers[k][1] * half[1], viewers[k][2] * half[2] },
+                 viewer);
+        for (int i = 0; i < 3; i++)
+            viewer[i] += (float)center[i];
+        gi_test_irradiance_from(&t, viewer, at, EDGE_POINTS, light);
+        for (uint32_t i = 0; i < EDGE_POINTS; i++) {
+            lit += light[i][1] > 0;
+            most = fmax(most, (double)light[i][1]);
+        }
+    }
+    printf("edges, wall %.4f m, %.0f degrees: %u lit, inside over outside %.2e at most\n", wall_m, angle_deg,
+           lit, most / OUTSIDE);
+    gi_test_close(&t);
+    REQUIRE_CMP(lit, ==, 0u);
+}
+
+/* Walls of a sixteenth of a cell are a single sub-voxel: one step too far leads through them. */
+static void edges_seen_from_afar_are_dark(void **state)
+{
+    (void)state;
+    static const double upright[3] = { 0, 1, 0 }, tilted[3] = { 1, 0.4, 0.7 };
+    check_edges(CELL_M, tilted, 33);
+    check_edges(CELL_M / 4, upright, 45);
+    check_edges(CELL_M / 4, tilted, 33);
+    check_edges(CELL_M / 8, upright, 8);
+    check_edges(CELL_M / 16, upright, 0);
+    check_edges(CELL_M / 16, tilted, 33);
+}
+
 /* The test above can fail: the same points are lit once the roof is off. Every point of the room then sees
  * some sky. */
 static void a_room_without_a_roof_is_lit(void **state)
@@ -150,6 +232,7 @@ int main(void)
         cmocka_unit_test(hard_45_walls_of_one_cell_at_45_degrees_are_tight),
         cmocka_unit_test(hard_45_walls_of_a_quarter_cell_are_tight),
         cmocka_unit_test(hard_45_walls_of_a_quarter_cell_at_45_degrees_are_tight),
+        cmocka_unit_test(edges_seen_from_afar_are_dark),
         cmocka_unit_test(a_room_without_a_roof_is_lit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -214,6 +214,62 @@ static void hard_38_black_right_angle_at_y_scale_50(void **state)
     check_right_angle((struct right_angle){ SDFGI_Y_SCALE_50, 2, 0, -1.7 });
 }
 
+/* ---- Steps that are lower than a cell */
+
+enum { KERBS = 8, KERB_ROWS = 6, KERB_POINTS = KERBS * KERB_ROWS };
+
+/* Black kerbs of 0.15 m on black ground, in cells of 1 m. The ground of each is a little lower than that of
+ * the one before it, and each is a little farther off: feet lie anywhere in a sub-voxel. */
+static void build_kerbs(struct gi_test *t, struct gi_test_point points[static KERB_POINTS])
+{
+    const struct sdfgi_settings settings = light_settings(32, 1);
+    gi_test_open(t, &settings);
+    for (int i = 0; i < KERBS; i++) {
+        const double z = 3 * (i - KERBS / 2), ground = -0.07 * i, face = 3 + 0.14 * i;
+        light_add_box(t, (double[]){ -16, -4, z }, (double[]){ 16, ground, z + 3 }, black, 0);
+        light_add_box(t, (double[]){ face, ground, z }, (double[]){ face + 0.4, ground + 0.15, z + 3 }, black,
+                      0);
+        for (int k = 0; k < KERB_ROWS; k++)
+            points[KERB_ROWS * i + k] =
+                (struct gi_test_point){ { (float)face, (float)(ground + 0.005 + 0.028 * k), (float)z + 1.5f },
+                                        { -1, 0, 0 } };
+    }
+    light_set_uniform_sky(t, 1);
+    gi_test_converge(t, 80);
+}
+
+/* Sight lines to the foot of a kerb far away run close above the ground, in its set sub-voxels. A kerb gets
+ * half of the sky. The ground before it stands for it where it is too small for a light cell, and gets all of
+ * it. */
+static void foot_of_a_low_kerb_is_lit_from_afar(void **state)
+{
+    (void)state;
+    static const double heights_m[] = { 0.5, 1, 1.7 };
+    struct gi_test t;
+    struct gi_test_point points[KERB_POINTS];
+    build_kerbs(&t, points);
+    uint32_t dark = 0;
+    double least = 1e30, most = 0;
+    for (int h = 0; h < 3; h++)
+        for (int i = 0; i < KERBS; i++) {
+            const struct gi_test_point *foot = &points[KERB_ROWS * i];
+            const float viewer[3] = { -12, foot->position[1] + (float)heights_m[h],
+                                      foot->position[2] + 0.4f };
+            float found[KERB_ROWS][3];
+            gi_test_irradiance_from(&t, viewer, foot, KERB_ROWS, found);
+            for (int k = 0; k < KERB_ROWS; k++) {
+                dark += found[k][1] <= 0;
+                least = fmin(least, (double)found[k][1] / PI);
+                most = fmax(most, (double)found[k][1] / PI);
+            }
+        }
+    gi_test_close(&t);
+    printf("kerbs: %u of %u points are dark, E / pi %.3f to %.3f\n", dark, 3u * KERB_POINTS, least, most);
+    REQUIRE_CMP(dark, ==, 0u);
+    REQUIRE_CMP(least, >=, 0.4);
+    REQUIRE_CMP(most, <=, 1.05);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -227,6 +283,7 @@ int main(void)
         cmocka_unit_test(hard_38_black_right_angle_wherever_the_probes_are),
         cmocka_unit_test(hard_38_black_right_angle_at_y_scale_75),
         cmocka_unit_test(hard_38_black_right_angle_at_y_scale_50),
+        cmocka_unit_test(foot_of_a_low_kerb_is_lit_from_afar),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
