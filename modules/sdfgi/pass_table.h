@@ -74,10 +74,10 @@
     X(LIGHT_BOUNCE, COMPUTE, light_bounce, LIGHT_CELLS, LIGHT, OWN, CREATED,                                 \
       ALL_LIGHT_CELLS, light_bounce, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(PROBES) | R(MASKS) |              \
       R(OCCLUSION) | R(ALBEDO) | R(NORMALS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SCRATCH) |                \
-      R(IRRADIANCE), R(LIGHT) | R(SURFACES) | R(GATHERED) | R(COUNTERS))                                     \
+      R(IRRADIANCE) | R(SEEN), R(LIGHT) | R(SURFACES) | R(GATHERED) | R(COUNTERS))                           \
     X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
-      R(GATHERED) | R(COUNTERS), R(SURFACES))                                                                \
+      R(GATHERED) | R(SEEN) | R(COUNTERS), R(SURFACES))                                                      \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
       ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                 \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
@@ -85,7 +85,7 @@
       | R(INDIRECT))                                                                                         \
     X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(NORMALS)   \
-      | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS), R(GATHERED) | R(COUNTERS))             \
+      | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN), R(GATHERED) | R(COUNTERS))   \
     X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, PROBES, CREATED,                                           \
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(SURFACES) |            \
       R(EMISSION) | R(INDIRECT), R(SUMS) | R(COUNTERS))                                                      \
@@ -93,10 +93,10 @@
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \
-      R(LIGHT_BLOCKS) | R(SURFACES), 0)                                                                      \
+      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS))                                                  \
     X(GATHER_SPARSE, COMPUTE, gather_sparse, PIXELS, GATHER_SPARSE, OWN, DEMAND,                             \
       TILES, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |                            \
-      R(LIGHT_BLOCKS) | R(SURFACES), 0)
+      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS))
 /* clang-format on */
 
 enum pass {

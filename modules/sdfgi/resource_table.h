@@ -20,6 +20,7 @@
  * LIGHT_BLOCKS              where in the list the light cells of a block are
  * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
  * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits
+ * SEEN                      which light cells gathers of pictures have read of late
  * GATHERED                  what light cells gathered with rays of their own, in the order of the list
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes
  * SUMS                      of this sample cycle; and each probe's history
@@ -69,12 +70,15 @@
     X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, WORK,   e->cells * e->cascades,       DERIVED) \
     X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, WORK,   e->occlusion,                 DERIVED) \
     X(GATHERED,    STORAGE, U32,             LISTS,   VOLUME, WORK,   GATHERED_COUNT(e),            SAVED)   \
-    X(EMITTERS,    STORAGE, U32,             VOLUMES, VOLUME, WORK,   EMITTER_COUNT(e),             DERIVED)
+    X(EMITTERS,    STORAGE, U32,             VOLUMES, VOLUME, WORK,   EMITTER_COUNT(e),             DERIVED) \
+    X(SEEN,        STORAGE, U32,             LISTS,   VOLUME, WORK,   SEEN_COUNT(e),                DERIVED)
 /* clang-format on */
 
 #define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
 /* None where light cells read probes alone; a binding needs a word. */
 #define GATHERED_COUNT(e) ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) : 1)
+/* A bit per entry. */
+#define SEEN_COUNT(e) ((e)->gathers ? ((e)->light_cells + 31) / 32 * (e)->cascades : 1)
 /* None where nothing emits. */
 #define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + (e)->blocks) * (e)->cascades : 1)
 #define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)

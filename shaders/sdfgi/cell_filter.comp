@@ -2,11 +2,12 @@
  * Filters the irradiance of light cells, because neighbours that send different rays differ by noise. A cell
  * and its 26 neighbours exchange light along each axis that surfaces of both face: what one gains the other
  * loses, so the filter keeps the sum. Cells whose irradiance differs more than noise explains, at the edge of
- * a shadow, exchange little. A thread per light cell that args names, in the cascade gl_WorkGroupID.y. */
+ * a shadow, exchange little. A thread per light cell of the rows that seen.glsl tells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_SURFACES
 #include "gathered.glsl"
+#include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -56,8 +57,10 @@ ivec3 neighbour_offset(int i)
 
 void main()
 {
-    const uint cascade = gl_WorkGroupID.y, entry = args.first[cascade] + gl_GlobalInvocationID.x;
-    if (entry >= min(args.end[cascade], light_cell_count(cascade)))
+    const uint cascade = visited_cascade(gl_WorkGroupID.y);
+    uint entry;
+    if (!visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, args.first[cascade], args.end[cascade],
+                       light_cell_count(cascade), entry))
         return;
     const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[light_cell_slot(cascade, entry)]);
     if (!sdfgi_cell_is_valid(cascade, cell))

@@ -8,13 +8,14 @@
  * "Monte Carlo techniques for direct lighting calculations"). Both kinds of rays bring a share of the light
  * of what is listed, so nothing counts twice.
  *
- * A workgroup visits SDFGI_VISIT_CELLS cells of the cascade gl_WorkGroupID.y. Its threads share the rays of
- * all their surfaces. A surface adds its rays in order, so that sums do not depend on which thread sent which
- * ray. Shared memory: 9 KiB. */
+ * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade, or of 32 that follow one another as many that are
+ * seen (seen.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so
+ * that sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "emitters.glsl"
 #include "gathered.glsl"
+#include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/sky.glsl"
@@ -30,6 +31,7 @@ const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMI
 const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
 
 shared ivec3 cells[CELLS];
+shared uint entries[CELLS];
 shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not there */
 shared gathered_state states[CELLS]; /* with which the visits begin */
 shared uint changes[CELLS];          /* float bits: how far a mean has changed */
@@ -37,11 +39,6 @@ shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus 
 shared uint surface_count;
 shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
 shared float importance[CELLS * PARTS];     /* per cell and part of the list: sums over emitters */
-
-uint entry_of(uint own)
-{
-    return args.first[gl_WorkGroupID.y] + gl_WorkGroupID.x * CELLS + own;
-}
 
 /* What rays of a surface need to know of it. */
 struct ray_source {
@@ -276,28 +273,35 @@ float relative_change(vec3 a, vec3 b)
                1.0);
 }
 
-/* True if a visit is the last one of a cell's cycle; `state` is the one before it. */
-bool ends_cycle(uint cascade, gathered_state state)
+/* Visits in a cycle of a cell. Cells that are seen are visited so often that a single rough cycle will do. */
+uint cycle_of(uint cascade, uint own)
 {
-    return state.visits + 1u >= args.visits[cascade];
+    const bool is_ahead = states[own].mean >= GATHERED_ROUGH && seen_holds(cascade, entries[own]);
+    return is_ahead ? sdfgi_frame.cycle_visits : args.visits[cascade];
+}
+
+/* True if this visit is the last one of a cell's cycle. */
+bool ends_cycle(uint cascade, uint own)
+{
+    return states[own].visits + 1u >= cycle_of(cascade, own);
 }
 
 /* What a cell's mean is at the end of a cycle. */
-uint mean_after(uint cascade)
+uint mean_after(uint cascade, uint own)
 {
-    return args.visits[cascade] < sdfgi_frame.cycle_visits ? GATHERED_ROUGH : GATHERED_COMPLETE;
+    return cycle_of(cascade, own) < sdfgi_frame.cycle_visits ? GATHERED_ROUGH : GATHERED_COMPLETE;
 }
 
 /* Adds a visit to the sum of a surface. The last visit of a cycle makes the sum the mean. */
 void add_visit(uint cascade, uint surface, vec3 light)
 {
-    const uint own = surface / 6u, axis = surface % 6u, entry = entry_of(own);
+    const uint own = surface / 6u, axis = surface % 6u, entry = entries[own];
     gathered_light gathered = load_light(cascade, entry, axis);
     gathered.sum = gathered_add(states[own], gathered, light);
-    if (ends_cycle(cascade, states[own])) {
+    if (ends_cycle(cascade, own)) {
         const vec3 mean = gathered_mean(states[own], gathered.sum, states[own].visits + 1u);
         const float change =
-            states[own].mean == mean_after(cascade) ? relative_change(mean, gathered.mean) : 1.0;
+            states[own].mean == mean_after(cascade, own) ? relative_change(mean, gathered.mean) : 1.0;
         atomicMax(changes[own], floatBitsToUint(change));
         gathered = gathered_light(vec3(0.0), mean);
     }
@@ -308,26 +312,68 @@ void end_visit(uint cascade, uint own)
 {
     gathered_state state = states[own];
     state.visits++;
-    if (ends_cycle(cascade, states[own]))
-        state = gathered_state(0u, mean_after(cascade), state.epoch);
-    gathered_store_state(cascade, entry_of(own), state);
+    if (ends_cycle(cascade, own))
+        state = gathered_state(0u, mean_after(cascade, own), state.epoch);
+    gathered_store_state(cascade, entries[own], state);
     if (changes[own] != 0u)
         atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_CHANGE + cascade], changes[own]);
     if (uintBitsToFloat(changes[own]) >= SDFGI_SMALL_CHANGE)
         counter_add(SDFGI_COUNTER_CELLS_CHANGING + cascade, 1u);
 }
 
+/* Seen cells that the workgroup visits: a bit for each, from the entry `first` on. None in the rows of
+ * ranges.
+ */
+uint seen_cells(uint cascade, out uint first)
+{
+    first = sdfgi_frame.cascades[cascade].seen_first + 32u * gl_WorkGroupID.x;
+    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count || first >= sdfgi_frame.cascades[cascade].seen_end)
+        return 0u;
+    uint bits = sdfgi_seen[seen_word(cascade, first)];
+    for (uint rest = bits; rest != 0u; rest &= rest - 1u) {
+        const uint entry = first + uint(findLSB(rest));
+        if (entry >= args.first[cascade] && entry < args.end[cascade])
+            bits &= ~(rest & ~rest + 1u);
+    }
+    return bits;
+}
+
+/* The number of the n-th set bit. */
+uint number_of_bit(uint bits, uint n)
+{
+    for (uint i = 0u; i < n; i++)
+        bits &= bits - 1u;
+    return uint(findLSB(bits));
+}
+
+/* Entry of the own-th cell that the workgroup visits. False if there is none. Of more seen cells than it can
+ * visit others have their turn in other frames. */
+bool find_entry(uint cascade, uint own, uint seen, uint first_seen, out uint entry)
+{
+    entry = args.first[cascade] + gl_WorkGroupID.x * CELLS + own;
+    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count)
+        return entry < min(args.end[cascade], light_cell_count(cascade));
+    const uint count = uint(bitCount(seen));
+    const uint turn = count > CELLS ? sdfgi_random_hash(first_seen + sdfgi_frame.first_sample) % count : 0u;
+    if (own >= count)
+        return false;
+    entry = first_seen + number_of_bit(seen, (own + turn) % count);
+    return entry < light_cell_count(cascade);
+}
+
 /* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */
-void find_surfaces(uint cascade)
+void find_surfaces(uint cascade, uint seen, uint first_seen)
 {
     const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u;
-    const uint entry = entry_of(own), end = min(args.end[cascade], light_cell_count(cascade));
+    uint entry;
+    const bool visited = find_entry(cascade, own, seen, first_seen, entry);
     ivec3 cell = ivec3(0);
-    if (entry < end)
+    if (visited)
         cell = light_cell_from_index(cascade, sdfgi_light_cells[light_cell_slot(cascade, entry)]);
-    const bool there = entry < end && sdfgi_cell_is_valid(cascade, cell);
+    const bool there = visited && sdfgi_cell_is_valid(cascade, cell);
     if (axis == 0u) {
         cells[own] = cell;
+        entries[own] = entry;
         facing[own] = changes[own] = 0u;
         if (there)
             states[own] = state_of_visit(cascade, entry);
@@ -349,9 +395,13 @@ void find_surfaces(uint cascade)
 
 void main()
 {
-    const uint cascade = gl_WorkGroupID.y, lane = gl_LocalInvocationIndex;
+    const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
+    uint first_seen;
+    const uint seen = seen_cells(cascade, first_seen);
+    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count && seen == 0u)
+        return;
     const uint rays = rays_of_visit(cascade);
-    find_surfaces(cascade);
+    find_surfaces(cascade, seen, first_seen);
     barrier();
     for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);

@@ -12,6 +12,9 @@ void main()
     if (pixel.x >= int(args.width) || pixel.y >= int(args.height))
         return;
     picture_surface s;
-    const vec3 irradiance = picture_surface_at(pixel, s) ? picture_irradiance(s) : vec3(0.0);
+    const bool is_surface = picture_surface_at(pixel, s);
+    const vec3 irradiance = is_surface ? picture_irradiance(s) : vec3(0.0);
     imageStore(output_image, pixel, vec4(irradiance, 1.0));
+    if (is_surface)
+        picture_mark(s, gl_LocalInvocationIndex);
 }

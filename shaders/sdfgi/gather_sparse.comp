@@ -149,7 +149,9 @@ void look_up(bool is_sample, uint index)
     const vec3 irradiance = is_surface ? picture_irradiance(s) : vec3(0.0);
     if (is_sample)
         sample_store(index, is_surface, s, irradiance);
-    else
+    if (is_sample && is_surface)
+        picture_mark(s, index);
+    if (!is_sample)
         imageStore(output_image, pixel, vec4(irradiance, 1.0));
 }
 

@@ -2,13 +2,14 @@
  * Per light cell, and per axis along which a surface faces: the irradiance that arrives, which lookups read;
  * and outgoing radiance, that is, direct light, and the irradiance times bounce gain. Emission is not part of
  * it: whoever reads outgoing light adds that of the surface which a ray hits.
- * A thread per light cell that args names, in the cascade args.cascade + gl_WorkGroupID.y. */
+ * A thread per light cell of the rows that seen.glsl tells, from args.cascade on, or per dirty light cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACES
 #include "light_blocks.glsl"
 #include "gathered.glsl"
+#include "seen.glsl"
 #include "bounce.glsl"
 #include "../include/sdfgi_cells.glsl"
 
@@ -63,10 +64,13 @@ surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, ve
 
 void main()
 {
-    const uint cascade = args.cascade + gl_WorkGroupID.y;
+    const uint row = args.cascade + gl_WorkGroupID.y, cascade = visited_cascade(row);
     uint entry;
-    if (!light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
-                     gl_GlobalInvocationID.x, entry))
+    const bool visited = args.only_dirty != 0u
+                             ? light_entry(cascade, true, 0u, 0u, gl_GlobalInvocationID.x, entry)
+                             : visited_entry(row, gl_GlobalInvocationID.x, args.first[cascade],
+                                             args.end[cascade], light_cell_count(cascade), entry);
+    if (!visited)
         return;
     const uint slot = light_cell_slot(cascade, entry);
     const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[slot]);

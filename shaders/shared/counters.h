@@ -25,7 +25,9 @@
 #define SDFGI_COUNTER_CELL_CHANGE 32
 /* Per cascade: light cells that changed by SDFGI_SMALL_CHANGE or more over a gather cycle. */
 #define SDFGI_COUNTER_CELLS_CHANGING 40
-#define SDFGI_COUNTER_COUNT          48
+/* Per cascade: light cells that gathers of pictures have seen since these were last forgotten. */
+#define SDFGI_COUNTER_CELLS_SEEN 48
+#define SDFGI_COUNTER_COUNT      56
 
 /* X(id, cleared, health): the counters that are not per cascade.
  *   cleared  CHANGE: in a frame that voxelises anything; CYCLE: then, and at the start of every sample cycle

@@ -21,9 +21,9 @@ struct sdfgi_cascade_params {
     vec3 origin_rel; /* low corner in metres relative to the host's origin */
     float cell_m;    /* width of a cell in metres */
     ivec3 wrap;      /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
-    uint padding_0;
+    uint seen_first; /* entries [seen_first, seen_end) of the light list whose seen cells are visited, too */
     ivec3 probe_wrap; /* slot of probe (0, 0, 0), in [0, probes_per_side) */
-    uint padding_1;
+    uint seen_end;
     vec3 from_first; /* cell space = from_first + from_first_scale * cell space of cascade 0 */
     float from_first_scale;
     ivec3 probe_base; /* world index of probe (0, 0, 0), low 32 bits: seeds its ray directions */

@@ -19,9 +19,9 @@
     X(sdfgi_cascade_params, origin_rel)                                                                      \
     X(sdfgi_cascade_params, cell_m)                                                                          \
     X(sdfgi_cascade_params, wrap)                                                                            \
-    X(sdfgi_cascade_params, padding_0)                                                                       \
+    X(sdfgi_cascade_params, seen_first)                                                                      \
     X(sdfgi_cascade_params, probe_wrap)                                                                      \
-    X(sdfgi_cascade_params, padding_1)                                                                       \
+    X(sdfgi_cascade_params, seen_end)                                                                        \
     X(sdfgi_cascade_params, from_first)                                                                      \
     X(sdfgi_cascade_params, from_first_scale)                                                                \
     X(sdfgi_cascade_params, probe_base)                                                                      \

@@ -23,29 +23,41 @@ static bool probes_are_dark(const struct plan_stage *stage)
            stage->frame->next.accumulation.phase == LIGHTING_DARK;
 }
 
-/* Lets a pass run over ranges of all cascades. `first` and `end` are those of its arguments. */
+/* A workgroup of cell_gather takes a word of seen cells where others take SDFGI_VISIT_CELLS entries. */
+#define SEEN_PER_VISIT (32 / SDFGI_VISIT_CELLS)
+
+/* Lets a pass run over ranges of all cascades, and then over the seen cells of each. `first` and `end` are
+ * those of its arguments. For an entry's worth of threads there are `seen_per_entry` entries that may be
+ * seen. */
 static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES],
                         uint end[static SDFGI_MAX_CASCADES], const struct gather_range *ranges,
-                        uint32_t count)
+                        uint32_t count, uint32_t cascades, uint32_t seen_per_entry)
 {
+    bool any_seen = false;
     for (uint32_t i = 0; i < count; i++) {
         first[ranges[i].cascade] = ranges[i].first;
         end[ranges[i].cascade] = ranges[i].first + ranges[i].count;
-        work->count = ranges[i].count > work->count ? ranges[i].count : work->count;
-        work->units += ranges[i].count;
+        const uint32_t seen = ranges[i].seen_span / seen_per_entry;
+        const uint32_t longer = ranges[i].count > seen ? ranges[i].count : seen;
+        work->count = longer > work->count ? longer : work->count;
+        work->units += ranges[i].count + ranges[i].seen_count;
+        any_seen = any_seen || ranges[i].seen_span > 0;
     }
+    work->rows = any_seen ? 2 * cascades : cascades;
 }
 
 /* What arrives at surfaces and leaves them, and what lookups show of it. */
 static void add_bounce(const struct plan_stage *stage, const struct gather_range *ranges, uint32_t count)
 {
+    const uint32_t cascades = stage->frame->next.cascades.count;
     struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_BOUNCE, 0);
     struct sdfgi_light_bounce_args *bounce = &work->args.light_bounce;
     bounce->without_probes = probes_are_dark(stage);
-    fill_ranges(work, bounce->first, bounce->end, ranges, count);
+    fill_ranges(work, bounce->first, bounce->end, ranges, count, cascades, 1);
     work = sdfgi_stage_add(stage, PASS_CELL_FILTER, 0);
     if (work)
-        fill_ranges(work, work->args.cell_gather.first, work->args.cell_gather.end, ranges, count);
+        fill_ranges(work, work->args.cell_gather.first, work->args.cell_gather.end, ranges, count, cascades,
+                    1);
 }
 
 /* All entries. */
@@ -116,10 +128,19 @@ static void gather(const struct plan_stage *stage)
         return;
     struct sdfgi_cell_gather_args *args = &work->args.cell_gather;
     args->epoch = frame->next.gathering.epoch;
-    fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count);
+    fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count, frame->next.cascades.count,
+                SEEN_PER_VISIT);
     for (uint32_t i = 0; i < frame->gather_count; i++)
         args->visits[frame->gathers[i].cascade] = frame->gathers[i].visits;
     work->units *= sdfgi_extent_visit_rays(&stage->input->extent);
+}
+
+/* Forgets which cells were seen. */
+static void forget_seen(const struct plan_stage *stage)
+{
+    struct work_list *work = &stage->frame->work;
+    sdfgi_work_add_clear(work, RESOURCE_SEEN, 0, sdfgi_resource_size(RESOURCE_SEEN, &stage->input->extent));
+    sdfgi_work_add_clear(work, RESOURCE_COUNTERS, 4 * SDFGI_COUNTER_CELLS_SEEN, 4 * SDFGI_MAX_CASCADES);
 }
 
 /* This frame's rays, and then some direct light. */
@@ -133,6 +154,8 @@ static void trace(const struct plan_stage *stage)
     add_probe_trace(stage);
     gather(stage);
     sdfgi_stage_end_group(stage, first);
+    if (stage->frame->situation.gathers && sdfgi_gathering_forgets_seen(&stage->frame->next.gathering))
+        forget_seen(stage);
     if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
         relight(stage);
 }

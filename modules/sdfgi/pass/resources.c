@@ -183,7 +183,7 @@ void sdfgi_resources_retire(struct backend *backend, struct resources *resources
 
 /* What is as long as the light list, or grows with it. */
 static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_LIGHT, RESOURCE_SURFACES,
-                                        RESOURCE_GATHERED, RESOURCE_SCRATCH };
+                                        RESOURCE_GATHERED,    RESOURCE_SEEN,  RESOURCE_SCRATCH };
 /* What is there only if something emits. */
 static const enum resource emitting[] = { RESOURCE_EMITTERS };
 

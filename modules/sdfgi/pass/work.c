@@ -91,7 +91,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_LIGHT_CELLS:
         return in_rows(groups_for(work->count, group));
     case DOMAIN_ALL_LIGHT_CELLS:
-        return (struct work_groups){ groups_for(work->count, group), cascades, 1 };
+        return (struct work_groups){ groups_for(work->count, group), work->rows ? work->rows : cascades, 1 };
     case DOMAIN_PIXELS:
         return (struct work_groups){ groups_for(work->args.gather.width, group),
                                      groups_for(work->args.gather.height, group), 1 };

@@ -68,6 +68,7 @@ struct work {
     uint32_t cascade;
     struct cell_box box;   /* DOMAIN_BOX, DOMAIN_INSTANCES */
     uint32_t first, count; /* a range of the domain */
+    uint32_t rows;         /* DOMAIN_ALL_LIGHT_CELLS: ranges of `count` entries; 0: one for each cascade */
     uint32_t indirect;     /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
     uint32_t group;        /* neighbours with the same number run side by side and share one time; 0: alone */
     uint64_t units;        /* what the report counts as work */

@@ -10,6 +10,11 @@
  * %. */
 #define SETTLED_CHANGE (1.01f / 1024.0f)
 
+/* Entries in a word of seen cells: ranges of them begin with a word. */
+#define SEEN_BITS 32
+/* Frames for which a cell counts as seen. */
+#define SEEN_FRAMES 64
+
 void sdfgi_gathering_init(struct gathering *gathering)
 {
     *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
@@ -61,6 +66,19 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
     }
 }
 
+/* Goes on with the seen cells of a cascade. Where they lie in the list is not known here: as many entries as
+ * hold `most` of them, if they are spread evenly. */
+static void take_seen(struct gather_cursor *cursor, uint32_t entries, uint32_t seen, uint32_t most,
+                      struct gather_range *range)
+{
+    const uint64_t span = most > 0 ? (uint64_t)entries * most / seen / SEEN_BITS * SEEN_BITS + SEEN_BITS : 0;
+    const uint32_t first = cursor->seen_end < entries && span < entries ? cursor->seen_end : 0;
+    cursor->seen_first = first;
+    cursor->seen_end = first + span < entries ? first + (uint32_t)span : entries;
+    range->seen_span = most > 0 ? cursor->seen_end - first : 0;
+    range->seen_count = seen < most ? seen : most;
+}
+
 /* Goes on with a cascade, at most to the end of the sweep. */
 static struct gather_range take(struct gather_cursor *cursor, uint32_t c, uint32_t entries, uint32_t most,
                                 uint32_t cycle_visits)
@@ -94,11 +112,20 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
         if (gathering->at[c].settled)
             continue;
         const uint32_t most = --unsettled > 0 ? (cells + 1) / 2 : cells;
-        const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
-        ranges[count] = take(&gathering->at[c], c, entries, most, cycle_visits);
-        cells -= ranges[count++].count;
+        const uint32_t entries = sdfgi_light_list_entries(relight, lists, c), seen = lists->seen[c];
+        const uint32_t seen_most = seen > 0 ? (most + 1) / 2 : 0;
+        struct gather_range *range = &ranges[count++];
+        *range = take(&gathering->at[c], c, entries, most - seen_most, cycle_visits);
+        take_seen(&gathering->at[c], entries, seen, seen_most, range);
+        cells -= range->count + range->seen_count;
     }
+    gathering->seen_frames = (gathering->seen_frames + 1) % SEEN_FRAMES;
     return count;
+}
+
+bool sdfgi_gathering_forgets_seen(const struct gathering *gathering)
+{
+    return gathering->seen_frames == 0;
 }
 
 static bool stays_rough(const struct gather_cursor *cursor, const struct gather_change *change)

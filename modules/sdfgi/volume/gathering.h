@@ -4,8 +4,9 @@
  * A sweep visits each entry of a cascade's light list once. A gather cycle takes as many sweeps as a cell has
  * visits in a cycle: few after the lights have changed, because light makes a bounce in each cycle, and more
  * once most of the light changes little. Near cascades get most of a frame's rays: each gets half of what is
- * left, and the last one all of it. A cascade whose light changes no more from cycle to cycle has settled,
- * and gets none. Plain data.
+ * left, and the last one all of it. Where pictures are gathered, half of a cascade's rays go to the cells
+ * that these read, in turn. A cascade whose light changes no more from cycle to cycle has settled, and gets
+ * none. Plain data.
  */
 #ifndef SDFGI_GATHERING_H
 #define SDFGI_GATHERING_H
@@ -19,8 +20,9 @@ struct gather_cursor {
     uint64_t cycle;         /* cycles are numbered from 1 */
     uint64_t invalid_cycle; /* the last one with light from before it was invalidated */
     struct convergence convergence;
-    uint32_t rough_cycles; /* since the lights changed */
-    bool rough;            /* cycles are short, because the lights have changed */
+    uint32_t rough_cycles;         /* since the lights changed */
+    uint32_t seen_first, seen_end; /* entries of which those that are seen are visited in this frame, too */
+    bool rough;                    /* cycles are short, because the lights have changed */
     bool settled;
 };
 
@@ -30,10 +32,13 @@ struct gathering {
     uint32_t epoch;         /* of the lights */
     uint32_t epoch_frames;  /* since it began */
     bool epoch_over;        /* the lights have changed since */
+    uint32_t seen_frames;   /* since it was forgotten which cells were seen */
 };
 
 struct gather_range {
     uint32_t cascade, first, count;
+    uint32_t seen_span,
+        seen_count; /* entries among which seen ones are visited, and about how many these are */
     bool begins_cycle;
     uint64_t ends_cycle; /* the cycle whose last entries these are; 0: none */
     uint32_t visits;     /* of a cell in a cycle */
@@ -54,6 +59,8 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations);
 uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight *relight,
                               const struct light_lists *lists, uint32_t cells, uint32_t cycle_visits,
                               struct gather_range ranges[static SDFGI_MAX_CASCADES]);
+/* True in the frames in which it is forgotten which cells were seen: a view may have turned away. */
+bool sdfgi_gathering_forgets_seen(const struct gathering *gathering);
 /* A cycle that ended came back from the GPU. */
 void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle,
                                const struct gather_change *change);

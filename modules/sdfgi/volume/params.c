@@ -61,6 +61,8 @@ static struct sdfgi_cascade_params cascade_params(const struct volume_state *sta
         .from_first = point_of(shift),
         .from_first_scale = ldexpf(1.0f, -(int)c),
         .probe_base = cell_of(probe_base),
+        .seen_first = state->gathering.at[c].seen_first,
+        .seen_end = state->gathering.at[c].seen_end,
     };
     fill_change(cascade, &p);
     return p;
