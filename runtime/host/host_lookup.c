@@ -25,13 +25,16 @@ enum host_lookup host_lookup_from_name(const char *name)
     return HOST_LOOKUP_COUNT;
 }
 
-/* The last frame's shaders have read the image; what they read may go. */
+/* The last frame's shaders have read the image; what they read may go. The forward pass reads it even where
+ * no gather writes it: shaders that show a part of the light alone leave out what they read. */
 static void image_prepare(VkCommandBuffer cmd, const struct host_image *image)
 {
     static const VkImageLayout layouts[] = { VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL };
     static const VkPipelineStageFlags stages[] = { VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT };
-    static const VkAccessFlags accesses[] = { VK_ACCESS_SHADER_READ_BIT, VK_ACCESS_SHADER_WRITE_BIT };
+                                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT };
+    static const VkAccessFlags accesses[] = { VK_ACCESS_SHADER_READ_BIT,
+                                              VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT };
     host_image_barrier(cmd, image->image, 0, 1, layouts, stages, accesses);
 }
 
