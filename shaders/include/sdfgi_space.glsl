@@ -87,6 +87,13 @@ uint sdfgi_albedo_block_index(uint cascade, ivec3 cell)
     return block.x | block.y << bits | block.z << (2u * bits);
 }
 
+/* The first texel of an albedo block, from its index within its cascade. */
+uvec3 sdfgi_albedo_block_texel(uint block)
+{
+    const uint bits = sdfgi_frame.resolution_log2 - 1u, mask = (1u << bits) - 1u;
+    return 2u * (uvec3(block, block >> bits, block >> (2u * bits)) & mask);
+}
+
 uint sdfgi_albedo_block_count()
 {
     return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));

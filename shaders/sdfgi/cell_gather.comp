@@ -273,10 +273,13 @@ float relative_change(vec3 a, vec3 b)
                1.0);
 }
 
-/* Visits in a cycle of a cell. Cells that are seen are visited so often that a single rough cycle will do. */
+/* Visits in a cycle of a cell. Seen cells, where they are visited more often than others, need no second
+ * rough cycle. */
 uint cycle_of(uint cascade, uint own)
 {
-    const bool is_ahead = states[own].mean >= GATHERED_ROUGH && seen_holds(cascade, entries[own]);
+    const bool seen_first = sdfgi_frame.cascades[cascade].seen_first < sdfgi_frame.cascades[cascade].seen_end;
+    const bool is_ahead =
+        seen_first && states[own].mean >= GATHERED_ROUGH && seen_holds(cascade, entries[own]);
     return is_ahead ? sdfgi_frame.cycle_visits : args.visits[cascade];
 }
 

@@ -101,8 +101,7 @@ void choose(uint limit)
 
 void load_block(uint block, out uvec2 cells[8])
 {
-    const uint bits = sdfgi_frame.resolution_log2 - 1u, mask = (1u << bits) - 1u;
-    const uvec3 texel = 2u * (uvec3(block, block >> bits, block >> (2u * bits)) & mask);
+    const uvec3 texel = sdfgi_albedo_block_texel(block);
     for (uint i = 0u; i < 8u; i++)
         cells[i] = sdfgi_bits[sdfgi_texel_index(texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u)) |
                               args.cascade << (3u * sdfgi_frame.resolution_log2)];

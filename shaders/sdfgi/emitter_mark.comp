@@ -15,8 +15,7 @@ layout(push_constant) uniform sdfgi_push
 
 bool is_to_be_listed(uint block)
 {
-    const uint bits = sdfgi_frame.resolution_log2 - 1u, mask = (1u << bits) - 1u;
-    const uvec3 texel = 2u * (uvec3(block, block >> bits, block >> (2u * bits)) & mask);
+    const uvec3 texel = sdfgi_albedo_block_texel(block);
     return emitter_shape_fill(sdfgi_emitters[emitter_shape_word(args.cascade, block)]) > 0.0 &&
            sdfgi_cell_is_valid(args.cascade, sdfgi_cell_from_texel(args.cascade, texel));
 }

@@ -85,9 +85,7 @@ emitter emitter_load(uint cascade, uint i)
 {
     const uint word = emitter_word(cascade, i), block = sdfgi_emitters[word],
                shape = sdfgi_emitters[word + 1u];
-    const uint bits = sdfgi_frame.resolution_log2 - 1u, mask = (1u << bits) - 1u;
-    const uvec3 texel = 2u * (uvec3(block, block >> bits, block >> (2u * bits)) & mask);
-    const vec3 corner = vec3(sdfgi_cell_from_texel(cascade, texel));
+    const vec3 corner = vec3(sdfgi_cell_from_texel(cascade, sdfgi_albedo_block_texel(block)));
     emitter e;
     e.low = corner + vec3(uvec3(shape, shape >> 3u, shape >> 6u) & 7u) / float(SDFGI_SUBVOXELS);
     e.high =

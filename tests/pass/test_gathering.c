@@ -113,6 +113,45 @@ static void cycles_grow_long_when_light_changes_little(void **state)
     REQUIRE_TRUE(!sdfgi_gathering_has_settled(&s.gathering, CASCADES));
 }
 
+/* Seen cells take half of the rays, and never all: otherwise the others would not settle. */
+static void seen_cells_take_half(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    s.lists.seen[0] = 300;
+    take(&s, 400);
+    REQUIRE_CMP(cells_of(&s, 0), ==, 100u);
+    REQUIRE_CMP(s.ranges[0].seen_count, ==, 100u);
+    REQUIRE_CMP(s.ranges[0].seen_span, >=, (uint32_t)ENTRIES / 3);
+    REQUIRE_CMP(s.ranges[1].seen_span, ==, 0u);
+    /* Piece by piece all of the list has its turn. */
+    uint32_t first = s.gathering.at[0].seen_end;
+    take(&s, 400);
+    REQUIRE_CMP(s.gathering.at[0].seen_first, ==, first);
+    take(&s, 400);
+    REQUIRE_CMP(s.gathering.at[0].seen_end, ==, (uint32_t)ENTRIES);
+    take(&s, 400);
+    REQUIRE_CMP(s.gathering.at[0].seen_first, ==, 0u);
+    for (uint32_t c = 0; c < CASCADES; c++)
+        s.lists.seen[c] = ENTRIES;
+    take(&s, 4);
+    for (uint32_t c = 0; c < CASCADES; c++)
+        REQUIRE_CMP(cells_of(&s, c), >=, 1u);
+}
+
+static void where_all_cells_are_visited_none_come_first(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    s.lists.seen[0] = 300;
+    take(&s, 6 * ENTRIES);
+    REQUIRE_CMP(cells_of(&s, 0), ==, (uint32_t)ENTRIES);
+    REQUIRE_CMP(s.ranges[0].seen_span, ==, 0u);
+    REQUIRE_CMP(s.gathering.at[0].seen_first, ==, s.gathering.at[0].seen_end);
+}
+
 /* A white room: all cells change, a little in each cycle. */
 static void cycles_stay_rough_while_many_cells_change(void **state)
 {
@@ -193,6 +232,8 @@ int main(void)
         cmocka_unit_test(a_sweep_visits_each_cell_once),
         cmocka_unit_test(a_cycle_ends_with_its_last_visit),
         cmocka_unit_test(cycles_grow_long_when_light_changes_little),
+        cmocka_unit_test(seen_cells_take_half),
+        cmocka_unit_test(where_all_cells_are_visited_none_come_first),
         cmocka_unit_test(cycles_stay_rough_while_many_cells_change),
         cmocka_unit_test(settled_cells_get_no_rays_until_light_changes),
         cmocka_unit_test(one_cascade_that_has_settled_leaves_its_share_to_others),

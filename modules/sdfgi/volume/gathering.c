@@ -113,7 +113,8 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
             continue;
         const uint32_t most = --unsettled > 0 ? (cells + 1) / 2 : cells;
         const uint32_t entries = sdfgi_light_list_entries(relight, lists, c), seen = lists->seen[c];
-        const uint32_t seen_most = seen > 0 ? (most + 1) / 2 : 0;
+        /* Where all cells have a visit in each frame there is nothing to choose. */
+        const uint32_t seen_most = seen > 0 && entries > most ? most / 2 : 0;
         struct gather_range *range = &ranges[count++];
         *range = take(&gathering->at[c], c, entries, most - seen_most, cycle_visits);
         take_seen(&gathering->at[c], entries, seen, seen_most, range);

@@ -347,7 +347,10 @@ struct sdfgi_gather_desc {
 /* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must
  * be made visible to compute shader reads by the host; the output is made visible to later compute and
  * fragment reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its
- * pipeline, as the first material with a texture makes one: better before the first frame than in one. */
+ * pipeline, as the first material with a texture makes one: better before the first frame than in one.
+ *
+ * Light of what the picture shows is gathered before that of other places, in the updates that follow.
+ * Lookups in the host's shaders have no such effect. */
 SDFGI_API enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd,
                                          const struct sdfgi_gather_desc *desc);
 
