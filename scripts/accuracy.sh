@@ -20,24 +20,7 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 # shellcheck source=scripts/packages.sh
 source scripts/packages.sh
 
-build=
-measure=()
-while [ $# -gt 0 ]; do
-    case $1 in
-    --help) sed -n '3,17s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    --finer) measure+=("$1"); shift ;;
-    --out | --docs | --scenes | --spp | --error | --size | --frames | --ssaa | --set | --shared | --build)
-        [ $# -ge 2 ] || die "$1 needs a value; see --help"
-        if [ "$1" = --build ]; then build=$2; else measure+=("$1" "$2"); fi
-        shift 2
-        ;;
-    *) die "unknown option $1; see --help" ;;
-    esac
-done
-if [ -z "$build" ]; then
-    build=build
-    install_packages
-    configure_and_build "$build"
-fi
+[ "${1:-}" != --help ] || { sed -n '3,17s/^# \{0,1\}//p' "$0"; exit 0; }
+measuring_options "--finer" "--out --docs --scenes --spp --error --size --frames --ssaa --set --shared" "$@"
 choose_lavapipe
 exec python3 scripts/accuracy/main.py --build "$build" "${measure[@]}"

@@ -102,3 +102,29 @@ choose_lavapipe() {
     done
     die "no lavapipe driver found; install mesa-vulkan-drivers or set VK_DRIVER_FILES"
 }
+
+# Reads the options of a script that measures: --build goes to `build`, the others to `measure`. Builds into
+# build/ unless a build is named.
+#   measuring_options "--flag ..." "--option ..." ARGUMENT...
+measuring_options() {
+    local flags=" $1 " options=" $2 --build "
+    shift 2
+    build=
+    measure=()
+    while [ $# -gt 0 ]; do
+        if [[ $flags == *" $1 "* ]]; then
+            measure+=("$1")
+            shift
+            continue
+        fi
+        [[ $options == *" $1 "* ]] || die "unknown option $1; see --help"
+        [ $# -ge 2 ] || die "$1 needs a value; see --help"
+        if [ "$1" = --build ]; then build=$2; else measure+=("$1" "$2"); fi
+        shift 2
+    done
+    if [ -z "$build" ]; then
+        build=build
+        install_packages
+        configure_and_build "$build"
+    fi
+}

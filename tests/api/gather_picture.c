@@ -129,18 +129,6 @@ void picture_finish(struct picture *picture)
 
 /* ---- Gathers */
 
-struct gather {
-    struct gi_test *t;
-    struct sdfgi_gather_desc desc;
-};
-
-static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    struct gather *g = user;
-    REQUIRE_CMP((int)sdfgi_gather(g->t->gi, cmd, &g->desc), ==, (int)SDFGI_OK);
-}
-
 float (*picture_gather(struct gi_test *t, const struct picture *p,
                        enum sdfgi_gather_resolution resolution))[3]
 {
@@ -153,12 +141,12 @@ float (*picture_gather(struct gi_test *t, const struct picture *p,
                                                         p->height, p->normals),
                           output = gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, p->width,
                                                         p->height, NULL);
-    struct gather g = { t, p->desc };
-    g.desc.depth = depth.view;
-    g.desc.normal = normal.view;
-    g.desc.output = output.view;
-    g.desc.resolution = resolution;
-    gpu_test_submit(&t->gpu, gather_record, &g);
+    struct sdfgi_gather_desc desc = p->desc;
+    desc.depth = depth.view;
+    desc.normal = normal.view;
+    desc.output = output.view;
+    desc.resolution = resolution;
+    gi_test_gather(t, &desc);
     gpu_test_image_read(&t->gpu, output.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
                         output.extent, 8, halves);
     for (uint32_t i = 0; i < 3 * pixels; i++)

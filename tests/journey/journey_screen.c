@@ -30,33 +30,20 @@ void journey_screen_close(struct journey_screen *screen, struct gi_test *t)
     gpu_test_image_destroy(&t->gpu, &screen->output);
 }
 
-struct gather {
-    struct gi_test *t;
-    struct sdfgi_gather_desc desc;
-};
-
-static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    struct gather *g = user;
-    REQUIRE_CMP(sdfgi_gather(g->t->gi, cmd, &g->desc), ==, SDFGI_OK);
-}
-
 const void *journey_screen_gather(struct journey_screen *screen, struct gi_test *t,
                                   enum sdfgi_gather_resolution resolution)
 {
-    struct gather g = { .t = t,
-                        .desc = { .depth = screen->depth.view,
-                                  .normal = screen->normal.view,
-                                  .output = screen->output.view,
-                                  .width = JOURNEY_SCREEN_WIDTH,
-                                  .height = JOURNEY_SCREEN_HEIGHT,
-                                  .background_depth = 1,
-                                  .resolution = resolution,
-                                  /* clip (x, y, depth) to (6 x, -1 - 2 depth, 6 y), column-major */
-                                  .inverse_view_projection = { 6, 0, 0, 0, 0, 0, 6, 0, 0, -2, 0, 0, 0, -1, 0,
-                                                               1 } } };
-    gpu_test_submit(&t->gpu, gather_record, &g);
+    const struct sdfgi_gather_desc desc = { .depth = screen->depth.view,
+                                            .normal = screen->normal.view,
+                                            .output = screen->output.view,
+                                            .width = JOURNEY_SCREEN_WIDTH,
+                                            .height = JOURNEY_SCREEN_HEIGHT,
+                                            .background_depth = 1,
+                                            .resolution = resolution,
+                                            /* clip (x, y, depth) to (6 x, -1 - 2 depth, 6 y), column-major */
+                                            .inverse_view_projection = { 6, 0, 0, 0, 0, 0, 6, 0, 0, -2, 0, 0,
+                                                                         0, -1, 0, 1 } };
+    gi_test_gather(t, &desc);
     gpu_test_image_read(&t->gpu, screen->output.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
                         screen->output.extent, 8, screen->pixels);
     return screen->pixels;

@@ -47,6 +47,24 @@ void gi_test_irradiance(struct gi_test *t, const struct gi_test_point *points, u
     gi_test_irradiance_from(t, NULL, points, count, irradiance);
 }
 
+struct gather {
+    sdfgi *gi;
+    const struct sdfgi_gather_desc *desc;
+};
+
+static void gather_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct gather *g = user;
+    REQUIRE_CMP((int)sdfgi_gather(g->gi, cmd, g->desc), ==, (int)SDFGI_OK);
+}
+
+void gi_test_gather(struct gi_test *t, const struct sdfgi_gather_desc *desc)
+{
+    struct gather g = { t->gi, desc };
+    gpu_test_submit(&t->gpu, gather_record, &g);
+}
+
 struct gpu_test_image gi_test_gather_image(struct gi_test *t, VkFormat format, uint32_t texel_size,
                                            uint32_t width, uint32_t height, const void *texels)
 {

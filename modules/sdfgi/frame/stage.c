@@ -25,6 +25,16 @@ void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first)
         list->items[i].group = list->groups;
 }
 
+void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t c)
+{
+    const struct extent *e = &stage->input->extent;
+    const uint64_t seen = sdfgi_resource_size(RESOURCE_SEEN, e) / e->cascades;
+    if (!e->gathers)
+        return;
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SEEN, c * seen, seen);
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (SDFGI_COUNTER_CELLS_SEEN + c), 4);
+}
+
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t c)
 {
     const struct cascade *cascade = &frame->next.cascades.at[c];

@@ -36,6 +36,9 @@ void sdfgi_stage_complete(const struct plan_stage *stage);
 /* Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
 void sdfgi_stage_light(const struct plan_stage *stage);
 
+/* Forgets which light cells of a cascade were seen: entries of its list change, or a view may have turned. */
+void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t cascade);
+
 /* What happens to the light list of a cascade. */
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t cascade);
 

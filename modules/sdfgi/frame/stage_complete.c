@@ -35,16 +35,6 @@ static void list_emitters(const struct plan_stage *stage, uint32_t c)
     sdfgi_stage_add_phase(stage, PHASE_EMITTERS, &(struct plan_target){ .cascade = c });
 }
 
-/* Entries of the list change: none has been seen. */
-static void clear_seen(const struct plan_stage *stage, uint32_t c)
-{
-    const struct extent *e = &stage->input->extent;
-    const uint64_t seen = sdfgi_resource_size(RESOURCE_SEEN, e) / e->cascades;
-    if (e->gathers)
-        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SEEN, c * seen, seen);
-    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (SDFGI_COUNTER_CELLS_SEEN + c), 4);
-}
-
 /* Where light cells are: blocks that have none are not written. */
 static void clear_blocks(const struct plan_stage *stage, uint32_t c)
 {
@@ -120,7 +110,7 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
     sdfgi_stage_end_group(stage, first);
 
     clear_blocks(stage, c);
-    clear_seen(stage, c);
+    sdfgi_stage_forget_seen(stage, c);
     sdfgi_stage_add_phase(stage, PHASE_LIST, &target);
 
     const uint32_t second = sdfgi_stage_begin_group(stage);

@@ -37,7 +37,7 @@ static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES]
     for (uint32_t i = 0; i < count; i++) {
         first[ranges[i].cascade] = ranges[i].first;
         end[ranges[i].cascade] = ranges[i].first + ranges[i].count;
-        const uint32_t seen = ranges[i].seen_span / seen_per_entry;
+        const uint32_t seen = (ranges[i].seen_span + seen_per_entry - 1) / seen_per_entry;
         const uint32_t longer = ranges[i].count > seen ? ranges[i].count : seen;
         work->count = longer > work->count ? longer : work->count;
         work->units += ranges[i].count + ranges[i].seen_count;
@@ -135,14 +135,6 @@ static void gather(const struct plan_stage *stage)
     work->units *= sdfgi_extent_visit_rays(&stage->input->extent);
 }
 
-/* Forgets which cells were seen. */
-static void forget_seen(const struct plan_stage *stage)
-{
-    struct work_list *work = &stage->frame->work;
-    sdfgi_work_add_clear(work, RESOURCE_SEEN, 0, sdfgi_resource_size(RESOURCE_SEEN, &stage->input->extent));
-    sdfgi_work_add_clear(work, RESOURCE_COUNTERS, 4 * SDFGI_COUNTER_CELLS_SEEN, 4 * SDFGI_MAX_CASCADES);
-}
-
 /* This frame's rays, and then some direct light. */
 static void trace(const struct plan_stage *stage)
 {
@@ -155,7 +147,8 @@ static void trace(const struct plan_stage *stage)
     gather(stage);
     sdfgi_stage_end_group(stage, first);
     if (stage->frame->situation.gathers && sdfgi_gathering_forgets_seen(&stage->frame->next.gathering))
-        forget_seen(stage);
+        for (uint32_t c = 0; c < stage->frame->next.cascades.count; c++)
+            sdfgi_stage_forget_seen(stage, c);
     if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
         relight(stage);
 }
