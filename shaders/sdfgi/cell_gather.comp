@@ -44,7 +44,7 @@ shared float importance[CELLS * PARTS];     /* per cell and part of the list: su
 struct ray_source {
     uint own;         /* its cell's index in `cells` */
     vec3 pos, normal; /* pos: in the open, within the cell and close to the surface */
-    vec3 surface;     /* where the surface is */
+    vec3 surface;     /* where the surface is: on the faces of its sub-voxels, in the mean */
     uint visits;      /* so far in this cycle */
     uint shift;       /* of its random sequences */
 };
@@ -60,7 +60,8 @@ ray_source source_of(uint cascade, uint surface)
     const ivec3 cell = cells[own];
     const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(axis));
     const uint shift = sdfgi_random_hash(light_cell_hash(cascade, cell) + 6u * sdfgi_frame.seed + axis);
-    const float distance = sdfgi_cell_distance(cascade, cell), depth = clamp(distance, 0.5, 1.0);
+    const float distance = sdfgi_cell_distance(cascade, cell),
+                depth = clamp(distance - 0.5 / float(SDFGI_SUBVOXELS), 0.5, 1.0);
     const vec3 centre = vec3(cell) + 0.5, towards = -vec3(sdfgi_axis_direction(axis));
     return ray_source(own, centre + towards * clamp(distance - RAY_CLEARANCE, 0.0, 0.49),
                       surface_normal(block, axis), centre + towards * depth, states[own].visits, shift);

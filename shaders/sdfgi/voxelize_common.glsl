@@ -2,12 +2,16 @@
  * Voxelisation of one triangle. The compute and the raster voxeliser share it. They set the same bits, and
  * differ only in which thread visits which column.
  *
- * A sub-voxel is set if the triangle crosses one of three segments through its centre. The segments are one
- * sub-voxel long and parallel to the axes. This is the 6-separating set (Schwarz and Seidel 2010, "Fast
- * parallel surface and solid voxelization"; Huang et al. 1998). A path between the centres of two face
- * neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path leads
- * through the mesh. A column is a line of sub-voxels along the triangle's dominant axis, and has one
- * candidate. */
+ * Half of the sub-voxel that a surface lies in is before the surface, in the mean. Rooms would be too small
+ * by a sub-voxel, and their lamps too bright. Each triangle is therefore moved behind its front side, along
+ * its dominant axis, by its inset: half a sub-voxel. Skirts join each edge to its moved twin, so that
+ * neighbours that move along different axes leave no gap.
+ *
+ * A sub-voxel is set if the moved triangle or a skirt crosses one of three segments through its centre. The
+ * segments are one sub-voxel long and parallel to the axes. This is the 6-separating set (Schwarz and Seidel
+ * 2010, "Fast parallel surface and solid voxelization"; Huang et al. 1998). A path between the centres of two
+ * face neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path
+ * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. */
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
 #include "pass.glsl"
@@ -47,8 +51,16 @@ layout(set = SDFGI_SET_MATERIAL,
 /* In sub-voxels. Points this far outside an edge count as inside, so that rounding cannot open a seam between
  * triangles that share the edge. */
 const float EDGE_MARGIN = 1.0 / 256.0;
-/* In sub-voxels. A surface exactly between two of them sets the upper one, however the transform rounds. */
+/* In sub-voxels. Both sides of a panel thinner than half a sub-voxel would change places, and one would hide
+ * what the other emits. Emitters have no inset. */
+const float INSET = 0.5;
+/* In sub-voxels, added to insets: a surface exactly between two sub-voxels sets the one behind it, however
+ * the transform rounds. */
 const float TIE_BIAS = 1.0 / 2048.0;
+/* In sub-voxels: half the length of the segments of a sub-voxel's centre cross. */
+const float SEGMENT = 0.5 + EDGE_MARGIN;
+/* Triangles of smaller slopes are taken as parallel to the faces of sub-voxels: as flat. */
+const float FLAT_SLOPE = 1.0 / 64.0;
 /* In sub-voxels. Beyond this floats cannot place an edge to within a sub-voxel. */
 const float MAX_COORDINATE = 1e9;
 
@@ -62,6 +74,7 @@ struct triangle {
     uint index[3];
     ivec4 columns; /* to test: low corner in xy, high corner in zw, both included */
     bool tiny;     /* smaller than a sub-voxel: always sets the one that its centre lies in */
+    float inset;   /* along the dominant axis, negative if the front faces down */
     float area2;   /* twice its area in the plane of the columns, in sub-voxels^2 */
 };
 
@@ -126,7 +139,7 @@ bool triangle_place(inout triangle t, vec3 v[3])
     const ivec3 box_low = box_corner(args.box_low), box_high = box_corner(args.box_high);
     const vec3 low = min(v[0], min(v[1], v[2]));
     const vec3 high = max(v[0], max(v[1], v[2]));
-    if (any(lessThan(high, vec3(box_low) - 0.5)) || any(greaterThan(low, vec3(box_high) + 0.5)))
+    if (any(lessThan(high, vec3(box_low) - 1.0)) || any(greaterThan(low, vec3(box_high) + 1.0)))
         return false;
     const vec3 height = abs(cross(v[1] - v[0], v[2] - v[0]));
     const float largest = max(height.x, max(height.y, height.z));
@@ -168,6 +181,8 @@ void triangle_setup(inout triangle t, vec3 v[3])
     /* Back to metric lengths, because cells may be flat, and to the mesh's front side. */
     const vec3 metric = normal / vec3(1.0, sdfgi_space_y_scale(), 1.0);
     t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_MIRRORED) != 0u ? -1.0 : 1.0);
+    const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
+    t.inset = sign(t.normal[t.axis]) * (TIE_BIAS + (emits ? 0.0 : INSET));
     t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));
 }
 
@@ -191,20 +206,73 @@ ivec2 tiny_column(triangle t)
     return ivec2(floor((t.v[0].xy + t.v[1].xy + t.v[2].xy) / 3.0));
 }
 
-/* The sub-voxel (permuted axes) in which a column meets the triangle's plane. True if it is to be set. */
-bool triangle_column(triangle t, ivec2 column, out ivec3 sub)
+/* Levels of a column: sub-voxels along the dominant axis, both included; none if the last lies below the
+ * first. */
+struct column_levels {
+    int first, last;
+};
+
+/* Height of the inset triangle's plane. */
+float inset_height(triangle t, vec2 p)
+{
+    return triangle_height(t, p) - t.inset;
+}
+
+/* The part of the line through `centre` along `axis` (0 or 1) that lies in the triangle, widened by `margin`:
+ * from x to y from the centre, or x > y. */
+vec2 triangle_section(triangle t, vec2 centre, int axis, float margin)
+{
+    vec2 section = vec2(-1.0, 1.0);
+    for (int i = 0; i < 3; i++) {
+        const float inside = dot(t.edges[i], vec3(centre, 1.0)) + margin, rise = t.edges[i][axis];
+        if (rise > 0.0)
+            section.x = max(section.x, -inside / rise);
+        else if (rise < 0.0)
+            section.y = min(section.y, -inside / rise);
+        else if (!(inside >= 0.0))
+            return vec2(1.0, -1.0);
+    }
+    return section;
+}
+
+/* Adds the levels whose segment along `axis` crosses the inset triangle, or the skirt of an edge. What lies
+ * over that line is one stretch of heights: the inset triangle's and, at each edge, up to the edge itself. */
+void levels_add_crossed(triangle t, vec2 centre, int axis, inout column_levels levels)
+{
+    const vec2 wide = triangle_section(t, centre, axis, EDGE_MARGIN);
+    if (wide.x > SEGMENT || wide.y < -SEGMENT || wide.x > wide.y)
+        return;
+    vec2 section = triangle_section(t, centre, axis, 0.0);
+    if (section.x > section.y)
+        section = vec2(0.5 * (wide.x + wide.y));
+    float low = 1e30, high = -1e30;
+    for (int i = 0; i < 2; i++) {
+        vec2 p = centre;
+        p[axis] += clamp(section[i], -SEGMENT, SEGMENT);
+        const float inset = inset_height(t, p),
+                    edge = abs(section[i]) <= SEGMENT ? triangle_height(t, p) : inset;
+        low = min(low, min(inset, edge));
+        high = max(high, max(inset, edge));
+    }
+    levels.first = min(levels.first, int(ceil(low - SEGMENT)));
+    levels.last = max(levels.last, int(floor(high - 1.0 + SEGMENT)));
+}
+
+/* The levels that a column sets. The inset triangles and the skirts of a closed mesh are closed, and this is
+ * their 6-separating set. Flat triangles need no skirts: where they meet, their sub-voxels touch at edges,
+ * which suffices. */
+column_levels triangle_levels(triangle t, ivec2 column)
 {
     const vec2 centre = vec2(column) + 0.5;
-    const float z = triangle_height(t, centre);
-    sub = ivec3(column, int(floor(z + TIE_BIAS)));
-    if (t.tiny && all(equal(column, tiny_column(t))))
-        return true;
-    if (triangle_contains(t, centre))
-        return true;
-    /* On the segments along the other two axes, the plane is as high as the sub-voxel's centre. */
-    const vec2 offset = (float(sub.z) + 0.5 - z) / t.slope;
-    return (abs(offset.x) <= 0.5 + EDGE_MARGIN && triangle_contains(t, centre + vec2(offset.x, 0.0))) ||
-           (abs(offset.y) <= 0.5 + EDGE_MARGIN && triangle_contains(t, centre + vec2(0.0, offset.y)));
+    const int level = int(floor(inset_height(t, centre)));
+    column_levels levels = column_levels(level, level);
+    if (!((t.tiny && all(equal(column, tiny_column(t)))) || triangle_contains(t, centre)))
+        levels = column_levels(0x7fffffff, -0x7fffffff);
+    if (max(abs(t.slope.x), abs(t.slope.y)) > FLAT_SLOPE) {
+        levels_add_crossed(t, centre, 0, levels);
+        levels_add_crossed(t, centre, 1, levels);
+    }
+    return levels;
 }
 
 struct surface_sample {
@@ -388,31 +456,37 @@ void store_bit(uint cell, uint bit)
     }
 }
 
-/* Tests one column, and stores the sample that the triangle has there. */
-void triangle_store_column(triangle t, ivec2 column)
+/* Sets the sub-voxel at `from_anchor`. */
+void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
 {
-    const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
-    ivec3 permuted;
-    const bool set = triangle_column(t, column, permuted);
-    const ivec3 from_anchor = unpermute(permuted, t.axis);
-    if ((!set && !emits) || any(lessThan(from_anchor, box_corner(args.box_low))) ||
-        any(greaterThanEqual(from_anchor, box_corner(args.box_high))))
-        return;
-    const ivec3 sub = from_anchor + args.anchor;
-    const ivec3 cell = sub >> 2;
-    const surface_sample s = triangle_sample(t, column);
-    if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
-        return;
+    const ivec3 sub = from_anchor + args.anchor, cell = sub >> 2, inner = sub & 3;
     const uint block = sdfgi_albedo_block_index(args.cascade, cell);
-    if (emits)
-        accumulate_emission(t, column, block, s);
-    if (!set)
-        return;
-    const uint index = sdfgi_cell_index(args.cascade, cell);
-    const ivec3 inner = sub & 3;
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
-    store_bit(index, bit);
+    store_bit(sdfgi_cell_index(args.cascade, cell), bit);
     accumulate_surface(t, block, s);
     if (s.emission != vec3(0.0))
         store_emitter(t, block, sdfgi_texel_index(sdfgi_cell_texel(args.cascade, cell)), bit, s);
+}
+
+/* Tests one column of those that lie in the box, and stores the sample that the triangle has there. */
+void triangle_store_column(triangle t, ivec2 column)
+{
+    const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
+    const int low = permute(box_corner(args.box_low), t.axis).z,
+              high = permute(box_corner(args.box_high), t.axis).z;
+    const int level = int(floor(inset_height(t, vec2(column) + 0.5)));
+    const bool emits_here = emits && level >= low && level < high;
+    const column_levels levels = triangle_levels(t, column);
+    const int first = max(levels.first, low), last = min(levels.last, high - 1);
+    if (first > last && !emits_here)
+        return;
+    const surface_sample s = triangle_sample(t, column);
+    if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
+        return;
+    if (emits_here) {
+        const ivec3 sub = unpermute(ivec3(column, level), t.axis) + args.anchor;
+        accumulate_emission(t, column, sdfgi_albedo_block_index(args.cascade, sub >> 2), s);
+    }
+    for (int i = first; i <= last; i++)
+        store_sub_voxel(t, unpermute(ivec3(column, i), t.axis), s);
 }

@@ -63,12 +63,12 @@ static void hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky(v
     gi_test_close(&t);
 }
 
-/* Planes through the middle of every layer of sub-voxels. */
+/* Planes whose insets go through the middle of every layer of sub-voxels. */
 static struct test_mesh all_layers(double half_extent, uint32_t layers)
 {
     struct test_mesh mesh = { 0 };
     for (uint32_t i = 0; i < layers; i++) {
-        const double center[3] = { half_extent * ((2.0 * i + 1) / layers - 1), 0, 0 };
+        const double center[3] = { half_extent * ((2.0 * i + 2) / layers - 1), 0, 0 };
         const double edge_u[3] = { 0, 1.1 * half_extent, 0 }, edge_v[3] = { 0, 0, 1.1 * half_extent };
         struct test_mesh plane = test_mesh_plane(center, edge_u, edge_v, 1);
         test_mesh_append(&mesh, &plane);
@@ -106,12 +106,13 @@ static void hard_06_a_full_cascade_has_no_light_cells(void **state)
     test_mesh_destroy(&mesh);
 }
 
-/* A square that crosses the centre of one sub-voxel and touches no other. */
+/* A square whose inset crosses the centre of one sub-voxel and touches no other. */
 static struct test_mesh speck_in_corner(int corner, double half_extent, double sub)
 {
     double center[3];
     for (int k = 0; k < 3; k++)
         center[k] = (corner >> k & 1 ? 1 : -1) * (half_extent - sub / 2);
+    center[2] += sub / 2;
     return test_mesh_plane(center, (double[]){ 0.4 * sub, 0, 0 }, (double[]){ 0, 0.4 * sub, 0 }, 1);
 }
 

@@ -80,7 +80,8 @@ static void hard_16_every_tiny_triangle_sets_one_bit(void **state)
 
 /* ---- Huge triangles */
 
-/* Every column along y must be set within a sub-voxel of the plane y = height + slope x, and nowhere else. */
+/* Every column along y must be set within a sub-voxel of the plane y = height + slope x, which faces up and
+ * lies half a sub-voxel lower for its inset, and nowhere else. */
 static void require_plane(const struct oracle_bits *bits, const struct oracle_grid *grid, double height,
                           double slope)
 {
@@ -88,7 +89,7 @@ static void require_plane(const struct oracle_bits *bits, const struct oracle_gr
     int64_t worst = 0;
     for (int64_t i = 0; i < size * size; i++) {
         const double x = grid->origin[0] + ((double)(i % size) + 0.5) * grid->step[0];
-        const int64_t wanted = (int64_t)floor((height + slope * x - grid->origin[1]) / grid->step[1]);
+        const int64_t wanted = (int64_t)floor((height + slope * x - grid->origin[1]) / grid->step[1] - 0.5);
         int64_t nearest = size;
         for (int64_t y = 0; y < size; y++) {
             if (!oracle_bits_get(bits, (uint32_t)(i % size), (uint32_t)y, (uint32_t)(i / size)))

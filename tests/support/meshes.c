@@ -364,6 +364,16 @@ void test_mesh_transform(struct test_mesh *mesh, const double basis[static 9],
     }
 }
 
+void test_mesh_invert(struct test_mesh *mesh)
+{
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        uint32_t *corners = mesh->indices + 3 * (size_t)i;
+        const uint32_t second = corners[1];
+        corners[1] = corners[2];
+        corners[2] = second;
+    }
+}
+
 void test_mesh_bounds(const struct test_mesh *mesh, float bounds_min[static 3], float bounds_max[static 3])
 {
     for (int k = 0; k < 3; k++) {

@@ -62,6 +62,9 @@ void test_mesh_append(struct test_mesh *mesh, const struct test_mesh *other);
 void test_mesh_transform(struct test_mesh *mesh, const double basis[static 9],
                          const double translation[static 3]);
 
+/* Turns every triangle's front to the other side. */
+void test_mesh_invert(struct test_mesh *mesh);
+
 void test_mesh_bounds(const struct test_mesh *mesh, float bounds_min[static 3], float bounds_max[static 3]);
 
 #endif

@@ -2,6 +2,7 @@
 #include "oracle_voxel.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* A triangle in grid units; false if it cannot be used. */
 static bool triangle_load(const struct oracle_grid *grid, const struct test_mesh *mesh, uint32_t triangle,
@@ -174,6 +175,69 @@ void oracle_voxel_separating(struct oracle_bits *bits, const struct oracle_grid 
                 view_set_edge_on(bits, &view);
         }
     }
+}
+
+/* ---- Insets ---- */
+
+static void add_triangle(struct test_mesh *mesh, const struct oracle_grid *grid, const double *a,
+                         const double *b, const double *c)
+{
+    const double *corners[3] = { a, b, c };
+    for (int corner = 0; corner < 3; corner++) {
+        mesh->indices[mesh->vertex_count] = mesh->vertex_count;
+        for (int k = 0; k < 3; k++)
+            mesh->positions[3 * (size_t)mesh->vertex_count + (size_t)k] =
+                (float)(grid->origin[k] + corners[corner][k] * grid->step[k]);
+        mesh->vertex_count++;
+    }
+    mesh->triangle_count++;
+}
+
+/* The triangle moved by half a voxel along `axis`, against its normal. */
+static void add_inset(struct test_mesh *to, const struct oracle_grid *grid, const double v[static 3][3],
+                      const double normal[static 3], int axis, bool skirts)
+{
+    double moved[3][3];
+    for (int corner = 0; corner < 3; corner++)
+        for (int k = 0; k < 3; k++)
+            moved[corner][k] = v[corner][k] - (k == axis ? copysign(0.5, normal[k]) : 0);
+    add_triangle(to, grid, moved[0], moved[1], moved[2]);
+    for (int i = 0; skirts && i < 3; i++) {
+        const int j = (i + 1) % 3;
+        add_triangle(to, grid, v[i], v[j], moved[j]);
+        add_triangle(to, grid, v[i], moved[j], moved[i]);
+    }
+}
+
+static void inset_triangle(struct test_mesh *to, const struct oracle_grid *grid, const double v[static 3][3],
+                           double tolerance)
+{
+    double normal[3], largest = 0;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        normal[k] = (v[1][a] - v[0][a]) * (v[2][b] - v[0][b]) - (v[1][b] - v[0][b]) * (v[2][a] - v[0][a]);
+        largest = fmax(largest, fabs(normal[k]));
+    }
+    for (int axis = 0; axis < 3 && largest > 0; axis++) {
+        const double others = fmax(fabs(normal[(axis + 1) % 3]), fabs(normal[(axis + 2) % 3]));
+        if (fabs(normal[axis]) * (1 + tolerance) >= others)
+            add_inset(to, grid, v, normal, axis,
+                      others * (1 + tolerance) > ORACLE_FLAT_SLOPE * fabs(normal[axis]));
+    }
+}
+
+struct test_mesh oracle_voxel_inset(const struct oracle_grid *grid, const struct test_mesh *mesh,
+                                    double tolerance)
+{
+    /* A triangle and six of its skirts, along up to three axes. */
+    const size_t triangles = (size_t)mesh->triangle_count * 3 * 7;
+    struct test_mesh to = { .positions = calloc(triangles * 9, sizeof *to.positions),
+                            .indices = calloc(triangles * 3, sizeof *to.indices) };
+    double v[3][3];
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        if (triangle_load(grid, mesh, i, v))
+            inset_triangle(&to, grid, (const double(*)[3])v, tolerance);
+    return to;
 }
 
 /* ---- Touching: separating axes (Akenine-Moller 2001), with closed intervals throughout ---- */

@@ -16,6 +16,17 @@
 void oracle_voxel_separating(struct oracle_bits *bits, const struct oracle_grid *grid,
                              const struct test_mesh *mesh, double shrink);
 
+/* Slope over the dominant axis up to which a triangle is flat. */
+#define ORACLE_FLAT_SLOPE (1.0 / 64)
+
+/* The mesh with each triangle moved half a voxel behind its front side, along its dominant axis, and with
+ * skirts between the edges of triangles that are not flat and their moved twins. The caller destroys it.
+ *
+ * `tolerance` (relative) is for slopes near 1, where the dominant axis is in doubt, and slopes near
+ * ORACLE_FLAT_SLOPE. Negative: what is in doubt is left out. Positive: it is there each way. */
+struct test_mesh oracle_voxel_inset(const struct oracle_grid *grid, const struct test_mesh *mesh,
+                                    double tolerance);
+
 /* Every voxel whose closed box, grown by `grow` voxels on each side, a triangle touches. */
 void oracle_voxel_touched(struct oracle_bits *bits, const struct oracle_grid *grid,
                           const struct test_mesh *mesh, double grow);
