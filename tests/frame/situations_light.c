@@ -63,7 +63,17 @@ static void exposure_changed(struct show *show)
 {
     show_begin(show);
     drive_converge(&show->d);
-    show->d.desc.exposure = 2;
+    show->d.desc.exposure = 1024;
+    show_frames(show, 2);
+}
+
+static void exposure_drifted(struct show *show)
+{
+    show_begin(show);
+    drive_converge(&show->d);
+    show->d.desc.exposure = 200;
+    show_frames(show, 2);
+    show->d.desc.exposure = 0.005f;
     show_frames(show, 2);
 }
 
@@ -119,7 +129,8 @@ static const struct situation_row rows[] = {
     { "a_light_in_the_second_frame_lights_all_that_lists_have_room_for", light_updated_in_the_second_frame },
     { "a_light_while_a_scroll_completes", light_updated_while_a_scroll_completes },
     { "a_changed_sky_begins_to_converge_again", sky_changed },
-    { "a_changed_exposure_lights_all_cells", exposure_changed },
+    { "a_very_different_exposure_lights_all_cells", exposure_changed },
+    { "another_exposure_costs_nothing", exposure_drifted },
     { "a_changed_seed_rebuilds_everything", seed_changed },
     { "a_changed_energy_is_uploaded", energy_changed },
     { "a_longer_light_list_is_written_anew", list_grew },

@@ -197,7 +197,7 @@ static void eight_cascades_that_are_edited_everywhere_fit_the_list(void **state)
         sdfgi_scene_invalidate_box(&walk.d.scene, (double[]){ x, 0, 0 }, (double[]){ x + 1, 1, 1 });
     }
     walk.d.list_grew = true;
-    walk.d.desc.exposure = 2;
+    walk.d.desc.exposure = 1024;
     drive_begin_frame(&walk.d);
     take_frame();
     REQUIRE_CMP(cascades_that_complete(SDFGI_MAX_CHANGES), ==, 8u);

@@ -94,7 +94,7 @@ static void change_surroundings(struct walk *w)
         sdfgi_scene_set_sky(&w->d.scene, &sky);
         break;
     case 1:
-        w->d.desc.exposure = value;
+        w->d.desc.exposure = powf(value, 10);
         break;
     case 2:
         w->d.desc.seed++;

@@ -195,7 +195,7 @@ static void change_sky_and_exposure(struct journey *j, const double camera[stati
 {
     light_set_uniform_sky(&j->t, 0.3f);
     journey_stay(j, camera, 2);
-    j->t.frame.exposure = 0.25f;
+    j->t.frame.exposure = 600;
     journey_stay(j, camera, 2);
 }
 

@@ -89,6 +89,55 @@ static void exposure_does_not_change_light(void **state)
     }
 }
 
+/* Exposure may change in every frame: light stays what it is, to the bit, and nothing begins anew. */
+static void automatic_exposure_costs_nothing(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    light_set_uniform_sky(&t, 0.3f);
+    gi_test_converge(&t, 120);
+    float before[POINT_COUNT][3], found[POINT_COUNT][3];
+    gi_test_irradiance(&t, points, POINT_COUNT, before);
+    static const float exposures[] = { 1, 16, 1 / 16.0f, 1.1f, 200, 0.005f };
+    for (size_t i = 0; i < sizeof exposures / sizeof *exposures; i++) {
+        t.frame.exposure = exposures[i];
+        gi_test_update(&t, 1);
+        gi_test_irradiance(&t, points, POINT_COUNT, found);
+        REQUIRE_CMP(worst_ratio(found, before, 1), ==, 0.0);
+        gi_test_converge(&t, 2); /* it still is */
+    }
+    gi_test_close(&t);
+}
+
+/* No exposure makes light infinite or not a number, however little it fits the light. */
+static void extreme_exposures_leave_light_finite(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    light_add_box(&t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f }, 50);
+    light_set_uniform_sky(&t, 100);
+    const struct sdfgi_light_desc lamp = light_point(0.3, 1, 0.5, 5e4f);
+    light_create(&t, &lamp);
+    static const float exposures[] = { 1e38f, 1e-38f, 1e38f };
+    for (int i = 0; i < 3; i++) {
+        float found[POINT_COUNT][3];
+        t.frame.exposure = exposures[i];
+        for (int frame = 0; frame < 12; frame++) {
+            gi_test_update(&t, 1);
+            gi_test_irradiance(&t, points, POINT_COUNT, found);
+            for (int k = 0; k < 3 * POINT_COUNT; k++)
+                REQUIRE_TRUE(isfinite(found[k / 3][k % 3]) && found[k / 3][k % 3] >= 0);
+        }
+    }
+    gi_test_close(&t);
+}
+
 static void a_red_wall_reddens_what_faces_it(void **state)
 {
     (void)state;
@@ -137,6 +186,8 @@ int main(void)
         cmocka_unit_test(energy_scales_lookups_and_nothing_else),
         cmocka_unit_test(hard_31_lights_of_any_scale_give_the_same_picture),
         cmocka_unit_test(exposure_does_not_change_light),
+        cmocka_unit_test(automatic_exposure_costs_nothing),
+        cmocka_unit_test(extreme_exposures_leave_light_finite),
         cmocka_unit_test(a_red_wall_reddens_what_faces_it),
         cmocka_unit_test(feedback_adds_bounces),
     };

@@ -3,15 +3,36 @@
 #include "frame_work.h"
 #include "stage.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* Powers of two. Formats hold light of 2^-14 to 2^16 well: what is stored with another exposure than the
+ * hint's keeps its precision if the two are no further apart than this. */
+#define EXPOSURE_APART 8
+/* Farthest exposure that light is stored with: times any light that makes sense, it fits a float. */
+#define EXPOSURE_FARTHEST 40
+
+/* The exposure that light is stored with: a power of two, and the same as before unless the hint is far from
+ * it. Hosts with automatic exposure give another hint in each frame. */
+static float stored_exposure(float stored, float hint, bool first)
+{
+    const int power = ilogbf(hint > 0 ? hint : 1.0f);
+    if (!first && abs(power - ilogbf(stored)) <= EXPOSURE_APART)
+        return stored;
+    return ldexpf(1, power < -EXPOSURE_FARTHEST  ? -EXPOSURE_FARTHEST
+                     : power > EXPOSURE_FARTHEST ? EXPOSURE_FARTHEST
+                                                 : power);
+}
 
 /* Takes over what the host says about the frame and what changed in the scene. */
 static void take_input(struct frame *frame, const struct frame_input *input)
 {
     const struct sdfgi_frame_desc *desc = input->desc;
     struct volume_state *next = &frame->next;
-    const float exposure = desc->exposure > 0 ? desc->exposure : 1.0f;
-    const bool first = next->updates == 0, exposure_changed = exposure != next->exposure;
+    const bool first = next->updates == 0;
+    const float exposure = stored_exposure(next->exposure, desc->exposure, first);
+    const bool exposure_changed = exposure != next->exposure;
     sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
     if (exposure_changed) {

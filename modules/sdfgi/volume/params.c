@@ -68,9 +68,14 @@ static struct sdfgi_cascade_params cascade_params(const struct volume_state *sta
     return p;
 }
 
+/* Light stored with an exposure that does not fit it. Beyond this, where no format reaches, sums of floats
+ * could come out infinite. */
+#define BRIGHTEST 1e9f
+
 static vec3 scaled(const float color[static 3], float factor)
 {
-    return (vec3){ color[0] * factor, color[1] * factor, color[2] * factor };
+    return (vec3){ fminf(color[0] * factor, BRIGHTEST), fminf(color[1] * factor, BRIGHTEST),
+                   fminf(color[2] * factor, BRIGHTEST) };
 }
 
 static void fill_sky(struct sdfgi_frame_params *p, const struct sdfgi_sky *sky, float factor)
@@ -121,7 +126,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     fill_settings(p, input->settings);
     p->exposure = state->exposure;
     p->exposure_inverse = 1.0f / state->exposure;
-    p->emission_scale = input->scene->emission_unit * state->exposure;
+    p->emission_scale = fminf(input->scene->emission_unit * state->exposure, BRIGHTEST);
     p->light_count = input->scene->lights.count;
     p->light_cell_room = (uint32_t)input->extent->light_cells;
     p->lists_emitters = input->extent->emits;

@@ -294,7 +294,9 @@ struct sdfgi_frame_desc {
                          kilometres use a point near the camera */
     uint32_t seed;    /* of the random sequence. Changing it rebuilds everything */
     float exposure;   /* > 0: factor that brings scene radiance near 1, so that small formats keep
-                         their precision; 0: 1. Changing it restarts convergence */
+                         their precision; 0: 1. May change in every frame: light is stored with the
+                         power of two below the first one, and gathered anew only if the exposure is
+                         256 times larger or smaller. Light that lookups return does not depend on it */
 };
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
