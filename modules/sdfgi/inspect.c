@@ -84,7 +84,7 @@ void sdfgi_inspect_decode_block(uint32_t albedo, const uint32_t *emission, uint3
     memset(out, 0, sizeof *out);
     for (int i = 0; i < 3; i++) {
         const uint32_t slopes = normals >> (10 * i);
-        out->albedo[i] = (uint8_t)(albedo >> (8 * i) & 255);
+        out->albedo[i] = (uint16_t)(albedo >> (10 * i) & 1023);
         /* RGB9E5 as in shaders/lib/rgbe.glsl. */
         out->emission[i] =
             ldexpf((float)(emission[0] >> (9 * i) & 511), (int)(emission[0] >> 27) - 24) * emission_unit;

@@ -15,6 +15,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "emitters.glsl"
 #include "gathered.glsl"
+#include "../lib/irradiance_pack.glsl"
 #include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../include/sdfgi_trace.glsl"
@@ -35,6 +36,7 @@ shared uint entries[CELLS];
 shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not there */
 shared gathered_state states[CELLS]; /* with which the visits begin */
 shared uint changes[CELLS];          /* float bits: how far a mean has changed */
+shared int drifts[CELLS];            /* surfaces that are brighter than a cycle before, less darker ones */
 shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
 shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
@@ -264,14 +266,12 @@ gathered_light load_light(uint cascade, uint entry, uint axis)
     return light;
 }
 
-/* Difference of two colours over the brighter one, at most 1. Below a part of the brightest probe nobody sees
- * a change. */
+/* Difference of two colours over the brighter one, at most 1. */
 float relative_change(vec3 a, vec3 b)
 {
     const vec3 difference = abs(a - b), larger = max(a, b);
     const float most = max(difference.r, max(difference.g, difference.b));
-    return min(most / (max(larger.r, max(larger.g, larger.b)) + sdfgi_frame.brightest_texel / 512.0 + 1e-12),
-               1.0);
+    return min(most / (max(larger.r, max(larger.g, larger.b)) + SDFGI_DARK), 1.0);
 }
 
 /* Visits in a cycle of a cell. Seen cells, where they are visited more often than others, need no second
@@ -304,9 +304,11 @@ void add_visit(uint cascade, uint surface, vec3 light)
     gathered.sum = gathered_add(states[own], gathered, light);
     if (ends_cycle(cascade, own)) {
         const vec3 mean = gathered_mean(states[own], gathered.sum, states[own].visits + 1u);
-        const float change =
-            states[own].mean == mean_after(cascade, own) ? relative_change(mean, gathered.mean) : 1.0;
+        const bool known = states[own].mean == mean_after(cascade, own);
+        const float change = known ? relative_change(mean, gathered.mean) : 1.0;
         atomicMax(changes[own], floatBitsToUint(change));
+        if (known && change >= SDFGI_DRIFT)
+            atomicAdd(drifts[own], int(sign(dot(mean - gathered.mean, vec3(1.0)))));
         gathered = gathered_light(vec3(0.0), mean);
     }
     gathered_store(cascade, entry, axis, gathered);
@@ -323,6 +325,8 @@ void end_visit(uint cascade, uint own)
         atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_CHANGE + cascade], changes[own]);
     if (uintBitsToFloat(changes[own]) >= SDFGI_SMALL_CHANGE)
         counter_add(SDFGI_COUNTER_CELLS_CHANGING + cascade, 1u);
+    if (drifts[own] != 0)
+        counter_add(SDFGI_COUNTER_CELLS_DRIFTING + cascade, uint(sign(drifts[own])));
 }
 
 /* Seen cells that the workgroup visits: a bit for each, from the entry `first` on. None in the rows of
@@ -379,6 +383,7 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
         cells[own] = cell;
         entries[own] = entry;
         facing[own] = changes[own] = 0u;
+        drifts[own] = 0;
         if (there)
             states[own] = state_of_visit(cascade, entry);
     }

@@ -15,11 +15,11 @@
 #define SDFGI_GATHERED_GLSL
 
 #include "light_cells.glsl"
-#include "../lib/irradiance_pack.glsl"
+#include "../lib/rgb48.glsl"
 
 /* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
- * S and P as half floats; the packed gathered_state; and per axis the irradiance before it is filtered, as
- * the surfaces' of sdfgi_resources.glsl. Sums count a visit as 1 / sdfgi_frame.cycle_visits. */
+ * S and P, 48 bits each (lib/rgb48.glsl); the packed gathered_state; and per axis the irradiance before it is
+ * filtered, as the surfaces' of sdfgi_resources.glsl. Sums count a visit as 1 / sdfgi_frame.cycle_visits. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
 {
     uint sdfgi_gathered[];
@@ -78,21 +78,18 @@ struct gathered_light {
 gathered_light gathered_load(uint cascade, uint entry, uint axis)
 {
     const uint plane = sdfgi_frame.light_cell_room, word = gathered_word(cascade, 3u * axis, entry);
-    const vec2 sum = unpackHalf2x16(sdfgi_gathered[word]),
-               mean = unpackHalf2x16(sdfgi_gathered[word + plane]),
-               blue = unpackHalf2x16(sdfgi_gathered[word + 2u * plane]);
-    return gathered_light(vec3(sum, blue.x), vec3(mean, blue.y));
+    const uint shared_word = sdfgi_gathered[word + plane];
+    return gathered_light(sdfgi_rgb48_decode(uvec2(sdfgi_gathered[word], shared_word & 0xffffu)),
+                          sdfgi_rgb48_decode(uvec2(sdfgi_gathered[word + 2u * plane], shared_word >> 16u)));
 }
 
 void gathered_store(uint cascade, uint entry, uint axis, gathered_light light)
 {
-    const float HALF_MAX = 65504.0;
     const uint plane = sdfgi_frame.light_cell_room, word = gathered_word(cascade, 3u * axis, entry);
-    const vec4 sum = sdfgi_half4_round(vec4(min(light.sum, vec3(HALF_MAX)), 0.0)),
-               mean = sdfgi_half4_round(vec4(min(light.mean, vec3(HALF_MAX)), 0.0));
-    sdfgi_gathered[word] = packHalf2x16(sum.rg);
-    sdfgi_gathered[word + plane] = packHalf2x16(mean.rg);
-    sdfgi_gathered[word + 2u * plane] = packHalf2x16(vec2(sum.b, mean.b));
+    const uvec2 sum = sdfgi_rgb48_encode(light.sum), mean = sdfgi_rgb48_encode(light.mean);
+    sdfgi_gathered[word] = sum.x;
+    sdfgi_gathered[word + plane] = sum.y | mean.y << 16u;
+    sdfgi_gathered[word + 2u * plane] = mean.x;
 }
 
 /* The irradiance that a cell shows along an axis. `prior` is what probes tell, with its weight, 0 or 1, in a.

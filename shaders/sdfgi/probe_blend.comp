@@ -51,10 +51,6 @@ layout(push_constant) uniform sdfgi_push
 /* A cycle is complete from this fraction of W on: weights are stored as half floats, which are rounded. */
 const float COMPLETE_FRACTION = 0.99;
 const float HALF_MAX = 65504.0;
-/* A change is relative to a texel's own brightness plus this fraction of the brightest texel of all probes,
- * because nobody sees a change below that. */
-const float DARK_FRACTION = 1.0 / 512.0;
-
 /* The history of a NEW probe counts for this much of what the probe has just read, at most. */
 const float NEW_HISTORY_WEIGHT = 1.0;
 /* After a history reset, the light so far counts for this fraction of a cycle at most. */
@@ -78,8 +74,7 @@ const float DEVIATION_KEPT = 0.75;
 /* Light cells read at most this many times what is displayed, and at least its inverse. */
 const float MAX_GAIN = 8.0;
 
-shared uint group_change;    /* float bits: largest change of the probe's texels */
-shared uint group_brightest; /* float bits: their largest component */
+shared uint group_change; /* float bits: largest change of the probe's texels */
 
 struct texel {
     vec4 sum;      /* S and w */
@@ -108,9 +103,7 @@ uint filter_state(probe_history history)
 /* Relative difference of two colours, at most 1. */
 float texel_change(vec3 estimate, vec3 previous)
 {
-    const float brightest = sdfgi_frame.brightest_texel;
-    const vec3 change =
-        abs(estimate - previous) / (max(estimate, previous) + brightest * DARK_FRACTION + 1e-12);
+    const vec3 change = abs(estimate - previous) / (max(estimate, previous) + SDFGI_DARK);
     return min(max(change.r, max(change.g, change.b)), 1.0);
 }
 
@@ -143,16 +136,11 @@ texel texel_load(uint slot, bool is_new)
 /* Fills the shared maxima. Called by the whole workgroup. */
 void measure_probe(texel t)
 {
-    if (gl_LocalInvocationIndex == 0u) {
+    if (gl_LocalInvocationIndex == 0u)
         group_change = 0u;
-        group_brightest = 0u;
-    }
     barrier();
-    if (has_texel()) {
-        const vec3 light = t.estimate.rgb;
+    if (has_texel())
         atomicMax(group_change, floatBitsToUint(t.change));
-        atomicMax(group_brightest, floatBitsToUint(max(light.r, max(light.g, light.b))));
-    }
     barrier();
 }
 
@@ -216,7 +204,6 @@ void count_change(probe_history history)
 {
     const bool known = history.cycles >= PROBE_COMPLETE_CYCLES;
     atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE], known ? group_change : floatBitsToUint(1.0));
-    atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_IRRADIANCE], group_brightest);
 }
 
 void main()

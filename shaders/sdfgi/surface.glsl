@@ -13,7 +13,7 @@
 #define SDFGI_ACCESS_SURFACE readonly
 #endif
 
-/* unorm8 RGB. */
+/* 10 bits each of red, green and blue. With 8 bits 0.95 was 0.949, and a furnace had 2 % less light. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
 {
@@ -81,9 +81,16 @@ vec3 surface_normal(uint block, uint axis)
     return best;
 }
 
+uint surface_pack_albedo(vec3 albedo)
+{
+    const uvec3 q = uvec3(clamp(albedo, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
+    return q.r | q.g << 10u | q.b << 20u;
+}
+
 vec3 surface_albedo(uint block)
 {
-    return unpackUnorm4x8(sdfgi_albedo[block]).rgb;
+    const uint packed = sdfgi_albedo[block];
+    return vec3(packed & 1023u, packed >> 10u & 1023u, packed >> 20u) / SDFGI_ALBEDO_STEPS;
 }
 
 /* False if nothing in the scene emits: the emission of blocks need not be read. */

@@ -194,8 +194,9 @@ void resolve(ivec3 cell)
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
     const uint out_index = block + args.cascade * sdfgi_albedo_block_count();
-    const vec3 albedo = accumulated3(SDFGI_ACCUM_ALBEDO, block) / (float(max(count, 1u)) * 255.0);
-    sdfgi_albedo[out_index] = packUnorm4x8(vec4(albedo, 0.0));
+    const vec3 albedo =
+        accumulated3(SDFGI_ACCUM_ALBEDO, block) / (float(max(count, 1u)) * SDFGI_ALBEDO_STEPS);
+    sdfgi_albedo[out_index] = surface_pack_albedo(albedo);
     sdfgi_emission[out_index] = resolve_emission(block, block_texel);
     sdfgi_normals[out_index] = resolve_normals(block);
     if (count == 0u)

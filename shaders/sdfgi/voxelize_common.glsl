@@ -354,7 +354,7 @@ void accumulate(uint plane, uint block, uint value)
 /* Sums are integers, so that they do not depend on the order of additions. */
 void accumulate_surface(triangle t, uint block, surface_sample s)
 {
-    const uvec3 albedo = uvec3(clamp(s.albedo.rgb, 0.0, 1.0) * 255.0 + 0.5);
+    const uvec3 albedo = uvec3(clamp(s.albedo.rgb, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
     for (uint i = 0u; i < 3u; i++)
         accumulate(SDFGI_ACCUM_ALBEDO + i, block, albedo[i]);
 

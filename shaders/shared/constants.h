@@ -73,6 +73,11 @@
 
 /* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)
+/* A smaller one, which means something where most cells change by it to the same side. */
+#define SDFGI_DRIFT (1.0 / 4096.0)
+/* Stored light, times exposure, of which formats keep but a few bits. Changes count relative to light and
+ * this much more: not to the brightest light, which may be a sun outside that a dim room never sees. */
+#define SDFGI_DARK (1.0 / 65536.0)
 
 /* Emitters: an albedo block in which something emits. A cascade lists so many at most; words of one in the
  * list, and of the list of a cascade: see sdfgi/emitters.glsl. */
@@ -83,7 +88,7 @@
 #define SDFGI_VISIT_EMITTER_RAYS 4
 
 /* Bounce gain is capped below 1, so that light between white surfaces converges (HARD_CASES row 34). */
-#define SDFGI_MAX_BOUNCE_GAIN 0.95
+#define SDFGI_MAX_BOUNCE_GAIN 0.99
 
 /* Every device accepts so many workgroups along an axis. */
 #define SDFGI_MAX_GROUPS 65535
@@ -109,13 +114,14 @@
 #define SDFGI_SAMPLE_STEP_MAX 4
 
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h). */
-#define SDFGI_ACCUM_ALBEDO           0 /* 3 planes: sum of albedo, in 1/255 */
+#define SDFGI_ACCUM_ALBEDO           0 /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
 #define SDFGI_ACCUM_EMISSION         3 /* 3 planes: sum in 1/SDFGI_EMISSION_STEPS of the brightest */
 #define SDFGI_ACCUM_EMISSION_COVERED 6 /* area that emitters cover of columns, in 1/SDFGI_EMISSION_STEPS */
 #define SDFGI_ACCUM_EMISSION_FACING  7 /* a bit per axis +x -x +y -y +z -z from which emission is seen */
 #define SDFGI_ACCUM_NORMAL           8 /* per dominant axis 3 planes: count, sums of two slopes */
 #define SDFGI_ACCUM_EMISSION_AREA    17 /* the emitters' own area, in 1/SDFGI_EMISSION_STEPS */
 #define SDFGI_ACCUM_PLANES           18
+#define SDFGI_ALBEDO_STEPS           1023.0 /* as many as 10 bits hold */
 #define SDFGI_EMISSION_STEPS         65535.0
 #define SDFGI_SLOPE_STEPS            127.0
 

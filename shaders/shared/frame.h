@@ -75,10 +75,9 @@ struct sdfgi_frame_params {
     uint rays_per_frame;   /* rays of a probe in a frame */
     uint first_sample;     /* this frame's first sample in the sample cycle */
     uint cycle_samples;    /* samples of a probe in a sample cycle */
-    float brightest_texel; /* of all probes, in the last sample cycle that the host has read back */
     uint cycle_visits;     /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
     uint lists_emitters; /* 1: something emits, and emitters are listed */
-    uint padding_3, padding_4;
+    uint padding_3, padding_4, padding_5;
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 9 * 16);
 

@@ -122,7 +122,7 @@ static void blocks_tell_what_they_hold(void **state)
                                    words[SDFGI_VOLUME_EMISSION] + 2 * block,
                                    words[SDFGI_VOLUME_NORMALS][block], where.emission_unit, &s);
         for (int i = 0; i < 3; i++) {
-            REQUIRE_NEAR((double)s.albedo[i], 255 * (double)albedo[i], 1);
+            REQUIRE_NEAR((double)s.albedo[i], 1023 * (double)albedo[i], 1);
             REQUIRE_NEAR((double)s.emission[i], (double)emission[i], 0.02);
             REQUIRE_TRUE(s.has_normal[i] == (i == axis / 2));
             REQUIRE_CMP(s.slopes[i][0], ==, 0);

@@ -65,7 +65,6 @@
     X(sdfgi_frame_params, rays_per_frame)                                                                    \
     X(sdfgi_frame_params, first_sample)                                                                      \
     X(sdfgi_frame_params, cycle_samples)                                                                     \
-    X(sdfgi_frame_params, brightest_texel)                                                                   \
     X(sdfgi_frame_params, cycle_visits)                                                                      \
     X(sdfgi_frame_params, lists_emitters)                                                                    \
     X(sdfgi_frame_params, padding_3)                                                                         \

@@ -114,7 +114,8 @@ static void add_probe_trace(const struct plan_stage *stage)
 
 static void clear_change(const struct plan_stage *stage, const struct gather_range *range)
 {
-    static const uint32_t counters[] = { SDFGI_COUNTER_CELL_CHANGE, SDFGI_COUNTER_CELLS_CHANGING };
+    static const uint32_t counters[] = { SDFGI_COUNTER_CELL_CHANGE, SDFGI_COUNTER_CELLS_CHANGING,
+                                         SDFGI_COUNTER_CELLS_DRIFTING };
     for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
         sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (counters[i] + range->cascade), 4);
 }

@@ -72,12 +72,11 @@ void sdfgi_accumulation_go_dark(struct accumulation *a)
     enter(a, LIGHTING_DARK);
 }
 
-void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest)
+void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change)
 {
     assert(cycle <= a->cycle);
     a->known_cycle = cycle;
     a->known_change = change;
-    a->known_brightest = brightest;
     if (cycle > a->invalid_cycle)
         sdfgi_convergence_add(&a->convergence, change);
 }

@@ -40,7 +40,7 @@ struct accumulation {
     struct convergence convergence;
     /* Of the newest cycle that came back from the GPU; 0: none has. */
     uint64_t known_cycle;
-    float known_change, known_brightest;
+    float known_change;
 };
 
 void sdfgi_accumulation_init(struct accumulation *a);
@@ -51,7 +51,7 @@ void sdfgi_accumulation_restart(struct accumulation *a);
 /* Nothing is stored any more: no probe holds light. */
 void sdfgi_accumulation_go_dark(struct accumulation *a);
 /* A cycle that ended came back from the GPU. */
-void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float brightest);
+void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change);
 /* Probes were given the light of this frame. */
 void sdfgi_accumulation_show(struct accumulation *a, bool cycle_ends);
 /* Goes on to the next frame of the cycle. `rests`: no other work is left, so that light may count as

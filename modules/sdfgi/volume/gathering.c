@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "gathering.h"
 
+#include <stdlib.h>
+
 /* Lights that change in every frame begin a new epoch only once in so many: otherwise no cell would ever add
  * up two visits. */
 #define EPOCH_FRAMES 16
 
-/* The largest relative change of a light cell, from one cycle to the next, of light that has settled: a unit
- * of the half floats that hold means, and a little. With a loop gain of 0.95 the light still missing is 1.9
- * %. */
+/* The largest relative change of a light cell, from one cycle to the next, of light that has settled. */
 #define SETTLED_CHANGE (1.01f / 1024.0f)
 
 /* Entries in a word of seen cells: ranges of them begin with a word. */
@@ -34,7 +34,7 @@ void sdfgi_gathering_outdate(struct gathering *gathering)
  * a white room, where light makes many bounces. In a large scene some light somewhere changes for long. */
 #define ROUGH_CHANGE      (1.0f / 64.0f)
 #define FIRST_CYCLES      3
-#define MOST_ROUGH_CYCLES 64
+#define MOST_ROUGH_CYCLES 256
 
 static uint32_t visits_of(const struct gather_cursor *cursor, uint32_t cycle_visits)
 {
@@ -136,6 +136,13 @@ static bool stays_rough(const struct gather_cursor *cursor, const struct gather_
     return change->changing > change->cells / 8 && cursor->rough_cycles < MOST_ROUGH_CYCLES;
 }
 
+/* A white room still fills with light when each of its cells changes little: with a loop gain of 0.99 a
+ * hundred times as much is missing. Cells that change for other reasons do not all do so to the same side. */
+static bool drifts(const struct gather_change *change)
+{
+    return (uint32_t)abs(change->drifting) > change->cells / 8;
+}
+
 void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t cycle,
                                const struct gather_change *change)
 {
@@ -144,7 +151,7 @@ void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t
         return;
     sdfgi_convergence_add(&cursor->convergence, change->most);
     const bool done = change->most < SETTLED_CHANGE || sdfgi_convergence_done(&cursor->convergence);
-    cursor->settled = done && !cursor->rough;
+    cursor->settled = done && !cursor->rough && !drifts(change);
     cursor->rough_cycles += cursor->rough;
     if (!cursor->rough || stays_rough(cursor, change))
         return;

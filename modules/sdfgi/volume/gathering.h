@@ -48,6 +48,7 @@ struct gather_range {
 struct gather_change {
     float most;               /* largest relative change of a light cell */
     uint32_t changing, cells; /* light cells that changed by SDFGI_SMALL_CHANGE or more, and all of them */
+    int32_t drifting;         /* those brighter by SDFGI_DRIFT or more, less those darker by as much */
 };
 
 void sdfgi_gathering_init(struct gathering *gathering);

@@ -113,7 +113,6 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->cycle_samples = keep ? old->cycle_samples : samples;
     p->first_sample = keep ? old->first_sample : first;
     p->rays_per_frame = keep ? old->rays_per_frame : rays;
-    p->brightest_texel = keep ? old->brightest_texel : a->known_brightest;
 }
 
 void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,

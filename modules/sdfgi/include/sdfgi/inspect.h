@@ -68,7 +68,7 @@ static inline uint64_t sdfgi_inspect_block(const struct sdfgi_inspect_cascade *c
 
 /* Axes are counted +x -x +y -y +z -z. */
 struct sdfgi_inspect_surface {
-    uint8_t albedo[3];   /* in 1/255; mean of the triangles in the block */
+    uint16_t albedo[3];  /* in 1/1023; mean of the triangles in the block */
     float emission[3];   /* mean radiance of what is seen from the side that emits most, W/(m^2 sr) */
     uint8_t emitting[6]; /* per axis, in 1/31: share of that radiance that leaves on this side */
     /* Per component k, x to z: mean normal, up to its sign, of the triangles whose largest component is k: 1
