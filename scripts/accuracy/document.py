@@ -186,10 +186,17 @@ def how(results):
     )
 
 
-def front(docs):
+def front(notes, docs):
     """What scripts/front.sh wrote, if it did."""
     path = docs / "accuracy" / "front.md"
-    return ["## The front of error against time", path.read_text(encoding="utf-8")] if path.exists() else []
+    if not path.exists():
+        return []
+    return ["## The front of error against time", path.read_text(encoding="utf-8"), notes.get("front", "")]
+
+
+def before(notes):
+    """Numbers of earlier versions, which cannot be measured again."""
+    return ["## Before and after", notes["before"]] if "before" in notes else []
 
 
 def text(results, docs):
@@ -197,7 +204,7 @@ def text(results, docs):
     parts = ["# Accuracy", notes[""], how(results), "## The picture", picture_table(results)]
     legend = [ALL] + [FINER] * results["options"]["finer"] + [SPLIT] * results["voxels"]
     parts += ["## Indirect light", "\n".join(legend), indirect_table(results)]
-    parts += front(docs)
+    parts += before(notes) + front(notes, docs)
     parts += ["## Leaks", LEAK.format(lit="two_rooms_lit"), leak_table(results), "## Scene by scene"]
     parts += [STRIPS]
     for scene in results["scenes"]:

@@ -69,6 +69,7 @@
     X(sdfgi_frame_params, lists_emitters)                                                                    \
     X(sdfgi_frame_params, padding_3)                                                                         \
     X(sdfgi_frame_params, padding_4)                                                                         \
+    X(sdfgi_frame_params, padding_5)                                                                         \
     X(sdfgi_light_params, position)                                                                          \
     X(sdfgi_light_params, range_m)                                                                           \
     X(sdfgi_light_params, direction)                                                                         \

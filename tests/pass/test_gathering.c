@@ -175,7 +175,7 @@ static void cycles_stay_rough_while_many_cells_change(void **state)
     (void)state;
     struct scene s;
     open_scene(&s);
-    for (int i = 0; i < 64; i++) {
+    for (int i = 0; i < 256; i++) {
         take(&s, 100);
         REQUIRE_CMP(s.ranges[0].visits, ==, (uint32_t)ROUGH);
         s.gathering.at[0].cycle++;
