@@ -75,9 +75,9 @@
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)
 /* A smaller one, which means something where most cells change by it to the same side. */
 #define SDFGI_DRIFT (1.0 / 4096.0)
-/* Stored light, times exposure, of which formats keep but a few bits. Changes count relative to light and
- * this much more: not to the brightest light, which may be a sun outside that a dim room never sees. */
-#define SDFGI_DARK (1.0 / 65536.0)
+/* Light times exposure that is dark in a picture. Changes count relative to light and this much more: not to
+ * the brightest light, which may be a sun outside that a dim room never sees. */
+#define SDFGI_DARK (1.0 / 4096.0)
 
 /* Emitters: an albedo block in which something emits. A cascade lists so many at most; words of one in the
  * list, and of the list of a cascade: see sdfgi/emitters.glsl. */
@@ -124,6 +124,10 @@
 #define SDFGI_ALBEDO_STEPS           1023.0 /* as many as 10 bits hold */
 #define SDFGI_EMISSION_STEPS         65535.0
 #define SDFGI_SLOPE_STEPS            127.0
+/* Samples of a dominant axis, and area that emitters cover, beyond which a block takes no more: three times
+ * the former times SDFGI_ALBEDO_STEPS, and some threads' worth of the latter, fit 32 bits. */
+#define SDFGI_ACCUM_MOST_SAMPLES     (1u << 20)
+#define SDFGI_ACCUM_MOST_COVERED     (1u << 29)
 
 /* Lights. */
 #define SDFGI_LIGHT_KIND_DIRECTIONAL 0u

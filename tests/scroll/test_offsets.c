@@ -45,7 +45,7 @@ static void hard_27_light_does_not_depend_on_the_place_within_a_cell(void **stat
 {
     (void)state;
     static double light[MOST_PLACES][POINTS];
-    const int places = getenv("SDFGI_TEST_FULL") ? MOST_PLACES : 4;
+    const int places = getenv("SDFGI_TEST_FULL") ? MOST_PLACES : 3;
     struct sdfgi_settings settings = light_settings(scroll_resolution(), 6.4f / (float)scroll_resolution());
     settings.cascades = 1;
     static struct gi_test t;
