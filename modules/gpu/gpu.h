@@ -94,7 +94,8 @@ struct gpu_device {
     VkPipelineCache pipeline_cache;         /* for every pipeline; may be VK_NULL_HANDLE. Set it after init */
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
-    uint32_t timestamp_bits; /* of the queue family; 0: no timestamps */
+    VkQueueFlags queue_flags; /* of the queue family; 0: there is no such family */
+    uint32_t timestamp_bits;  /* of it; 0: no timestamps */
     bool is_cpu;             /* a software driver: few threads run at once */
 };
 

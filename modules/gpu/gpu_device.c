@@ -31,12 +31,13 @@ static bool load_device(struct gpu_functions *fn, VkDevice device)
     return complete;
 }
 
-static uint32_t timestamp_bits(const struct gpu_functions *fn, VkPhysicalDevice physical, uint32_t family)
+static void load_queue_family(struct gpu_device *device, VkPhysicalDevice physical, uint32_t family)
 {
     VkQueueFamilyProperties families[16];
     uint32_t count = 16;
-    fn->GetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
-    return family < count ? families[family].timestampValidBits : 0;
+    device->fn.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
+    device->queue_flags = family < count ? families[family].queueFlags : 0;
+    device->timestamp_bits = family < count ? families[family].timestampValidBits : 0;
 }
 
 VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysicalDevice physical,
@@ -53,7 +54,7 @@ VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysi
     device->fn.GetPhysicalDeviceProperties(physical, &properties);
     device->limits = properties.limits;
     device->is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    device->timestamp_bits = timestamp_bits(&device->fn, physical, queue_family);
+    load_queue_family(device, physical, queue_family);
     return VK_SUCCESS;
 }
 

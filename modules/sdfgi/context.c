@@ -41,6 +41,17 @@ static VkResult import_device(struct backend *backend, const struct sdfgi_desc *
     return result;
 }
 
+static enum sdfgi_result check_queue_family(struct sdfgi *gi, const struct sdfgi_desc *desc)
+{
+    if (gi->backend.device.queue_flags & VK_QUEUE_COMPUTE_BIT)
+        return SDFGI_OK;
+    return sdfgi_message_invalid(
+        &gi->backend.hooks,
+        "sdfgi_create: vulkan.queue_family_index is %u, a family that the device lacks "
+        "or that cannot compute",
+        (unsigned)desc->vulkan.queue_family_index);
+}
+
 static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
 {
     struct hooks *hooks = &gi->backend.hooks;
@@ -48,6 +59,8 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     if (result == SDFGI_OK)
         result = sdfgi_message_vulkan(hooks, import_device(&gi->backend, desc),
                                       "sdfgi_create: importing the device");
+    if (result == SDFGI_OK)
+        result = check_queue_family(gi, desc);
     if (result == SDFGI_OK)
         result = sdfgi_message_vulkan(hooks, sdfgi_pipelines_init(&gi->backend), "sdfgi_create: pipelines");
     if (result == SDFGI_OK)
@@ -139,7 +152,7 @@ enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *set
         result = replace_resources(gi, settings);
     if (result != SDFGI_OK)
         return result;
-    if (memcmp(settings, &gi->settings, sizeof *settings) != 0)
+    if (!sdfgi_settings_same(settings, &gi->settings))
         sdfgi_accumulation_invalidate(&gi->volume.state.accumulation);
     gi->settings = *settings;
     return SDFGI_OK;

@@ -27,7 +27,7 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 {
     if (!sdfgi_is_active(gi))
         return SDFGI_OK;
-    const char *problem = sdfgi_view_gather_problem(desc);
+    const char *problem = cmd ? sdfgi_view_gather_problem(desc) : "cmd is null";
     if (problem)
         return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
     const struct work work = sdfgi_view_gather_work(desc);

@@ -367,6 +367,14 @@ bool sdfgi_settings_validate(const struct sdfgi_settings *settings, char *error,
     return true;
 }
 
+bool sdfgi_settings_same(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
+{
+    for (uint32_t i = 0; i < ROW_COUNT; i++)
+        if (!rows[i].info.derived && row_get(&rows[i], a) != row_get(&rows[i], b))
+            return false;
+    return true;
+}
+
 bool sdfgi_settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
 {
     for (uint32_t i = 0; i < ROW_COUNT; i++)

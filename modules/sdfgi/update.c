@@ -57,6 +57,8 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     const char *problem = frame_problem(desc);
     if (problem)
         return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_update: %s", problem);
+    if (gi->volume.resources && !cmd)
+        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_update: cmd is null");
     if (gi->backend.hooks.device_lost)
         return SDFGI_ERROR_DEVICE_LOST;
 

@@ -77,6 +77,7 @@ static void create_refuses_bad_descriptors(void **state)
     REFUSE(d.vulkan.physical_device = VK_NULL_HANDLE);
     REFUSE(d.vulkan.device = VK_NULL_HANDLE);
     REFUSE(d.vulkan.get_instance_proc_addr = NULL);
+    REFUSE(d.vulkan.queue_family_index = 77);
     REFUSE(d.frames_in_flight = 9);
     REFUSE(d.allocator.alloc = some_alloc);
 #undef REFUSE
@@ -225,6 +226,9 @@ static void meshes_are_checked(void **state)
     REFUSE(d.triangle_count = 2);
     REFUSE(d.position_offset = 2);
     REFUSE(d.position_stride = 13);
+    REFUSE(d.position_stride = 8);
+    REFUSE(d.uv_stride = 4);
+    REFUSE(d.color_stride = 12);
     REFUSE(d.uv_offset = 1);
     REFUSE(d.uv_stride = 6);
     REFUSE(d.color_offset = 3);
@@ -394,6 +398,13 @@ static void frames_are_checked(void **state)
     /* Off, nothing is recorded: no command buffer is touched. */
     REQUIRE_CMP((int)sdfgi_update(t.gi, VK_NULL_HANDLE, &(struct sdfgi_frame_desc){ 0 }), ==, (int)SDFGI_OK);
     REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &(struct sdfgi_gather_desc){ 0 }), ==, (int)SDFGI_OK);
+    struct sdfgi_settings settings;
+    sdfgi_get_settings(t.gi, &settings);
+    settings.enabled = true;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
+    REQUIRE_INVALID(sdfgi_update(t.gi, VK_NULL_HANDLE, &(struct sdfgi_frame_desc){ 0 }));
+    settings.enabled = false;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
 }
 
 /* ---- Before a device exists */

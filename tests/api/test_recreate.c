@@ -98,6 +98,33 @@ static void the_same_settings_recreate_nothing(void **state)
     gi_test_close(&t);
 }
 
+static uint32_t retired_count(const struct gi_test *t)
+{
+    uint32_t count = 0;
+    for (const struct gpu_retired *item = t->gi->backend.retired.first; item; item = item->next)
+        count++;
+    return count;
+}
+
+/* A slider that is dragged while no frame is drawn. */
+static void settings_that_change_without_an_update_hold_no_memory(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    struct sdfgi_settings settings = base_settings();
+    gi_test_open(&t, &settings);
+    gi_test_update(&t, 1);
+    const uint32_t before = retired_count(&t);
+    for (int i = 0; i < 20; i++) {
+        settings.min_cell_size_m = 0.2f + 0.01f * (float)i;
+        settings.enabled = i % 3 != 1;
+        set(&t, &settings);
+    }
+    /* What the update used is still there, and nothing else. */
+    REQUIRE_CMP(retired_count(&t), ==, before + 1);
+    gi_test_close(&t);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -105,6 +132,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_change_recreates_everything_where_its_property_says_so_and_nowhere_else),
         cmocka_unit_test(the_same_settings_recreate_nothing),
+        cmocka_unit_test(settings_that_change_without_an_update_hold_no_memory),
     };
     return cmocka_run_group_tests_name("api_recreate", tests, NULL, NULL);
 }

@@ -67,6 +67,25 @@ static void exposure_changed(struct show *show)
     show_frames(show, 2);
 }
 
+/* An engine that pushes its whole state in each frame. */
+static void state_pushed_again(struct show *show)
+{
+    static const double low[3] = { -1, -1, -1 }, high[3] = { 0, 0, 0 };
+    const struct sdfgi_light_desc lamp = drive_lamp();
+    const struct sdfgi_sky sky = { .zenith = { 0, 0, 1 } };
+    show_begin(show);
+    const sdfgi_instance box = drive_add_box(&show->d, low, high, SDFGI_STATIC);
+    const sdfgi_light light = drive_add_light(&show->d, &lamp);
+    sdfgi_scene_set_sky(&show->d.scene, &sky);
+    drive_converge(&show->d);
+    for (int frame = 0; frame < 2; frame++) {
+        drive_move_box(&show->d, box, low, high);
+        sdfgi_scene_light_update(&show->d.scene, light, &lamp);
+        sdfgi_scene_set_sky(&show->d.scene, &sky);
+        show_frames(show, 1);
+    }
+}
+
 static void exposure_drifted(struct show *show)
 {
     show_begin(show);
@@ -131,6 +150,7 @@ static const struct situation_row rows[] = {
     { "a_changed_sky_begins_to_converge_again", sky_changed },
     { "a_very_different_exposure_lights_all_cells", exposure_changed },
     { "another_exposure_costs_nothing", exposure_drifted },
+    { "state_that_is_pushed_again_costs_nothing", state_pushed_again },
     { "a_changed_seed_rebuilds_everything", seed_changed },
     { "a_changed_energy_is_uploaded", energy_changed },
     { "a_longer_light_list_is_written_anew", list_grew },

@@ -4,6 +4,7 @@
 #include "require.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -89,8 +90,9 @@ static void exposure_does_not_change_light(void **state)
     }
 }
 
-/* Exposure may change in every frame: light stays what it is, to the bit, and nothing begins anew. */
-static void automatic_exposure_costs_nothing(void **state)
+/* Exposure may change in every frame, and settings may be given again with other bytes between their fields:
+ * light stays what it is, to the bit, and nothing begins anew. */
+static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
 {
     (void)state;
     struct gi_test t;
@@ -104,6 +106,9 @@ static void automatic_exposure_costs_nothing(void **state)
     static const float exposures[] = { 1, 16, 1 / 16.0f, 1.1f, 200, 0.005f };
     for (size_t i = 0; i < sizeof exposures / sizeof *exposures; i++) {
         t.frame.exposure = exposures[i];
+        struct sdfgi_settings again = settings;
+        ((unsigned char *)&again)[offsetof(struct sdfgi_settings, bounce_feedback) - 1] ^= 0xff;
+        REQUIRE_CMP(sdfgi_set_settings(t.gi, &again), ==, SDFGI_OK);
         gi_test_update(&t, 1);
         gi_test_irradiance(&t, points, POINT_COUNT, found);
         REQUIRE_CMP(worst_ratio(found, before, 1), ==, 0.0);
@@ -186,7 +191,7 @@ int main(void)
         cmocka_unit_test(energy_scales_lookups_and_nothing_else),
         cmocka_unit_test(hard_31_lights_of_any_scale_give_the_same_picture),
         cmocka_unit_test(exposure_does_not_change_light),
-        cmocka_unit_test(automatic_exposure_costs_nothing),
+        cmocka_unit_test(exposures_and_settings_in_every_frame_cost_nothing),
         cmocka_unit_test(extreme_exposures_leave_light_finite),
         cmocka_unit_test(a_red_wall_reddens_what_faces_it),
         cmocka_unit_test(feedback_adds_bounces),

@@ -37,6 +37,8 @@ uint32_t sdfgi_settings_cycle_visits(const struct sdfgi_settings *settings);
 /* The method by which light cells weigh probes: SDFGI_SHADER_VISIBILITY_*. */
 uint32_t sdfgi_settings_shader_visibility(const struct sdfgi_settings *settings);
 
+/* True if two settings say the same, whatever lies between their fields. */
+bool sdfgi_settings_same(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
 /* True if two settings cannot share device objects: they differ in a property that is marked so
  * (properties.c). */
 bool sdfgi_settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b);

@@ -173,6 +173,12 @@ enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct s
     return SDFGI_OK;
 }
 
+void sdfgi_resources_destroy(struct backend *backend, struct resources *resources)
+{
+    if (resources)
+        destroy(&resources->retired, backend);
+}
+
 void sdfgi_resources_retire(struct backend *backend, struct resources *resources)
 {
     if (resources)

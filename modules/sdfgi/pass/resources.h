@@ -30,6 +30,8 @@ struct resources {
 /* Reports failures; leaves *out as it was then. */
 enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
                                          struct resources **out);
+/* Destroys them at once: no update has used them. NULL is accepted. */
+void sdfgi_resources_destroy(struct backend *backend, struct resources *resources);
 /* Destroys them once no frame in flight can use them. NULL is accepted. */
 void sdfgi_resources_retire(struct backend *backend, struct resources *resources);
 /* Exchanges the light lists for empty ones with room for `light_cells` in each cascade, and the descriptor

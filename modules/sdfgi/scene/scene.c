@@ -2,6 +2,7 @@
  * Meshes, materials, instances and what follows from them. Every value is checked here, at the edge; the
  * stages trust it. */
 #include "scene.h"
+#include "same.h"
 #include "scene_check.h"
 #include "scene_sets.h"
 
@@ -66,7 +67,7 @@ bool sdfgi_scene_touches(const struct scene *scene, const struct box *box)
 bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky)
 {
     static const struct sdfgi_sky none;
-    const bool sky = reads_sky && memcmp(&scene->sky, &none, sizeof none) != 0;
+    const bool sky = reads_sky && !sdfgi_same_sky(&scene->sky, &none);
     return scene->lights.count > 0 || scene->emission_unit > 0 || sky;
 }
 
@@ -162,6 +163,12 @@ static const char *mesh_problem(const struct sdfgi_mesh_desc *d)
          d->color_stride | d->index_offset) &
         3)
         return "an offset or stride is not a multiple of 4";
+    if (d->position_stride > 0 && d->position_stride < 12)
+        return "position_stride is below 12, the size of a position";
+    if (d->uv_stride > 0 && d->uv_stride < 8)
+        return "uv_stride is below 8, the size of a pair of coordinates";
+    if (d->color_stride > 0 && d->color_stride < 16)
+        return "color_stride is below 16, the size of a colour";
     if ((d->position_offset | d->uv_offset | d->color_offset | d->index_offset) >> 34)
         return "an offset exceeds 16 GiB";
     if (!sdfgi_check_finite_floats(d->bounds_min, 3) || !sdfgi_check_finite_floats(d->bounds_max, 3) ||
@@ -268,6 +275,8 @@ enum sdfgi_result sdfgi_scene_instance_set_transform(struct scene *scene, sdfgi_
     if (!transform_finite(transform))
         return sdfgi_message_invalid(&scene->backend->hooks,
                                      "sdfgi_instance_set_transform: transform is not finite");
+    if (sdfgi_same_transform(&instance->desc.transform, transform))
+        return SDFGI_OK;
     const bool in_volumes = instance->desc.mobility == SDFGI_STATIC;
     if (in_volumes)
         sdfgi_journal_add_box(scene->journals, &instance->bounds);

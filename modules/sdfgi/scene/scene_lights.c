@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Lights and sky. */
+#include "same.h"
 #include "scene.h"
 #include "scene_check.h"
-
-#include <string.h>
 
 static const char *light_problem(const struct sdfgi_light_desc *d)
 {
@@ -54,6 +53,8 @@ enum sdfgi_result sdfgi_scene_light_update(struct scene *scene, sdfgi_light hand
     const char *problem = light_problem(desc);
     if (problem)
         return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_light_update: %s", problem);
+    if (sdfgi_same_light(&light->desc, desc))
+        return SDFGI_OK;
     light->desc = *desc;
     lights_changed(scene);
     return SDFGI_OK;
@@ -74,7 +75,7 @@ enum sdfgi_result sdfgi_scene_set_sky(struct scene *scene, const struct sdfgi_sk
         !sdfgi_check_non_negative(sky->ground, 3))
         return sdfgi_message_invalid(&scene->backend->hooks,
                                      "sdfgi_set_sky: a radiance is negative or not finite");
-    if (memcmp(&scene->sky, sky, sizeof *sky) == 0)
+    if (sdfgi_same_sky(&scene->sky, sky))
         return SDFGI_OK;
     scene->sky = *sky;
     sdfgi_journal_note(scene->journals, JOURNAL_SKY);

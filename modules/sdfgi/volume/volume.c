@@ -22,9 +22,12 @@ void sdfgi_volume_finish(struct volume *volume)
 void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
                         const struct sdfgi_settings *settings)
 {
-    sdfgi_resources_retire(volume->backend, volume->resources);
-    volume->resources = resources;
     struct volume_state *state = &volume->state;
+    if (state->updates > 0)
+        sdfgi_resources_retire(volume->backend, volume->resources);
+    else
+        sdfgi_resources_destroy(volume->backend, volume->resources);
+    volume->resources = resources;
     memset(state, 0, sizeof *state);
     memset(&volume->feedback, 0, sizeof volume->feedback);
     sdfgi_journal_clear(&volume->journal);

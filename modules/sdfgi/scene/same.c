@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+#include "same.h"
+
+static bool same_floats(const float *a, const float *b, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (a[i] != b[i])
+            return false;
+    return true;
+}
+
+static bool same_doubles(const double *a, const double *b, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (a[i] != b[i])
+            return false;
+    return true;
+}
+
+bool sdfgi_same_transform(const struct sdfgi_transform *a, const struct sdfgi_transform *b)
+{
+    return same_floats(a->basis, b->basis, 9) && same_doubles(a->translation, b->translation, 3);
+}
+
+bool sdfgi_same_light(const struct sdfgi_light_desc *a, const struct sdfgi_light_desc *b)
+{
+    return a->type == b->type && same_doubles(a->position, b->position, 3) &&
+           same_floats(a->direction, b->direction, 3) && same_floats(a->intensity, b->intensity, 3) &&
+           a->range_m == b->range_m && a->inner_angle_rad == b->inner_angle_rad &&
+           a->outer_angle_rad == b->outer_angle_rad && a->indirect_energy == b->indirect_energy &&
+           a->casts_shadow == b->casts_shadow;
+}
+
+bool sdfgi_same_sky(const struct sdfgi_sky *a, const struct sdfgi_sky *b)
+{
+    return same_floats(a->zenith, b->zenith, 3) && same_floats(a->horizon, b->horizon, 3) &&
+           same_floats(a->ground, b->ground, 3);
+}
