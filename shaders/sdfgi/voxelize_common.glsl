@@ -351,15 +351,23 @@ void accumulate(uint plane, uint block, uint value)
         atomicAdd(sdfgi_scratch[plane * sdfgi_albedo_block_count() + block], value);
 }
 
+/* False if sums of a block are so large that they might wrap: thousands of surfaces lie in it one on the
+ * other. Their mean is known well enough then. */
+bool has_room(uint plane, uint block, uint limit)
+{
+    return sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] < limit;
+}
+
 /* Sums are integers, so that they do not depend on the order of additions. */
 void accumulate_surface(triangle t, uint block, surface_sample s)
 {
+    const vec3 height = abs(t.normal);
+    const uint major = height.x >= height.y && height.x >= height.z ? 0u : (height.y >= height.z ? 1u : 2u);
+    if (!has_room(SDFGI_ACCUM_NORMAL + 3u * major, block, SDFGI_ACCUM_MOST_SAMPLES))
+        return;
     const uvec3 albedo = uvec3(clamp(s.albedo.rgb, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
     for (uint i = 0u; i < 3u; i++)
         accumulate(SDFGI_ACCUM_ALBEDO + i, block, albedo[i]);
-
-    const vec3 height = abs(t.normal);
-    const uint major = height.x >= height.y && height.x >= height.z ? 0u : (height.y >= height.z ? 1u : 2u);
     const float side = t.normal[major] < 0.0 ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
     for (uint i = 1u; i <= 2u; i++) {
@@ -420,7 +428,7 @@ void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
 {
     const float covered = min(triangle_coverage(t, column), 1.0) * SDFGI_EMISSION_STEPS;
     const uvec3 emission = uvec3(clamp(s.emission, 0.0, 1.0) * covered + 0.5);
-    if (emission == uvec3(0u))
+    if (emission == uvec3(0u) || !has_room(SDFGI_ACCUM_EMISSION_COVERED, block, SDFGI_ACCUM_MOST_COVERED))
         return;
     for (uint i = 0u; i < 3u; i++)
         accumulate(SDFGI_ACCUM_EMISSION + i, block, emission[i]);

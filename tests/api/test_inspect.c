@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <sdfgi/inspect.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -212,6 +213,49 @@ static void wrong_requests_are_refused(void **state)
     gi_test_close(&t);
 }
 
+/* 2,100 quads in one place: sums of emission would wrap from 1,024 on. */
+static void coincident_emitters_keep_their_colour(void **state)
+{
+    (void)state;
+    enum { QUADS = 2100 };
+    struct gi_test t;
+    const struct sdfgi_settings settings = gi_test_settings();
+    gi_test_open(&t, &settings);
+    struct test_mesh mesh = { 0 };
+    for (int i = 0; i < QUADS; i++) {
+        struct test_mesh quad =
+            test_mesh_plane((double[]){ 0.1, 0.1, 0.1 }, (double[]){ 0, 0, 1.5 }, (double[]){ 1.5, 0, 0 }, 1);
+        test_mesh_append(&mesh, &quad);
+        test_mesh_destroy(&quad);
+    }
+    const struct sdfgi_material_desc desc = { .alpha = 1,
+                                              .albedo = { 0.25f, 0.5f, 0.75f },
+                                              .emission = { 1, 0.3f, 0.1f } };
+    sdfgi_material material;
+    REQUIRE_CMP(sdfgi_material_create(t.gi, &desc, &material), ==, SDFGI_OK);
+    gi_test_add(&t, &mesh, material);
+    test_mesh_destroy(&mesh);
+    gi_test_update(&t, 1);
+    struct sdfgi_inspect_cascade where;
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
+    uint32_t *words[SDFGI_VOLUME_COUNT];
+    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
+        words[i] = read_volume(&t, 0, (enum sdfgi_volume)i);
+    const uint32_t middle = where.resolution / 4;
+    const uint64_t block = sdfgi_inspect_block(&where, 2 * middle, 2 * middle, 2 * middle);
+    struct sdfgi_inspect_surface s;
+    sdfgi_inspect_decode_block(words[SDFGI_VOLUME_ALBEDO][block], words[SDFGI_VOLUME_EMISSION] + 2 * block,
+                               words[SDFGI_VOLUME_NORMALS][block], where.emission_unit, &s);
+    for (int i = 0; i < 3; i++) {
+        printf("emission %.4f, albedo %.4f\n", (double)s.emission[i], s.albedo[i] / 1023.0);
+        REQUIRE_NEAR(s.emission[i], desc.emission[i], 1 / 512.0f + 1e-5f); /* RGB9E5 */
+        REQUIRE_NEAR(s.albedo[i] / 1023.0f / desc.albedo[i], 1, 0.01);
+    }
+    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
+        free(words[i]);
+    gi_test_close(&t);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -219,6 +263,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_are_where_the_header_says),
         cmocka_unit_test(blocks_tell_what_they_hold),
+        cmocka_unit_test(coincident_emitters_keep_their_colour),
         cmocka_unit_test(plates_emit_away_from_the_wall_behind_them),
         cmocka_unit_test(wrong_requests_are_refused),
     };
