@@ -10,6 +10,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* Calls that fail before they record anything. */
+static const VkCommandBuffer unused_commands = (VkCommandBuffer)(uintptr_t)1;
+
 /* ---- A host allocator that fails once */
 
 struct counting {
@@ -394,7 +397,7 @@ static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
         sdfgi_material handle = { 77 };
         memset(messages, 0, sizeof messages);
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
-        REQUIRE_CMP((int)sdfgi_gather(gi, VK_NULL_HANDLE, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP((int)sdfgi_gather(gi, unused_commands, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
         REQUIRE_CMP(failing_vulkan_calls(), ==, k);
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         REQUIRE_CMP((int)sdfgi_material_create(gi, &material, &handle), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
@@ -423,14 +426,14 @@ static void no_failure_to_make_a_view_is_fatal(void **state)
     for (uint32_t k = 1; k <= 3; k++) {
         memset(messages, 0, sizeof messages);
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
-        REQUIRE_CMP((int)sdfgi_gather(gi, VK_NULL_HANDLE, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP((int)sdfgi_gather(gi, unused_commands, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
         REQUIRE_CMP(failing_vulkan_calls(), ==, k);
         REQUIRE_CMP(memory_messages(), ==, 1u);
         REQUIRE_CMP(counting.live, ==, live);
     }
     counting.fail_at = counting.calls + 1;
     failing_vulkan_reset(0, VK_SUCCESS);
-    REQUIRE_CMP((int)sdfgi_gather(gi, VK_NULL_HANDLE, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+    REQUIRE_CMP((int)sdfgi_gather(gi, unused_commands, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
     REQUIRE_CMP(counting.live, ==, live);
     sdfgi_destroy(gi);
     REQUIRE_CMP(counting.live, ==, 0);
