@@ -367,10 +367,15 @@ bool sdfgi_settings_validate(const struct sdfgi_settings *settings, char *error,
     return true;
 }
 
+static bool row_differs(const struct row *row, const struct sdfgi_settings *a, const struct sdfgi_settings *b)
+{
+    return !row->info.derived && row_get(row, a) != row_get(row, b);
+}
+
 bool sdfgi_settings_same(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
 {
     for (uint32_t i = 0; i < ROW_COUNT; i++)
-        if (!rows[i].info.derived && row_get(&rows[i], a) != row_get(&rows[i], b))
+        if (row_differs(&rows[i], a, b))
             return false;
     return true;
 }
@@ -378,7 +383,7 @@ bool sdfgi_settings_same(const struct sdfgi_settings *a, const struct sdfgi_sett
 bool sdfgi_settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
 {
     for (uint32_t i = 0; i < ROW_COUNT; i++)
-        if (rows[i].info.recreates && !rows[i].info.derived && row_get(&rows[i], a) != row_get(&rows[i], b))
+        if (rows[i].info.recreates && row_differs(&rows[i], a, b))
             return true;
     return false;
 }

@@ -15,10 +15,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "emitters.glsl"
 #include "gathered.glsl"
-#include "../lib/irradiance_pack.glsl"
 #include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../include/sdfgi_trace.glsl"
+#include "../lib/irradiance_pack.glsl"
 #include "../lib/sky.glsl"
 
 layout(local_size_x = 64) in;

@@ -99,29 +99,53 @@ static void bits_are_where_the_header_says(void **state)
     gi_test_close(&t);
 }
 
+/* The volumes that tell what surfaces are like, of cascade 0. */
+struct surface_volumes {
+    struct sdfgi_inspect_cascade where;
+    uint32_t *words[SDFGI_VOLUME_COUNT];
+};
+
+static struct surface_volumes read_surfaces(struct gi_test *t)
+{
+    struct surface_volumes v = { 0 };
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t->gi, 0, &v.where), ==, SDFGI_OK);
+    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
+        v.words[i] = read_volume(t, 0, (enum sdfgi_volume)i);
+    return v;
+}
+
+static void free_surfaces(struct surface_volumes *v)
+{
+    for (int i = 0; i < SDFGI_VOLUME_COUNT; i++)
+        free(v->words[i]);
+}
+
+/* What the block of a cell holds. */
+static struct sdfgi_inspect_surface surface_at(const struct surface_volumes *v, const uint32_t cell[static 3])
+{
+    const uint64_t block = sdfgi_inspect_block(&v->where, cell[0], cell[1], cell[2]);
+    struct sdfgi_inspect_surface s;
+    sdfgi_inspect_decode_block(v->words[SDFGI_VOLUME_ALBEDO][block],
+                               v->words[SDFGI_VOLUME_EMISSION] + 2 * block,
+                               v->words[SDFGI_VOLUME_NORMALS][block], v->where.emission_unit, &s);
+    return s;
+}
+
 /* Blocks of a side of the box: what it is made of, and that it faces and emits outwards. */
 static void blocks_tell_what_they_hold(void **state)
 {
     (void)state;
     struct gi_test t;
     open_box(&t, 1);
-    struct sdfgi_inspect_cascade where;
-    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
-    uint32_t *words[SDFGI_VOLUME_COUNT];
-    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
-        words[i] = read_volume(&t, 0, (enum sdfgi_volume)i);
+    struct surface_volumes v = read_surfaces(&t);
     const double half[3] = { 1.1, 0.9, 1.3 };
     for (int axis = 0; axis < 6; axis++) {
         uint32_t cell[3];
         for (int i = 0; i < 3; i++) {
             const double side = i == axis / 2 ? (axis % 2 ? -half[i] : half[i]) : 0;
-            cell[i] = (uint32_t)floor((box_center[i] + side - where.origin_m[i]) / where.cell_m[i]);
+            cell[i] = (uint32_t)floor((box_center[i] + side - v.where.origin_m[i]) / v.where.cell_m[i]);
         }
-        const uint64_t block = sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]);
-        struct sdfgi_inspect_surface s;
-        sdfgi_inspect_decode_block(words[SDFGI_VOLUME_ALBEDO][block],
-                                   words[SDFGI_VOLUME_EMISSION] + 2 * block,
-                                   words[SDFGI_VOLUME_NORMALS][block], where.emission_unit, &s);
+        const struct sdfgi_inspect_surface s = surface_at(&v, cell);
         for (int i = 0; i < 3; i++) {
             REQUIRE_NEAR((double)s.albedo[i], 1023 * (double)albedo[i], 1);
             REQUIRE_NEAR((double)s.emission[i], (double)emission[i], 0.02);
@@ -132,8 +156,7 @@ static void blocks_tell_what_they_hold(void **state)
         for (int other = 0; other < 6; other++)
             REQUIRE_CMP(s.emitting[other], ==, (other == axis ? 31 : 0));
     }
-    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
-        free(words[i]);
+    free_surfaces(&v);
     gi_test_close(&t);
 }
 
@@ -236,23 +259,15 @@ static void coincident_emitters_keep_their_colour(void **state)
     gi_test_add(&t, &mesh, material);
     test_mesh_destroy(&mesh);
     gi_test_update(&t, 1);
-    struct sdfgi_inspect_cascade where;
-    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
-    uint32_t *words[SDFGI_VOLUME_COUNT];
-    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
-        words[i] = read_volume(&t, 0, (enum sdfgi_volume)i);
-    const uint32_t middle = where.resolution / 4;
-    const uint64_t block = sdfgi_inspect_block(&where, 2 * middle, 2 * middle, 2 * middle);
-    struct sdfgi_inspect_surface s;
-    sdfgi_inspect_decode_block(words[SDFGI_VOLUME_ALBEDO][block], words[SDFGI_VOLUME_EMISSION] + 2 * block,
-                               words[SDFGI_VOLUME_NORMALS][block], where.emission_unit, &s);
+    struct surface_volumes v = read_surfaces(&t);
+    const uint32_t middle = v.where.resolution / 2;
+    const struct sdfgi_inspect_surface s = surface_at(&v, (uint32_t[]){ middle, middle, middle });
     for (int i = 0; i < 3; i++) {
         printf("emission %.4f, albedo %.4f\n", (double)s.emission[i], s.albedo[i] / 1023.0);
         REQUIRE_NEAR(s.emission[i], desc.emission[i], 1 / 512.0f + 1e-5f); /* RGB9E5 */
         REQUIRE_NEAR(s.albedo[i] / 1023.0f / desc.albedo[i], 1, 0.01);
     }
-    for (int i = SDFGI_VOLUME_ALBEDO; i < SDFGI_VOLUME_COUNT; i++)
-        free(words[i]);
+    free_surfaces(&v);
     gi_test_close(&t);
 }
 

@@ -9,6 +9,7 @@
 #include "encode_light.comp.h"
 #include "encode_octahedral.comp.h"
 #include "encode_random.comp.h"
+#include "encode_rgb48.comp.h"
 #include "encode_rgbe.comp.h"
 #include "encode_sky.comp.h"
 
@@ -59,15 +60,22 @@ static void fill_colors(void)
     }
 }
 
-/* What is representable comes back exactly, and all else to within half a step of the largest channel. */
-static void require_color(const struct color_trip *c)
+/* The colour to be kept: what is negative or not a number is 0, and what is too bright is cut. */
+static void wanted_color(const struct color_trip *c, double wanted[static 3], double *largest)
 {
-    double wanted[3], largest = 0;
+    *largest = 0;
     for (int k = 0; k < 3; k++) {
         const double value = (double)c->color[k];
         wanted[k] = value > 0 ? fmin(value, ORACLE_RGBE_MAX) : 0;
-        largest = fmax(largest, wanted[k]);
+        *largest = fmax(*largest, wanted[k]);
     }
+}
+
+/* What is representable comes back exactly, and all else to within half a step of the largest channel. */
+static void require_color(const struct color_trip *c)
+{
+    double wanted[3], largest;
+    wanted_color(c, wanted, &largest);
     /* Nine bits below the power of two above the largest: half a step is at most its 511th part. */
     const double tolerance = fmax(largest / 511, ORACLE_RGBE_SMALLEST / 2);
     for (int k = 0; k < 3; k++)
@@ -107,6 +115,21 @@ static void hard_28_powers_of_two_are_exact(void **state)
     for (int i = 0; i < 40; i++)
         for (int k = 0; k < 3; k++)
             REQUIRE_CMP(powers[i].back[k], ==, fminf(ldexpf(1, i - 24), 65408));
+}
+
+/* Mantissas of 14 bits: half a step is at most a 16,383rd of the largest channel. */
+static void rgb48_keeps_colors_32_times_finer(void **state)
+{
+    (void)state;
+    fill_colors();
+    run(encode_rgb48_comp, sizeof encode_rgb48_comp, COLORS, colors, sizeof colors);
+    for (uint32_t i = 0; i < COLORS; i++) {
+        double wanted[3], largest = 0;
+        wanted_color(&colors[i], wanted, &largest);
+        for (int k = 0; k < 3; k++)
+            REQUIRE_NEAR(colors[i].back[k], wanted[k], largest / 16383 + 0x1p-61);
+        REQUIRE_CMP(colors[i].back[3], ==, 0.0f);
+    }
 }
 
 /* ---- Octahedral maps */
@@ -328,6 +351,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_28_29_rgb9e5_keeps_colors),
         cmocka_unit_test(hard_28_powers_of_two_are_exact),
+        cmocka_unit_test(rgb48_keeps_colors_32_times_finer),
         cmocka_unit_test(hard_40_41_octahedral_maps_agree_with_the_reference),
         cmocka_unit_test(hard_36_light_cells_neither_gain_nor_lose_on_average),
         cmocka_unit_test(hard_67_random_points_stay_in_the_unit_square),

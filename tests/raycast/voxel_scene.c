@@ -88,7 +88,9 @@ static void add_triangle(const struct oracle_grid *grid, const float p[3][3], co
     struct oracle_bits bits = oracle_bits_create(4 * N);
     double n[3];
     normal_of(p, n);
-    oracle_voxel_separating(&bits, grid, &mesh, 0);
+    struct test_mesh inset = oracle_voxel_inset(grid, &mesh, 0);
+    oracle_voxel_separating(&bits, grid, m->emissive[0] > 0 ? &mesh : &inset, 0);
+    test_mesh_destroy(&inset);
     for (uint32_t z = 0; z < 4 * N; z++)
         for (uint32_t y = 0; y < 4 * N; y++)
             for (uint32_t x = 0; x < 4 * N; x++) {

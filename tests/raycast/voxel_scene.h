@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Built scenes as a voxel renderer would hold them: sub-voxels by definition (6-separating), means per block.
+ * Built scenes as a voxel renderer would hold them: sub-voxels by definition (6-separating, half a sub-voxel
+ * behind what does not emit), means per block.
  */
 #ifndef TESTS_RAYCAST_VOXEL_SCENE_H
 #define TESTS_RAYCAST_VOXEL_SCENE_H
