@@ -153,7 +153,7 @@ enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *set
     if (result != SDFGI_OK)
         return result;
     if (!sdfgi_settings_same(settings, &gi->settings))
-        sdfgi_accumulation_invalidate(&gi->volume.state.accumulation);
+        sdfgi_volume_invalidate(&gi->volume);
     gi->settings = *settings;
     return SDFGI_OK;
 }
@@ -161,6 +161,11 @@ enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *set
 void sdfgi_get_settings(const sdfgi *gi, struct sdfgi_settings *settings)
 {
     *settings = gi->settings;
+}
+
+void sdfgi_reset(sdfgi *gi)
+{
+    sdfgi_volume_forget(&gi->volume, &gi->settings);
 }
 
 /* ---- What hosts bind */

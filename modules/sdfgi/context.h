@@ -23,6 +23,8 @@ struct sdfgi {
     struct pass_recorder recorder;
     struct pass_report passes[PASS_COUNT]; /* of the last update */
     uint32_t command_count;
+    bool can_cancel;       /* the last update has not been cancelled */
+    uint32_t updates_lost; /* that never ran, as far as is known */
 };
 
 #endif

@@ -67,6 +67,7 @@ static void report_health(const struct sdfgi *gi, struct sdfgi_report *report)
     add_health(report, SDFGI_MESSAGE_NO_LIGHTS,
                !sdfgi_scene_has_light(&gi->scene, gi->settings.read_sky_light));
     add_health(report, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW, overflow);
+    add_health(report, SDFGI_MESSAGE_UPDATE_LOST, gi->updates_lost);
     report_counters(counters, report);
 }
 

@@ -21,8 +21,7 @@ static uint32_t threads_per_ray(const struct gpu_device *device)
     return device->is_cpu ? 1 : SDFGI_GROUP_SURFACES;
 }
 
-static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc,
-                                      bool list_grew, bool emitters_added)
+static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
 {
     return (struct frame_input){ .state = &gi->volume.state,
                                  .desc = desc,
@@ -32,8 +31,7 @@ static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi
                                  .extent = gi->volume.resources->extent,
                                  .counters = gi->volume.feedback.counters,
                                  .lists = sdfgi_volume_light_lists(&gi->volume),
-                                 .list_grew = list_grew,
-                                 .emitters_added = emitters_added,
+                                 .gaps = gi->volume.gaps,
                                  .threads_per_ray = threads_per_ray(&gi->backend.device) };
 }
 
@@ -52,6 +50,18 @@ static void report_frame(struct sdfgi *gi)
     gi->command_count = gi->recorder.gpu.command_count;
 }
 
+/* Takes in what the frame found out that used this slot before. */
+static void read_back(struct sdfgi *gi, uint32_t slot)
+{
+    if (sdfgi_volume_read_back(&gi->volume, slot))
+        return;
+    gi->updates_lost++;
+    sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_UPDATE_LOST,
+                      "sdfgi_update: an update was recorded %u updates ago and has not run: all is made anew",
+                      (unsigned)gi->backend.retired.frames_in_flight);
+    sdfgi_volume_forget(&gi->volume, &gi->settings);
+}
+
 enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc)
 {
     const char *problem = frame_problem(desc);
@@ -65,6 +75,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     /* Destroy what the frame that ends now was the last to use. */
     gi->backend.retired.frame++;
     gi->views.used = 0;
+    gi->can_cancel = true;
     gpu_retire_collect(&gi->backend.retired);
     if (!gi->volume.resources) {
         report_off(gi);
@@ -73,22 +84,31 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 
     /* Take in what an earlier frame found out. */
     const uint32_t slot = sdfgi_backend_slot(&gi->backend);
-    sdfgi_volume_read_back(&gi->volume, slot);
-    const bool list_grew = sdfgi_volume_make_room(&gi->volume);
-    const bool emitters_added = sdfgi_volume_add_emitters(&gi->volume, gi->scene.emission_unit > 0);
+    read_back(gi, slot);
+    sdfgi_volume_make_room(&gi->volume);
+    sdfgi_volume_add_emitters(&gi->volume, gi->scene.emission_unit > 0);
 
     /* Decide what this frame does. */
-    const struct frame_input input = frame_input(gi, desc, list_grew, emitters_added);
+    const struct frame_input input = frame_input(gi, desc);
     sdfgi_frame_plan(&gi->frame, &input);
 
     /* Record it. */
     sdfgi_pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd);
     gpu_timer_begin_frame(&gi->volume.resources->timer, slot);
-    sdfgi_frame_record(&gi->frame, &gi->scene, &gi->recorder, slot);
+    sdfgi_frame_record(&gi->frame, &gi->scene, &gi->recorder, slot, sdfgi_backend_number(&gi->backend));
     sdfgi_pass_recorder_end(&gi->recorder);
 
     /* Take it over as done. */
     sdfgi_frame_commit(&gi->frame, &gi->settings, &gi->volume);
     report_frame(gi);
     return SDFGI_OK;
+}
+
+void sdfgi_cancel_update(sdfgi *gi)
+{
+    if (!gi->can_cancel)
+        return;
+    gi->can_cancel = false;
+    sdfgi_volume_cancel(&gi->volume);
+    gi->backend.retired.frame--;
 }

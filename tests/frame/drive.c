@@ -139,8 +139,7 @@ void drive_plan(const struct drive *d, struct frame *frame)
                                        .extent = d->extent,
                                        .counters = d->counters,
                                        .lists = lists_of(d),
-                                       .list_grew = d->list_grew,
-                                       .emitters_added = d->emitters_added,
+                                       .gaps = { d->list_grew, d->emitters_added },
                                        .threads_per_ray = SDFGI_GROUP_SURFACES };
     sdfgi_frame_plan(frame, &input);
 }

@@ -352,6 +352,14 @@ void gpu_test_submit_many(struct gpu_test *gpu, uint32_t count, gpu_test_record_
     free(commands);
 }
 
+void gpu_test_record_and_drop(struct gpu_test *gpu, gpu_test_record_fn record, void *user)
+{
+    VkCommandBuffer cmd = command_begin(gpu);
+    record(cmd, 0, user);
+    command_end(cmd);
+    vkFreeCommandBuffers(gpu->device, gpu->command_pool, 1, &cmd);
+}
+
 void gpu_test_submit(struct gpu_test *gpu, gpu_test_record_fn record, void *user)
 {
     gpu_test_submit_many(gpu, 1, record, user);

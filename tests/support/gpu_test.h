@@ -84,6 +84,8 @@ void gpu_test_submit(struct gpu_test *gpu, gpu_test_record_fn record, void *user
 /* Records `count` command buffers, submits them one by one and waits once, at the end: what only looks right
  * because of the wait between submissions shows as a hazard. */
 void gpu_test_submit_many(struct gpu_test *gpu, uint32_t count, gpu_test_record_fn record, void *user);
+/* Records a command buffer that never runs. */
+void gpu_test_record_and_drop(struct gpu_test *gpu, gpu_test_record_fn record, void *user);
 
 /* ---- Buffers ---- */
 

@@ -18,8 +18,7 @@ struct frame_input {
     struct extent extent;
     const uint32_t *counters; /* of the newest finished frame */
     struct light_lists lists;
-    bool list_grew;           /* the light lists are empty now */
-    bool emitters_added;      /* the emitter lists are new, and hold anything */
+    struct volume_gaps gaps;
     uint32_t threads_per_ray; /* of light_direct: few threads at once should not idle */
 };
 
@@ -46,9 +45,10 @@ struct frame {
 /* Fills `frame` from the input alone: the same input gives the same plan. Needs no device. */
 void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input);
 
-/* Records a plan. Changes nothing but the command buffer and what the recorder counts. */
+/* Records a plan. Changes nothing but the command buffer and what the recorder counts. `slot` and `number`
+ * are those of its frame in flight. */
 void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec,
-                        uint32_t slot);
+                        uint32_t slot, uint32_t number);
 
 /* The state after a recorded plan: what completed is finished, and the sample cycle goes on. */
 void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,

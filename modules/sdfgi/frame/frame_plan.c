@@ -204,7 +204,7 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
 {
     memset(frame, 0, sizeof *frame);
     frame->next = *input->state;
-    frame->situation.list_grew = input->list_grew;
+    frame->situation.list_grew = input->gaps.lists;
     frame->situation.lists_emitters = input->extent.emits;
     take_input(frame, input);
     plan_scroll(frame, input);
@@ -261,7 +261,12 @@ struct feedback_slot sdfgi_frame_feedback(const struct frame *frame)
 void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *settings,
                         struct volume *volume)
 {
+    volume->undo = (struct volume_undo){ true, volume->state, volume->journal, volume->gaps };
     sdfgi_frame_next_state(frame, settings, &volume->state);
-    volume->feedback.slots[sdfgi_backend_slot(volume->backend)] = sdfgi_frame_feedback(frame);
+    struct feedback_slot *slot = &volume->feedback.slots[sdfgi_backend_slot(volume->backend)];
+    *slot = sdfgi_frame_feedback(frame);
+    volume->used = true;
+    slot->number = sdfgi_backend_number(volume->backend);
+    volume->gaps = (struct volume_gaps){ 0 };
     sdfgi_journal_clear(&volume->journal);
 }

@@ -77,16 +77,18 @@ static void record_item(struct pass_recorder *r, const struct voxelizer *voxeliz
         sdfgi_pass_record(r, work);
 }
 
-static void record_readback(struct pass_recorder *r, uint32_t slot)
+/* The counters, and the number that tells that this frame has run. */
+static void record_readback(struct pass_recorder *r, uint32_t slot, uint32_t number)
 {
-    const uint64_t bytes = SDFGI_COUNTER_COUNT * sizeof(uint32_t);
+    const uint64_t bytes = SDFGI_COUNTER_COUNT * sizeof(uint32_t),
+                   at = slot * (SDFGI_READBACK_WORDS * sizeof(uint32_t));
     gpu_use(&r->gpu, GPU_USAGE_TRANSFER, RESOURCE_BIT(COUNTERS), 0);
-    gpu_copy(&r->gpu, &r->resources->buffers[RESOURCE_COUNTERS], 0, &r->resources->readback, slot * bytes,
-             bytes);
+    gpu_copy(&r->gpu, &r->resources->buffers[RESOURCE_COUNTERS], 0, &r->resources->readback, at, bytes);
+    gpu_update(&r->gpu, &r->resources->readback, at + bytes, sizeof number, &number);
 }
 
 void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r,
-                        uint32_t slot)
+                        uint32_t slot, uint32_t number)
 {
     const struct voxelizer voxelizer = { r, scene, &frame->next.cascades };
     record_uploads(r, frame, scene);
@@ -94,5 +96,5 @@ void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, st
         record_item(r, &voxelizer, &frame->work.items[i]);
     sdfgi_pass_close(r);
     if (!frame->situation.converged)
-        record_readback(r, slot);
+        record_readback(r, slot, number);
 }

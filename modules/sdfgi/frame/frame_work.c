@@ -31,7 +31,7 @@ void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
                           const struct situation_needs *needs)
 {
     const struct plan_stage stage = { frame, input, needs };
-    if (input->emitters_added)
+    if (input->gaps.emitters)
         sdfgi_work_add_clear(&frame->work, RESOURCE_EMITTERS, 0,
                              sdfgi_resource_size(RESOURCE_EMITTERS, &input->extent));
     if (needs->holds[NEED_GENERATE])

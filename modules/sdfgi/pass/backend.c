@@ -6,6 +6,11 @@ uint32_t sdfgi_backend_slot(const struct backend *backend)
     return (uint32_t)(backend->retired.frame % backend->retired.frames_in_flight);
 }
 
+uint32_t sdfgi_backend_number(const struct backend *backend)
+{
+    return (uint32_t)backend->retired.frame;
+}
+
 VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
                                    VkBufferUsageFlags usage, enum gpu_placement placement,
                                    enum sdfgi_memory_category category, const char *name)

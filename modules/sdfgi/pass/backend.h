@@ -29,6 +29,8 @@ struct backend {
 
 /* Frames recorded so far modulo the frames in flight. */
 uint32_t sdfgi_backend_slot(const struct backend *backend);
+/* Number of the newest frame: no two in flight have the same. */
+uint32_t sdfgi_backend_number(const struct backend *backend);
 
 /* A buffer whose size counts in `held`. */
 VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,

@@ -59,5 +59,5 @@ uint32_t sdfgi_resource_set_size(enum resource_set set)
 
 uint64_t sdfgi_readback_size(uint32_t frames_in_flight)
 {
-    return (uint64_t)frames_in_flight * SDFGI_COUNTER_COUNT * sizeof(uint32_t);
+    return (uint64_t)frames_in_flight * SDFGI_READBACK_WORDS * sizeof(uint32_t);
 }

@@ -29,7 +29,7 @@ uint64_t sdfgi_resource_size(enum resource resource, const struct extent *extent
 VkDescriptorType sdfgi_resource_descriptor(enum resource resource);
 /* How many resources of a set are bound. */
 uint32_t sdfgi_resource_set_size(enum resource_set set);
-/* Bytes of counters that come back to the host. */
+/* Bytes that come back to the host. */
 uint64_t sdfgi_readback_size(uint32_t frames_in_flight);
 
 #endif

@@ -16,6 +16,7 @@ enum {
     SDFGI_MAX_LIGHTS = 1024,
     SDFGI_MAX_MATERIALS = 4096,
     SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
+    SDFGI_READBACK_WORDS = SDFGI_COUNTER_COUNT + 1, /* counters, and the number of the frame */
     SDFGI_MAX_WORK = 512, /* the plan of a frame never has more: asserted */
 };
 

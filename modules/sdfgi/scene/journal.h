@@ -24,6 +24,8 @@ struct journal {
 void sdfgi_journal_note(struct journal *journals, enum journal_note note);
 void sdfgi_journal_add_box(struct journal *journals, const struct box *box);
 bool sdfgi_journal_is_empty(const struct journal *journal);
+/* Adds the entries of `earlier` before those of the journal. */
+void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlier);
 /* Forgets all entries; it stays the scene's. */
 void sdfgi_journal_clear(struct journal *journal);
 

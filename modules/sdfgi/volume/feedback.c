@@ -12,14 +12,17 @@ static float float_of(uint32_t bits)
     return value;
 }
 
-static void read_counters(struct volume *volume, const struct feedback_slot *slot, uint32_t index)
+/* False if the frame has not run. */
+static bool read_counters(struct volume *volume, const struct feedback_slot *slot, uint32_t index)
 {
     const struct gpu_buffer *readback = &volume->resources->readback;
+    const uint32_t *words = (const uint32_t *)readback->mapped + index * SDFGI_READBACK_WORDS;
     uint32_t *counters = volume->feedback.counters;
     if (gpu_buffer_invalidate(&volume->backend->device, readback) != VK_SUCCESS)
-        return;
-    memcpy(counters, (const uint32_t *)readback->mapped + index * SDFGI_COUNTER_COUNT,
-           sizeof volume->feedback.counters);
+        return true;
+    if (words[SDFGI_COUNTER_COUNT] != slot->number)
+        return false;
+    memcpy(counters, words, sizeof volume->feedback.counters);
     if (slot->ended_cycle > 0)
         sdfgi_accumulation_add_known(&volume->state.accumulation, slot->ended_cycle,
                                      float_of(counters[SDFGI_COUNTER_MAX_CHANGE]));
@@ -32,6 +35,7 @@ static void read_counters(struct volume *volume, const struct feedback_slot *slo
                                           .drifting = (int32_t)counters[SDFGI_COUNTER_CELLS_DRIFTING + c],
                                           .cells = counters[SDFGI_COUNTER_LIGHT_CELLS + c],
                                       });
+    return true;
 }
 
 static void read_times(struct volume *volume, uint32_t index)
@@ -45,14 +49,14 @@ static void read_times(struct volume *volume, uint32_t index)
     }
 }
 
-void sdfgi_volume_read_back(struct volume *volume, uint32_t index)
+bool sdfgi_volume_read_back(struct volume *volume, uint32_t index)
 {
     struct feedback_slot *slot = &volume->feedback.slots[index];
     for (int i = 0; i < PASS_COUNT; i++)
         volume->feedback.times[i].is_new = false;
-    if (slot->content == FEEDBACK_TIMES_AND_COUNTERS)
-        read_counters(volume, slot, index);
-    if (slot->content != FEEDBACK_NOTHING)
+    const bool has_run = slot->content != FEEDBACK_TIMES_AND_COUNTERS || read_counters(volume, slot, index);
+    if (has_run && slot->content != FEEDBACK_NOTHING)
         read_times(volume, index);
     *slot = (struct feedback_slot){ .content = FEEDBACK_NOTHING };
+    return has_run;
 }

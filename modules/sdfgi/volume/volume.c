@@ -22,14 +22,22 @@ void sdfgi_volume_finish(struct volume *volume)
 void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
                         const struct sdfgi_settings *settings)
 {
-    struct volume_state *state = &volume->state;
-    if (state->updates > 0)
+    if (volume->used)
         sdfgi_resources_retire(volume->backend, volume->resources);
     else
         sdfgi_resources_destroy(volume->backend, volume->resources);
     volume->resources = resources;
+    volume->used = false;
+    sdfgi_volume_forget(volume, settings);
+}
+
+void sdfgi_volume_forget(struct volume *volume, const struct sdfgi_settings *settings)
+{
+    struct volume_state *state = &volume->state;
     memset(state, 0, sizeof *state);
     memset(&volume->feedback, 0, sizeof volume->feedback);
+    volume->undo.valid = false;
+    volume->gaps = (struct volume_gaps){ .emitters = volume->resources && volume->resources->extent.emits };
     sdfgi_journal_clear(&volume->journal);
     sdfgi_cascades_init(&state->cascades, settings);
     sdfgi_scroll_init(&state->scroll);
@@ -37,6 +45,24 @@ void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
     sdfgi_relight_init(&state->relight);
     sdfgi_gathering_init(&state->gathering);
     state->exposure = 1;
+}
+
+void sdfgi_volume_cancel(struct volume *volume)
+{
+    struct volume_undo *undo = &volume->undo;
+    if (!undo->valid)
+        return;
+    undo->valid = false;
+    volume->state = undo->state;
+    volume->gaps = undo->gaps;
+    volume->feedback.slots[sdfgi_backend_slot(volume->backend)] = (struct feedback_slot){ 0 };
+    sdfgi_journal_prepend(&volume->journal, &undo->journal);
+}
+
+void sdfgi_volume_invalidate(struct volume *volume)
+{
+    sdfgi_accumulation_invalidate(&volume->state.accumulation);
+    sdfgi_accumulation_invalidate(&volume->undo.state.accumulation);
 }
 
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state)
@@ -70,34 +96,36 @@ static uint64_t most_light_cells(const struct volume *volume)
     return most;
 }
 
-bool sdfgi_volume_make_room(struct volume *volume)
+void sdfgi_volume_make_room(struct volume *volume)
 {
     struct resources *r = volume->resources;
     const uint64_t needed = most_light_cells(volume), wanted = needed + needed / SPARE_PART;
     const uint64_t room = wanted < r->extent.light_cells_max ? wanted : r->extent.light_cells_max;
     if (needed <= r->extent.light_cells || needed == volume->feedback.light_cells_refused)
-        return false;
-    if (room > r->extent.light_cells && sdfgi_resources_grow_light_cells(volume->backend, r, room))
-        return true;
+        return;
+    if (room > r->extent.light_cells && sdfgi_resources_grow_light_cells(volume->backend, r, room)) {
+        volume->gaps.lists = true;
+        return;
+    }
     if (volume->feedback.light_cells_refused == 0)
         sdfgi_message_log(
             &volume->backend->hooks, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW,
             "sdfgi_update: %llu light cells in a cascade, room for %llu, and no memory for more",
             (unsigned long long)needed, (unsigned long long)r->extent.light_cells);
     volume->feedback.light_cells_refused = needed;
-    return false;
 }
 
-bool sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
+void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
 {
     if (!scene_emits || volume->resources->extent.emits || volume->feedback.emitters_refused)
-        return false;
-    if (sdfgi_resources_add_emitters(volume->backend, volume->resources))
-        return true;
+        return;
+    if (sdfgi_resources_add_emitters(volume->backend, volume->resources)) {
+        volume->gaps.emitters = true;
+        return;
+    }
     volume->feedback.emitters_refused = true;
     sdfgi_message_log(&volume->backend->hooks, SDFGI_MESSAGE_OUT_OF_DEVICE_MEMORY,
                       "sdfgi_update: no memory for lists of emitters: light of small lamps will be noisy");
-    return false;
 }
 
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume)

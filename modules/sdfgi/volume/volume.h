@@ -30,6 +30,7 @@ enum feedback_content { FEEDBACK_NOTHING, FEEDBACK_TIMES, FEEDBACK_TIMES_AND_COU
 
 struct feedback_slot {
     enum feedback_content content;
+    uint32_t number;                            /* of the frame */
     uint64_t ended_cycle;                       /* the sample cycle that ended in it; 0: none */
     uint64_t ended_gathers[SDFGI_MAX_CASCADES]; /* the gather cycle of a cascade that ended in it; 0: none */
 };
@@ -48,11 +49,28 @@ struct feedback {
     bool emitters_refused;        /* there was no memory for the emitter lists */
 };
 
+/* Buffers that have been made and that no frame has filled. */
+struct volume_gaps {
+    bool lists;    /* the light lists are empty */
+    bool emitters; /* the emitter lists hold anything */
+};
+
+/* What the last frame began with, in case it never runs. */
+struct volume_undo {
+    bool valid;
+    struct volume_state state;
+    struct journal journal;
+    struct volume_gaps gaps;
+};
+
 struct volume {
     struct backend *backend;
     struct resources *resources; /* NULL while GI is off */
+    bool used;                   /* a frame that uses the resources has been recorded */
     struct journal journal;      /* of the scene */
     struct volume_state state;
+    struct volume_gaps gaps;
+    struct volume_undo undo;
     struct feedback feedback;
 };
 
@@ -62,6 +80,12 @@ void sdfgi_volume_finish(struct volume *volume);
 /* Replaces the resources (NULL: none) and forgets all light and cascades. */
 void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
                         const struct sdfgi_settings *settings);
+/* Forgets all light and cascades, and keeps the resources. */
+void sdfgi_volume_forget(struct volume *volume, const struct sdfgi_settings *settings);
+/* Undoes the last frame. What changed in the scene since then is kept. */
+void sdfgi_volume_cancel(struct volume *volume);
+/* Settings changed: light goes on until it has converged again, also if the last frame is undone. */
+void sdfgi_volume_invalidate(struct volume *volume);
 
 /* Applies what changed in the scene since the last frame to a state: boxes become edits, light is
  * invalidated. */
@@ -69,14 +93,12 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
 /* True if the light has converged and nothing has changed since. */
 bool sdfgi_volume_has_converged(const struct volume *volume);
 
-/* Takes in what the frame that last used the slot left there. */
-void sdfgi_volume_read_back(struct volume *volume, uint32_t slot);
-/* Makes the light lists longer where the newest counters say that they were too short. Returns true if they
- * are empty now and have to be written again. */
-bool sdfgi_volume_make_room(struct volume *volume);
-/* Makes the emitter lists as soon as something emits. Returns true if they are there now and hold nothing of
- * use. */
-bool sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
+/* Takes in what the frame that last used the slot left there. False if that frame has not run. */
+bool sdfgi_volume_read_back(struct volume *volume, uint32_t slot);
+/* Makes the light lists longer where the newest counters say that they were too short. */
+void sdfgi_volume_make_room(struct volume *volume);
+/* Makes the emitter lists as soon as something emits. */
+void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
 /* The lists as far as counters know them. */
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume);
 

@@ -305,6 +305,19 @@ struct sdfgi_frame_desc {
  * light cells, allocates a longer one. */
 SDFGI_API enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc);
 
+/* Undoes the last sdfgi_update, whose command buffer has not run and will not: the swapchain was out of date,
+ * say. Everything is as if that update had not been recorded; what changed in the scene since then is kept.
+ * Call it before the next sdfgi_update, which it replaces as a frame in flight. Without an update to undo it
+ * does nothing.
+ *
+ * An update that did not run and that nobody cancelled is noticed frames_in_flight updates later: the library
+ * logs UPDATE_LOST and begins anew, as sdfgi_reset does. Until then lookups may give anything. */
+SDFGI_API void sdfgi_cancel_update(sdfgi *gi);
+
+/* Forgets all light and everything voxelised, and keeps memory and scene: the next sdfgi_update is as the
+ * first of a context. For cuts to another world, whose light has nothing in common with the one before. */
+SDFGI_API void sdfgi_reset(sdfgi *gi);
+
 /* True when lookups give light: GI is enabled and at least one update has been recorded. */
 SDFGI_API bool sdfgi_is_active(const sdfgi *gi);
 
