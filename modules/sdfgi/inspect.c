@@ -85,9 +85,10 @@ void sdfgi_inspect_decode_block(uint32_t albedo, const uint32_t *emission, uint3
     for (int i = 0; i < 3; i++) {
         const uint32_t slopes = normals >> (10 * i);
         out->albedo[i] = (uint16_t)(albedo >> (10 * i) & 1023);
-        /* RGB9E5 as in shaders/lib/rgbe.glsl. */
-        out->emission[i] =
-            ldexpf((float)(emission[0] >> (9 * i) & 511), (int)(emission[0] >> 27) - 24) * emission_unit;
+        /* RGB9E5 as in shaders/lib/rgbe.glsl, in one of two units as in shaders/sdfgi/surface.glsl. */
+        out->emission[i] = ldexpf((float)(emission[0] >> (9 * i) & 511),
+                                  (int)(emission[0] >> 27) - 24 + (emission[1] >> 30 & 1 ? 11 : -16)) *
+                           emission_unit;
         out->has_normal[i] = (slopes & 31) != NO_NORMAL;
         for (int k = 0; k < 2 && out->has_normal[i]; k++)
             out->slopes[i][k] = (int8_t)((int)(slopes >> (5 * k) & 31) - ZERO_SLOPE);

@@ -86,7 +86,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     const uint32_t slot = sdfgi_backend_slot(&gi->backend);
     read_back(gi, slot);
     sdfgi_volume_make_room(&gi->volume);
-    sdfgi_volume_add_emitters(&gi->volume, gi->scene.emission_unit > 0);
+    sdfgi_volume_add_emitters(&gi->volume, gi->scene.emissive > 0);
 
     /* Decide what this frame does. */
     const struct frame_input input = frame_input(gi, desc);

@@ -49,7 +49,7 @@ uint key_of(uint block)
     float weights = 0.0;
     for (uint axis = 0u; axis < 6u; axis++)
         weights += float(emission.y >> (5u * axis) & 31u);
-    const float power = sdfgi_light_luminance(sdfgi_rgbe_decode(emission.x)) * weights;
+    const float power = sdfgi_light_luminance(surface_unpack_radiance(emission)) * weights;
     return floatBitsToUint(power) & 0xffff0000u | sdfgi_random_hash(block) >> 16u;
 }
 
@@ -130,8 +130,8 @@ void store(uint place, uint block)
         all_areas += areas.x + areas.y;
     }
     sdfgi_emitters[word + 6u] =
-        floatBitsToUint(all_areas * sdfgi_light_luminance(sdfgi_rgbe_decode(emission.x)));
-    sdfgi_emitters[word + 7u] = 0u;
+        floatBitsToUint(all_areas * sdfgi_light_luminance(surface_unpack_radiance(emission)));
+    sdfgi_emitters[word + 7u] = emission.y & SURFACE_IS_BRIGHT;
     sdfgi_emission[index].y = emission.y | SURFACE_IS_LISTED;
 }
 

@@ -35,7 +35,7 @@ uint emitter_shape_word(uint cascade, uint block)
 }
 
 /* The words of an emitter: its block, its shape, RGB9E5 radiance, the areas along the six axes as half
- * floats, and the power that its axes emit in all. */
+ * floats, the power that its axes emit in all, and SURFACE_IS_BRIGHT. */
 uint emitter_word(uint cascade, uint i)
 {
     return emitter_count_word(cascade) + 8u + uint(SDFGI_EMITTER_WORDS) * i;
@@ -76,7 +76,7 @@ uint emitter_of_block(uint cascade, uint block)
 
 struct emitter {
     vec3 low, high; /* corners, in cells */
-    uint radiance;  /* RGB9E5, in units of the scene's brightest emission */
+    uvec2 radiance; /* as blocks have it: surface_unpack_radiance */
     float areas[6]; /* in squares of a cell's width */
     float power;    /* luminance of the radiance times the sum of the areas */
 };
@@ -90,7 +90,7 @@ emitter emitter_load(uint cascade, uint i)
     e.low = corner + vec3(uvec3(shape, shape >> 3u, shape >> 6u) & 7u) / float(SDFGI_SUBVOXELS);
     e.high =
         corner + vec3((uvec3(shape >> 9u, shape >> 12u, shape >> 15u) & 7u) + 1u) / float(SDFGI_SUBVOXELS);
-    e.radiance = sdfgi_emitters[word + 2u];
+    e.radiance = uvec2(sdfgi_emitters[word + 2u], sdfgi_emitters[word + 7u]);
     for (uint k = 0u; k < 3u; k++) {
         const vec2 pair = unpackHalf2x16(sdfgi_emitters[word + 3u + k]);
         e.areas[2u * k] = pair.x;
@@ -158,7 +158,7 @@ vec3 emitter_light(emitter e, vec3 pos, vec3 normal, vec3 point)
     const vec3 offset = sdfgi_metric_from_cells(point - pos);
     const float range = max(length(offset), 1e-3), nearest = max(range, EMITTER_NEAR);
     const vec3 dir = offset / range;
-    return sdfgi_rgbe_decode(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) *
+    return surface_unpack_radiance(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) *
            emitter_area_towards(e, -dir) * max(dot(normal, dir), 0.0) / (nearest * nearest);
 }
 

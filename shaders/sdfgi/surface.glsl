@@ -20,9 +20,9 @@ layout(std430, set = SDFGI_SET_WORK,
     uint sdfgi_albedo[];
 };
 
-/* x: RGB9E5 mean radiance of the block, seen from the side on which it emits most, in units of the scene's
- * brightest emission. y: 5 bits per axis, the fraction of that radiance which leaves along this axis, and
- * SURFACE_IS_LISTED. */
+/* x: RGB9E5 mean radiance of the block, seen from the side on which it emits most, over SURFACE_BRIGHT_UNIT
+ * or SURFACE_DIM_UNIT. y: 5 bits per axis, the fraction of that radiance which leaves along this axis, and
+ * SURFACE_IS_BRIGHT and SURFACE_IS_LISTED. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
 {
@@ -39,6 +39,7 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 const uint SURFACE_NO_NORMAL = 31u;
+const uint SURFACE_IS_BRIGHT = 0x40000000u;
 const uint SURFACE_IS_LISTED = 0x80000000u; /* the block is in its cascade's list of emitters */
 
 /* Mean unit normal of the triangles whose dominant axis is `axis`, turned to that side. False if the block
@@ -99,6 +100,24 @@ bool surfaces_emit()
     return sdfgi_frame.emission_scale > 0.0;
 }
 
+/* Nine bits are kept of 0.03 to SDFGI_EMISSION_MOST in the first unit, and of 5e-10 to 1 in the
+ * second. */
+const float SURFACE_BRIGHT_UNIT = 2048.0, SURFACE_DIM_UNIT = 1.0 / 65536.0;
+
+/* Radiance and the packed sides. */
+uvec2 surface_pack_emission(vec3 radiance, uint sides)
+{
+    const bool bright = max(radiance.r, max(radiance.g, radiance.b)) >= 0.5;
+    const float unit = bright ? SURFACE_BRIGHT_UNIT : SURFACE_DIM_UNIT;
+    return uvec2(sdfgi_rgbe_encode(radiance / unit), sides | (bright ? SURFACE_IS_BRIGHT : 0u));
+}
+
+vec3 surface_unpack_radiance(uvec2 packed)
+{
+    return sdfgi_rgbe_decode(packed.x) *
+           ((packed.y & SURFACE_IS_BRIGHT) != 0u ? SURFACE_BRIGHT_UNIT : SURFACE_DIM_UNIT);
+}
+
 bool surface_is_listed_emitter(uint block)
 {
     return (sdfgi_emission[block].y & SURFACE_IS_LISTED) != 0u;
@@ -108,7 +127,7 @@ bool surface_is_listed_emitter(uint block)
 vec3 surface_emission(uint block, uint axis)
 {
     const uvec2 packed = sdfgi_emission[block];
-    return sdfgi_rgbe_decode(packed.x) * (float(packed.y >> (5u * axis) & 31u) / 31.0) *
+    return surface_unpack_radiance(packed) * (float(packed.y >> (5u * axis) & 31u) / 31.0) *
            sdfgi_frame.emission_scale;
 }
 

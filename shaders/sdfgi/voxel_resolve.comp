@@ -28,6 +28,16 @@ vec3 accumulated3(uint plane, uint block)
     return vec3(accumulated(plane, block), accumulated(plane + 1u, block), accumulated(plane + 2u, block));
 }
 
+/* Sums of accumulate_wide in voxelize_common.glsl. */
+vec3 accumulated_wide3(uint plane, uint block)
+{
+    vec3 sum;
+    for (uint i = 0u; i < 3u; i++)
+        sum[i] = float(accumulated(plane + 2u * i + 1u, block)) * SDFGI_EMISSION_UPPER +
+                 float(accumulated(plane + 2u * i, block)) * SDFGI_EMISSION_STEP;
+    return sum;
+}
+
 /* One normal for each dominant axis: two slopes of 5 bits, means over the samples. */
 uint resolve_normals(uint block)
 {
@@ -89,7 +99,7 @@ float covered_fraction(float covered, int bits, uint facing)
     const int most_of_small_lamp = 8;
     return corner && bits > most_of_small_lamp
                ? 1.0
-               : min(covered / (float(max(bits, 1)) * SDFGI_EMISSION_STEPS), 1.0);
+               : min(covered / (float(max(bits, 1)) * SDFGI_AREA_STEPS), 1.0);
 }
 
 /* Loads a block's bits and emissive bits. Returns the number of the latter. */
@@ -143,12 +153,12 @@ void store_emitter_shape(uint block, emitter_view view)
         low[axis] = bounds.x;
         high[axis] = bounds.y;
     }
-    const float area = float(accumulated(SDFGI_ACCUM_EMISSION_AREA, block)) / SDFGI_EMISSION_STEPS;
+    const float area = float(accumulated(SDFGI_ACCUM_EMISSION_AREA, block)) / SDFGI_AREA_STEPS;
     const float fill = is_hollow(view, low, high) ? 0.0 : area / max(view.projected, 1e-6);
     sdfgi_emitters[emitter_shape_word(args.cascade, block)] = emitter_shape_pack(low, high, fill);
 }
 
-/* Emission of the brightest side as RGB9E5, and the six sides relative to it, 5 bits each. */
+/* Emission of the brightest side, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, uvec3 block_texel)
 {
     const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
@@ -178,8 +188,8 @@ uvec2 resolve_emission(uint block, uvec3 block_texel)
     uint packed = 0u;
     for (uint side = 0u; side < 6u && largest > 0.0; side++)
         packed |= uint(round(31.0 * fractions[side] / largest)) << (5u * side);
-    const vec3 mean = accumulated3(SDFGI_ACCUM_EMISSION, block) / covered;
-    return uvec2(sdfgi_rgbe_encode(mean * of_emissive * largest), packed);
+    const vec3 mean = accumulated_wide3(SDFGI_ACCUM_EMISSION, block) / (covered / SDFGI_AREA_STEPS);
+    return surface_pack_emission(mean * of_emissive * largest, packed);
 }
 
 /* ---- Blocks */

@@ -423,17 +423,30 @@ float emitting_area(triangle t, uint flags)
     return sides * column / max(abs(t.normal[t.axis]), 0.1);
 }
 
+/* Adds a value, in W/(m^2 sr) times the area of a column, to a sum of 64 bits. The lower word carries over
+ * into the upper one, whatever the order of additions. */
+void accumulate_wide(uint plane, uint block, float value)
+{
+    const float upper = floor(value / SDFGI_EMISSION_UPPER);
+    const uint lower = uint((value - upper * SDFGI_EMISSION_UPPER) / SDFGI_EMISSION_STEP + 0.5);
+    const uint word = plane * sdfgi_albedo_block_count() + block;
+    const uint before = lower != 0u ? atomicAdd(sdfgi_scratch[word], lower) : 0u;
+    accumulate(plane + 1u, block, uint(upper) + uint(before + lower < before));
+}
+
 /* Adds the emission of the part of a column that an emitter covers, even if it sets no sub-voxel there. */
 void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
 {
-    const float covered = min(triangle_coverage(t, column), 1.0) * SDFGI_EMISSION_STEPS;
-    const uvec3 emission = uvec3(clamp(s.emission, 0.0, 1.0) * covered + 0.5);
-    if (emission == uvec3(0u) || !has_room(SDFGI_ACCUM_EMISSION_COVERED, block, SDFGI_ACCUM_MOST_COVERED))
+    const float covered = min(triangle_coverage(t, column), 1.0);
+    const vec3 emission = clamp(s.emission, 0.0, SDFGI_EMISSION_MOST) * covered;
+    if (all(lessThan(emission, vec3(SDFGI_EMISSION_STEP))) ||
+        !has_room(SDFGI_ACCUM_EMISSION_COVERED, block, SDFGI_ACCUM_MOST_COVERED))
         return;
     for (uint i = 0u; i < 3u; i++)
-        accumulate(SDFGI_ACCUM_EMISSION + i, block, emission[i]);
-    accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered + 0.5));
-    accumulate(SDFGI_ACCUM_EMISSION_AREA, block, uint(covered * emitting_area(t, s.flags) + 0.5));
+        accumulate_wide(SDFGI_ACCUM_EMISSION + 2u * i, block, emission[i]);
+    accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered * SDFGI_AREA_STEPS + 0.5));
+    accumulate(SDFGI_ACCUM_EMISSION_AREA, block,
+               uint(covered * SDFGI_AREA_STEPS * emitting_area(t, s.flags) + 0.5));
 }
 
 /* Sets an emissive bit, and notes which sides the emission is seen from. `cell` is an index within the

@@ -63,7 +63,7 @@ struct sdfgi_frame_params {
     float normal_bias; /* cells */
     float probe_bias;  /* cells */
     float bounce_feedback;
-    float emission_scale; /* unit of stored emission times exposure */
+    float emission_scale; /* unit of stored emission times exposure; 0: nothing emits */
     uint resolution;      /* cells along a side */
     uint resolution_log2;
     uint probes_per_side;
@@ -100,7 +100,7 @@ SDFGI_ASSERT_SIZE(sdfgi_light_params, 64);
 struct sdfgi_material_params {
     vec3 albedo;
     float alpha;
-    vec3 emission;      /* in units of the scene's brightest emission */
+    vec3 emission;      /* in units of stored emission */
     float alpha_cutoff; /* 0: opaque */
     vec4 albedo_uv[2];  /* rows of uv' = M (u, v, 1); w unused */
     vec4 emission_uv[2];

@@ -151,14 +151,15 @@ void drive_commit(struct drive *d)
     slot->feedback = sdfgi_frame_feedback(&d->frame);
     memcpy(slot->counters + SDFGI_COUNTER_LIGHT_CELLS, d->light_cells, sizeof d->light_cells);
     sdfgi_journal_clear(&d->journal);
-    d->list_grew = d->emitters_added = false;
+    if (!d->frame.situation.converged)
+        d->list_grew = d->emitters_added = false;
 }
 
 void drive_begin_frame(struct drive *d)
 {
     d->frames++;
     read_back(d);
-    d->emitters_added = d->scene.emission_unit > 0 && !d->extent.emits;
+    d->emitters_added = d->emitters_added || (d->scene.emissive > 0 && !d->extent.emits);
     d->extent.emits = d->extent.emits || d->emitters_added;
 }
 

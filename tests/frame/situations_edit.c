@@ -119,22 +119,43 @@ static void material_changes(struct show *show)
     show_frames(show, 1);
 }
 
-/* Emission is stored as a share of the brightest: all of it is voxelised again. */
-static void brightest_emission_changes(struct show *show)
+/* The lists of emitters are there from then on, and emptied in the first frame that has work to do. */
+static void first_emission(struct show *show)
+{
+    const struct sdfgi_light_desc lamp = drive_lamp();
+    show_begin(show);
+    drive_converge(&show->d);
+    drive_set_emission(&show->d, 5);
+    show_frames(show, 1);
+    drive_add_light(&show->d, &lamp);
+    show_frames(show, 2);
+}
+
+static void brighter_emission(struct show *show)
 {
     show_begin(show);
+    drive_set_emission(&show->d, 1);
     drive_converge(&show->d);
     drive_set_emission(&show->d, 5);
     show_frames(show, 2);
 }
 
+/* It does not fit the unit of stored emission: all of it is voxelised again. */
+static void blinding_emission(struct show *show)
+{
+    show_begin(show);
+    drive_converge(&show->d);
+    drive_set_emission(&show->d, 1e9f);
+    show_frames(show, 2);
+}
+
 /* What is half made is out of date: the scroll is given up, and nothing is read that was stored before. */
-static void brightest_emission_changes_during_a_scroll(struct show *show)
+static void blinding_emission_during_a_scroll(struct show *show)
 {
     show_begin(show);
     drive_converge(&show->d);
     show_until(show, 0, CHANGE_DISTANCES, (double[]){ 0.125, 0, 0 });
-    drive_set_emission(&show->d, 5);
+    drive_set_emission(&show->d, 1e9f);
     show_frames(show, 2);
 }
 
@@ -150,8 +171,10 @@ static const struct situation_row rows[] = {
     { "edits_and_scrolls_take_turns", edits_and_scrolls },
     { "a_large_edit_takes_several_frames", large_edit },
     { "a_changed_material_is_uploaded", material_changes },
-    { "a_new_brightest_emission_rebuilds_everything", brightest_emission_changes },
-    { "a_new_brightest_emission_gives_up_a_scroll", brightest_emission_changes_during_a_scroll },
+    { "a_first_emission_empties_the_lists_once", first_emission },
+    { "a_brighter_emission_is_uploaded", brighter_emission },
+    { "a_blinding_emission_rebuilds_everything", blinding_emission },
+    { "a_blinding_emission_gives_up_a_scroll", blinding_emission_during_a_scroll },
 };
 
 const struct situation_table situations_edit = SITUATIONS(rows);

@@ -267,6 +267,7 @@ void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *
     *slot = sdfgi_frame_feedback(frame);
     volume->used = true;
     slot->number = sdfgi_backend_number(volume->backend);
-    volume->gaps = (struct volume_gaps){ 0 };
+    if (!frame->situation.converged)
+        volume->gaps = (struct volume_gaps){ 0 };
     sdfgi_journal_clear(&volume->journal);
 }

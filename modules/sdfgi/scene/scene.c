@@ -12,6 +12,7 @@
 void sdfgi_scene_init(struct scene *scene, struct backend *backend)
 {
     scene->backend = backend;
+    scene->emission_unit = 1;
     sdfgi_pool_init(&scene->meshes, sizeof(struct mesh), MAX_OBJECTS);
     sdfgi_pool_init(&scene->materials, sizeof(struct material), SDFGI_MAX_MATERIALS);
     sdfgi_pool_init(&scene->instances, sizeof(struct instance), MAX_OBJECTS);
@@ -68,24 +69,26 @@ bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky)
 {
     static const struct sdfgi_sky none;
     const bool sky = reads_sky && !sdfgi_same_sky(&scene->sky, &none);
-    return scene->lights.count > 0 || scene->emission_unit > 0 || sky;
+    return scene->lights.count > 0 || scene->emissive > 0 || sky;
 }
 
 /* ---- Materials */
 
-/* Emission is stored in units of the brightest material's, so that integer sums keep precision. */
-static void update_emission_unit(struct scene *scene)
+static bool emits(const struct sdfgi_material_desc *desc)
 {
-    float unit = 0;
-    for (uint32_t i = 0; i < scene->materials.end; i++) {
-        const struct material *m = sdfgi_pool_at(&scene->materials, i);
-        for (int k = 0; m && k < 3; k++)
-            unit = fmaxf(unit, m->desc.emission[k]);
-    }
-    if (unit == scene->emission_unit)
+    return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
+}
+
+/* Sums of emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material
+ * that is brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised
+ * anew for that. */
+static void fit_emission_unit(struct scene *scene, const struct sdfgi_material_desc *desc)
+{
+    const float brightest = fmaxf(desc->emission[0], fmaxf(desc->emission[1], desc->emission[2]));
+    if (brightest <= scene->emission_unit * SDFGI_EMISSION_MOST)
         return;
-    scene->emission_unit = unit;
-    sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
+    while (brightest > scene->emission_unit * SDFGI_EMISSION_MOST)
+        scene->emission_unit *= 65536;
     sdfgi_journal_note(scene->journals, JOURNAL_EVERYTHING);
 }
 
@@ -124,7 +127,8 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
         return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
     }
     sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
-    update_emission_unit(scene);
+    scene->emissive += emits(desc);
+    fit_emission_unit(scene, desc);
     out->id = id;
     return SDFGI_OK;
 }
@@ -142,8 +146,8 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
                                          sdfgi_pool_id(&scene->instances, i), handle.id);
     }
     sdfgi_scene_sets_retire(scene, material->set);
+    scene->emissive -= emits(&material->desc);
     sdfgi_pool_remove(&scene->materials, handle.id);
-    update_emission_unit(scene);
     return SDFGI_OK;
 }
 

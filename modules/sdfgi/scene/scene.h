@@ -46,7 +46,8 @@ struct scene {
     struct pool meshes, materials, instances, lights;
     struct set_pool *set_pools;
     struct sdfgi_sky sky;
-    float emission_unit; /* radiance of the brightest material: emission is stored as a share of it */
+    uint32_t emissive;   /* materials that emit */
+    float emission_unit; /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;
 };
 

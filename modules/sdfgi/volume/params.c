@@ -115,6 +115,11 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->rays_per_frame = keep ? old->rays_per_frame : rays;
 }
 
+static float emission_scale(const struct scene *scene, float exposure)
+{
+    return scene->emissive > 0 ? fminf(scene->emission_unit * exposure, BRIGHTEST) : 0;
+}
+
 void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,
                        const struct params_input *input)
 {
@@ -125,7 +130,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     fill_settings(p, input->settings);
     p->exposure = state->exposure;
     p->exposure_inverse = 1.0f / state->exposure;
-    p->emission_scale = fminf(input->scene->emission_unit * state->exposure, BRIGHTEST);
+    p->emission_scale = emission_scale(input->scene, state->exposure);
     p->light_count = input->scene->lights.count;
     p->light_cell_room = (uint32_t)input->extent->light_cells;
     p->lists_emitters = input->extent->emits;
@@ -170,7 +175,7 @@ struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
     struct sdfgi_material_params p = {
         .albedo = { m->albedo[0], m->albedo[1], m->albedo[2] },
         .alpha = m->alpha,
-        .emission = scaled(m->emission, scene->emission_unit > 0 ? 1 / scene->emission_unit : 0),
+        .emission = scaled(m->emission, 1 / scene->emission_unit),
         .alpha_cutoff = m->alpha_cutoff,
         .flags = (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
                  (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |

@@ -19,7 +19,7 @@ struct sdfgi_inspect_cascade {
     double origin_m[3];      /* the same corner in world space */
     double cell_m[3];
     uint32_t resolution; /* cells along a side, a power of two */
-    float emission_unit; /* radiance that stored emission is a share of, W/(m^2 sr) */
+    float emission_unit; /* of stored emission, W/(m^2 sr): for sdfgi_inspect_decode_block */
 };
 
 /* Where a cascade is since the last sdfgi_update. */
