@@ -43,15 +43,16 @@ static void span_position(const struct walk_path *walk, uint32_t span, double u,
 {
     double p[4][3], t[4] = { 0 }, a[3][3], b[2][3];
     const double *origin = walk->points[span].position;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4; i++)
         control_point(walk, (int64_t)span - 1 + i, p[i]);
-        base_vec3d_sub(p[i], origin, p[i]);
-    }
+    /* Before the shift, which may round neighbours far from the origin to one point. */
     for (int i = 1; i < 4; i++) {
         double chord[3];
         base_vec3d_sub(p[i], p[i - 1], chord);
         t[i] = t[i - 1] + sqrt(base_vec3d_length(chord));
     }
+    for (int i = 0; i < 4; i++)
+        base_vec3d_sub(p[i], origin, p[i]);
     const double at = t[1] + u * (t[2] - t[1]);
     for (int i = 0; i < 3; i++)
         mix(p[i], p[i + 1], t[i], t[i + 1], at, a[i]);

@@ -5,6 +5,7 @@
 #include "file/json_read.h"
 
 #include <base/text.h>
+#include <base/vec.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +13,8 @@
 
 /* As far as a VIEW.json reaches: doubles still resolve 0.03 mm there. */
 static const double position_max_m = 1.5e11;
+/* The roots of smaller distances are lost beside those of a long way. */
+static const double distance_min_m = 1e-6;
 
 /* ---- Points ----------------------------------------------------------------------------------------- */
 
@@ -39,16 +42,25 @@ static bool read_point(const struct json_place *place, const cJSON *json, const 
     return json_read_object(place, json, name, JSON_FIELDS(fields));
 }
 
+static bool are_apart(const double a[3], const double b[3])
+{
+    double chord[3];
+    base_vec3d_sub(a, b, chord);
+    return base_vec3d_length(chord) >= distance_min_m;
+}
+
 /* What no curve or view can be made of. */
 static bool check_point(const struct json_place *place, const struct walk_path *walk, uint32_t index)
 {
     const struct walk_point *point = &walk->points[index];
     char name[32];
     snprintf(name, sizeof name, "points[%u]", index);
-    if (index > 0 && memcmp(point->position, point[-1].position, sizeof point->position) == 0)
-        return json_fail(place, name, "equals the point before it");
-    if (point->looks && memcmp(point->position, point->look_at, sizeof point->position) == 0)
-        return json_fail(place, name, "look_at equals position");
+    if (index > 0 && !are_apart(point->position, point[-1].position))
+        return json_fail(place, name, "equals the point before it, or is less than %g m away from it",
+                         distance_min_m);
+    if (point->looks && !are_apart(point->position, point->look_at))
+        return json_fail(place, name, "look_at equals position, or is less than %g m away from it",
+                         distance_min_m);
     return !point->looks || !walk->looks ||
            json_fail(place, name, "look_at is given for the whole path as well");
 }

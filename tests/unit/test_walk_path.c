@@ -217,7 +217,12 @@ static void what_is_wrong_is_named(void **state)
         { "{\"points\":[[0,0,0],{\"look_at\":[0,0,0]}]}", "points[1].position: is missing" },
         { "{\"points\":[[0,0,0],{\"position\":[1,0,0],\"up\":1}]}", "points[1].up: unknown key" },
         { "{\"points\":[[0,0,0],[1,0,0],[1,0,0]]}", "points[2]: equals" },
+        { "{\"points\":[[0,0,0],[-0.0,0,0]]}", "points[1]: equals" },
+        { "{\"points\":[[0,0,0],[1e-200,0,0]]}", "points[1]: equals" },
+        { "{\"points\":[[1,0,0],[1.0000001,0,0]]}", "points[1]: equals" },
         { "{\"points\":[[0,0,0],{\"position\":[1,0,0],\"look_at\":[1,0,0]}]}", "points[1]: look_at equals" },
+        { "{\"points\":[[1,0,0],{\"position\":[0,0,0],\"look_at\":[0,-0.0,1e-300]}]}",
+          "points[1]: look_at equals" },
         { "{\"points\":[[0,0,0],{\"position\":[1,0,0],\"look_at\":[2,0,0]}],\"look_at\":[0,0,9]}",
           "points[1]: look_at is given" },
         { "{\"points\":[[0,0,0],[1,0,0]],\"speed_m_s\":0}", "speed_m_s: is 0" },
@@ -236,6 +241,17 @@ static void what_is_wrong_is_named(void **state)
             fail_msg("%s: \"%s\"", cases[i][0], error);
         assert_null(walk.points);
     }
+}
+
+/* The nearest points that are taken, beyond the longest of chords. */
+static void points_that_nearly_coincide_are_walked(void **state)
+{
+    (void)state;
+    require_load("{\"points\":[[-1.5e11,0,0],[0,0,0],[1.1e-6,0,0],[1.1e-6,1.1e-6,0]]}");
+    for (uint32_t i = 0; i < walk.station_count; i++)
+        assert_true(isfinite(walk.stations[i].distance_m) && isfinite(walk.stations[i].yaw));
+    assert_true(walk.length_m >= 1.5e11 && walk.length_m < 1.6e11);
+    walk_path_finish(&walk);
 }
 
 static void too_many_points_are_refused(void **state)
@@ -266,6 +282,7 @@ int main(void)
         cmocka_unit_test(every_key_reaches_its_field),
         cmocka_unit_test(a_view_is_found_beside_its_path),
         cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(points_that_nearly_coincide_are_walked),
         cmocka_unit_test(too_many_points_are_refused),
     };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
