@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "json_read.h"
 
+#include "input_file.h"
+
 #include <base/text.h>
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -28,22 +29,17 @@ bool json_fail(const struct json_place *place, const char *name, const char *for
 
 static char *read_text(const struct json_place *place, size_t *size)
 {
-    FILE *file = fopen(place->path, "rb");
-    if (!file) {
-        json_fail(place, "", "%s", strerror(errno));
-        return NULL;
-    }
-    char *text = malloc(FILE_BYTES_MAX + 1);
-    *size = text ? fread(text, 1, FILE_BYTES_MAX + 1, file) : 0;
-    const bool failed = ferror(file) != 0;
-    fclose(file);
-    if (text && !failed && *size <= FILE_BYTES_MAX) {
-        text[*size] = '\0';
-        return text;
-    }
-    json_fail(place, "", !text ? "out of memory" : failed ? "cannot be read" : "larger than 16 MiB");
-    free(text);
-    return NULL;
+    char reason[128] = "larger than 16 MiB";
+    uint64_t bytes;
+    FILE *file = input_file_open(place->path, &bytes, reason, sizeof reason);
+    char *text = file && bytes <= FILE_BYTES_MAX ? input_file_read(file, bytes, reason, sizeof reason) : NULL;
+    if (file)
+        fclose(file);
+    if (text)
+        *size = (size_t)bytes;
+    else
+        json_fail(place, "", "%s", reason);
+    return text;
 }
 
 static uint32_t line_of(const char *text, const char *at)

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 static const char *program;
@@ -46,7 +47,8 @@ static int make_files(void **state)
     files_write_text("one.pfm", "Pf\n1 1\n-1\nabcd");
     files_write_text("two.pfm", "Pf\n2 1\n-1\nabcdabcd");
     files_write_text("cut.pfm", "Pf\n2 2\n-1\nabcd");
-    return 0;
+    files_write_text("same.json", "{\"points\":[[0,0,0],[-0.0,0,0]]}");
+    return mkfifo(files_path("pipe"), 0600);
 }
 
 static void bad_input_gives_one_line_and_no_file(void **state)
@@ -69,6 +71,9 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "render none.glb --out a.png --view broken.json", "broken.json: broken JSON in line 2" },
         { "render none.glb --out a.png --view unknown.json", "unknown.json: skies: unknown key" },
         { "render none.glb --out a.png --view range.json", "range.json: camera.yfov_deg" },
+        { "render none.glb --out a.png --view pipe", "pipe: not a plain file" },
+        { "render none.glb --out a.png --view .", ".: not a plain file" },
+        { "render none.glb --out a.png --view /dev/zero", "/dev/zero: not a plain file" },
         { "render none.glb --out a.png --set sdfgi_energy=1000", "sdfgi_energy" },
         { "render none.glb --out a.png --set sdfgi_none=1", "sdfgi_none" },
         { "render none.glb --out a.png --set energy", "key=value" },
@@ -79,6 +84,8 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "walk none.glb --out w", "views/walk.json" },
         { "walk none.glb --path none.json --out w", "none.json" },
         { "walk none.glb --path broken.json --out w", "broken.json: broken JSON in line 2" },
+        { "walk none.glb --path pipe --out w", "pipe: not a plain file" },
+        { "walk none.glb --path same.json --out w --frames 3", "same.json: points[1]" },
         { "walk none.glb --path short.json --out w", "short.json: points" },
         { "walk none.glb --path path.json", "--out" },
         { "walk none.glb --path path.json --out none/w", "none/w" },
