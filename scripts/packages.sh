@@ -3,9 +3,9 @@
 # Shared by run.sh and test.sh: the Debian packages, the build, the device, and messages of what went wrong.
 
 packages=(meson ninja-build python3 pkg-config gcc g++ libvulkan-dev glslang-tools spirv-tools
-    mesa-vulkan-drivers vulkan-validationlayers libglfw3-dev libtinygltf-dev libstb-dev libcglm-dev
-    libopenexr-dev libembree-dev libcmocka-dev libspirv-cross-c-shared-dev libcjson-dev libimgui-dev
-    gnuplot-nox xvfb xauth)
+    mesa-vulkan-drivers vulkan-validationlayers libglfw3-dev libtinygltf-dev libstb-dev libpng-dev
+    libcglm-dev libopenexr-dev libembree-dev libcmocka-dev libspirv-cross-c-shared-dev libcjson-dev
+    libimgui-dev gnuplot-nox xvfb xauth)
 
 say() {
     printf '%s\n' "== $*" >&2

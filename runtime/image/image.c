@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #include "image.h"
 #include "image_codec.h"
+#include "file/input_file.h"
 #include "file/output_file.h"
 
 #include <base/text.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 struct codec {
     const char *ending;
-    bool (*read)(struct image *image, const char *path, char *error, size_t error_size);
+    bool (*read)(struct image *image, const struct image_input *input, char *error, size_t error_size);
     bool (*write)(const struct image_source *source, FILE *stream, char *error, size_t error_size);
 };
 
@@ -39,17 +39,35 @@ const char *image_format_list(void)
     return ".exr, .hdr, .pfm or .png";
 }
 
+bool image_check_size(uint32_t width, uint32_t height, char *error, size_t error_size)
+{
+    if (width > 0 && height > 0 && width <= IMAGE_SIDE_MAX && height <= IMAGE_SIDE_MAX)
+        return true;
+    return base_text_error(error, error_size, "a picture of %u x %u, expected sides from 1 to %d", width,
+                           height, IMAGE_SIDE_MAX);
+}
+
 bool image_init(struct image *image, uint32_t width, uint32_t height, char *error, size_t error_size)
 {
     *image = (struct image){ 0 };
-    if (width == 0 || height == 0 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
-        return base_text_error(error, error_size, "a picture of %u x %u, expected sides from 1 to %d", width,
-                               height, IMAGE_SIDE_MAX);
+    if (!image_check_size(width, height, error, error_size))
+        return false;
     float *rgba = calloc((size_t)width * height, 4 * sizeof(float));
     if (!rgba)
         return base_text_error(error, error_size, "out of memory for a picture of %u x %u", width, height);
     *image = (struct image){ .width = width, .height = height, .channels = 4, .rgba = rgba };
     return true;
+}
+
+bool image_init_backed(struct image *image, uint32_t width, uint32_t height, uint64_t need, uint64_t have,
+                       char *error, size_t error_size)
+{
+    if (!image_check_size(width, height, error, error_size))
+        return false;
+    if (need > have)
+        return base_text_error(error, error_size, "broken picture: the file is too short for %u x %u pixels",
+                               width, height);
+    return image_init(image, width, height, error, error_size);
 }
 
 void image_finish(struct image *image)
@@ -65,12 +83,13 @@ bool image_read(struct image *image, const char *path, char *error, size_t error
     if (format == IMAGE_FORMAT_COUNT)
         return base_text_error(error, error_size, "%s: unknown picture format, expected %s", path,
                                image_format_list());
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return base_text_error(error, error_size, "%s: %s", path, strerror(errno));
-    fclose(file);
     char reason[256] = "";
-    if (codecs[format].read(image, path, reason, sizeof reason))
+    struct image_input input = { .path = path };
+    input.stream = input_file_open(path, &input.size, reason, sizeof reason);
+    const bool complete = input.stream && codecs[format].read(image, &input, reason, sizeof reason);
+    if (input.stream)
+        fclose(input.stream);
+    if (complete)
         return true;
     image_finish(image);
     return base_text_error(error, error_size, "%s: %s", path, reason);

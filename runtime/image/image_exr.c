@@ -8,6 +8,9 @@
 
 enum { PIXEL_BYTES = 4 * sizeof(float), CHANNEL_COUNT = 4, MESSAGE_BYTES = 160 };
 
+/* The densest of the compressions keeps 8 x 8 pixels as one number, and deflates a thousand to a byte. */
+enum { PIXELS_PER_BYTE_MAX = 64 * 1032 };
+
 static const char channel_names[CHANNEL_COUNT][2] = { "R", "G", "B", "A" };
 
 struct stream {
@@ -130,8 +133,8 @@ static void complete_pixels(struct image *image)
     }
 }
 
-static bool read_context(exr_context_t context, struct stream *stream, struct image *image, char *error,
-                         size_t error_size)
+static bool read_context(exr_context_t context, struct stream *stream, struct image *image,
+                         uint64_t file_size, char *error, size_t error_size)
 {
     exr_storage_t storage;
     exr_attr_box2i_t window;
@@ -151,23 +154,26 @@ static bool read_context(exr_context_t context, struct stream *stream, struct im
     if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
         return base_text_error(error, error_size, "broken picture: absurd data window");
     if (!check_channels(list, &channels, error, error_size) ||
-        !image_init(image, (uint32_t)width, (uint32_t)height, error, error_size))
+        !image_init_backed(image, (uint32_t)width, (uint32_t)height,
+                           (uint64_t)(width * height) / PIXELS_PER_BYTE_MAX, file_size, error, error_size))
         return false;
     image->channels = channels;
     code = decode_lines(context, image, window.min.y);
+    if (code != EXR_ERR_SUCCESS)
+        return fail(stream, code, error, error_size);
     complete_pixels(image);
-    return code == EXR_ERR_SUCCESS || fail(stream, code, error, error_size);
+    return true;
 }
 
-bool image_exr_read(struct image *image, const char *path, char *error, size_t error_size)
+bool image_exr_read(struct image *image, const struct image_input *input, char *error, size_t error_size)
 {
     struct stream stream = { 0 };
     const exr_context_initializer_t init = initializer(&stream);
     exr_context_t context;
-    const exr_result_t code = exr_start_read(&context, path, &init);
+    const exr_result_t code = exr_start_read(&context, input->path, &init);
     if (code != EXR_ERR_SUCCESS)
         return fail(&stream, code, error, error_size);
-    const bool complete = read_context(context, &stream, image, error, error_size);
+    const bool complete = read_context(context, &stream, image, input->size, error, error_size);
     exr_finish(&context);
     return complete;
 }

@@ -44,30 +44,22 @@ static bool read_rows(struct image *image, FILE *file, bool swap)
     return complete;
 }
 
-static bool read_open_file(struct image *image, FILE *file, char *error, size_t error_size)
+bool image_pfm_read(struct image *image, const struct image_input *input, char *error, size_t error_size)
 {
     char kind[3] = "";
     unsigned width, height;
     float scale;
-    if (fscanf(file, "%2s %9u %9u %f", kind, &width, &height, &scale) != 4 || kind[0] != 'P' ||
+    if (fscanf(input->stream, "%2s %9u %9u %f", kind, &width, &height, &scale) != 4 || kind[0] != 'P' ||
         (kind[1] != 'F' && kind[1] != 'f') || !isfinite(scale) || scale == 0)
         return base_text_error(error, error_size, "broken picture: not a PFM header");
-    fgetc(file);
-    if (!image_init(image, width, height, error, error_size))
+    fgetc(input->stream);
+    const uint32_t channels = kind[1] == 'F' ? 3 : 1;
+    const uint64_t need = (uint64_t)width * height * channels * sizeof(float);
+    if (!image_init_backed(image, width, height, need, input->size, error, error_size))
         return false;
-    image->channels = kind[1] == 'F' ? 3 : 1;
-    return read_rows(image, file, (scale < 0) != machine_is_little_endian()) ||
+    image->channels = channels;
+    return read_rows(image, input->stream, (scale < 0) != machine_is_little_endian()) ||
            base_text_error(error, error_size, "broken picture: the file ends before its last row");
-}
-
-bool image_pfm_read(struct image *image, const char *path, char *error, size_t error_size)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return base_text_error(error, error_size, "cannot be read");
-    const bool complete = read_open_file(image, file, error, error_size);
-    fclose(file);
-    return complete;
 }
 
 bool image_pfm_write(const struct image_source *source, FILE *stream, char *error, size_t error_size)

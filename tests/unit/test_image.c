@@ -141,10 +141,14 @@ static void broken_files_give_one_line_that_names_them(void **state)
 static void truncated_files_are_refused(void **state)
 {
     (void)state;
-    static const char *const names[] = { "t.exr", "t.pfm" };
-    for (int k = 0; k < 2; k++) {
-        struct image image = write_and_read(names[k], 3);
-        image_finish(&image);
+    static const char *const names[] = { "t.exr", "t.pfm", "t.hdr", "t.png" };
+    static const uint8_t bytes[4 * COUNT];
+    for (int k = 0; k < 4; k++) {
+        struct image image;
+        const char *path = files_path(names[k]);
+        assert_true(strcmp(names[k], "t.png") == 0
+                        ? image_write_png(path, bytes, WIDTH, HEIGHT, 3, error, sizeof error)
+                        : image_write_float(path, pixels, WIDTH, HEIGHT, 3, error, sizeof error));
         struct stat status;
         assert_int_equal(stat(files_path(names[k]), &status), 0);
         for (off_t size = status.st_size - 1; size >= 0; size -= 1 + size / 40) {
@@ -152,6 +156,103 @@ static void truncated_files_are_refused(void **state)
             assert_false(image_read(&image, files_path(names[k]), error, sizeof error));
             assert_null(image.rgba);
         }
+    }
+}
+
+static void write_and_rename(const char *name, const char *other)
+{
+    char from[256];
+    struct image image = write_and_read(name, 3);
+    image_finish(&image);
+    snprintf(from, sizeof from, "%s", files_path(name));
+    assert_int_equal(rename(from, files_path(other)), 0);
+    assert_false(image_read(&image, files_path(other), error, sizeof error));
+}
+
+/* Bytes that a decoder for any format takes for one: 32 x 2 pixels of TGA, whose rows may be missing. */
+static void pictures_are_what_their_names_say(void **state)
+{
+    (void)state;
+    static const uint8_t tga[18 + 3 * 64] = { 0, 0, 2, [12] = 32, [14] = 2, [16] = 24 };
+    static const char *const names[] = { "a.png", "a.hdr", "a.pfm", "a.exr" };
+    for (int i = 0; i < 4; i++) {
+        struct image image;
+        files_write(names[i], tga, sizeof tga);
+        assert_false(image_read(&image, files_path(names[i]), error, sizeof error));
+    }
+    write_and_rename("b.pfm", "b.png");
+    write_and_rename("b.hdr", "b.png");
+    write_and_rename("b.exr", "b.hdr");
+}
+
+/* The last number of the data window, which EXR keeps low byte first. */
+static void enlarge_exr(const char *name)
+{
+    char bytes[4096];
+    FILE *file = fopen(files_path(name), "rb");
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    for (size_t i = 0; i + 40 < size; i++)
+        if (memcmp(bytes + i, "dataWindow", 11) == 0) {
+            memcpy(bytes + i + 11 + 6 + 4 + 8, "\xff\x7f\0\0\xff\x7f\0\0", 8);
+            files_write(name, bytes, size);
+            return;
+        }
+    fail();
+}
+
+/* What the header says is held against the bytes that follow before room is made for it. */
+static void small_files_cannot_claim_large_pictures(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "s.pfm", "s.hdr", "s.hdr", "s.exr" };
+    static const char *const headers[] = { "PF\n30000 30000\n-1\n",
+                                           "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32768 +X 32767\n",
+                                           "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32768 +X 32768\n", NULL };
+    for (int i = 0; i < 4; i++) {
+        struct image image;
+        if (headers[i])
+            files_write_text(names[i], headers[i]);
+        else if (image_write_float(files_path(names[i]), pixels, 2, 2, 3, error, sizeof error))
+            enlarge_exr(names[i]);
+        assert_false(image_read(&image, files_path(names[i]), error, sizeof error));
+        if (!strstr(error, "too short"))
+            fail_msg("%s", error);
+    }
+}
+
+/* Runs of a row: none of no length, none past the row's end. A row may also lie there as it is. */
+static void hdr_rows_are_read_as_encoded(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *rows;
+        size_t size;
+        bool good;
+    } cases[] = {
+        { "\2\2\0\x8\x88\x80\x88\x40\x88\x20\x88\x81", 12, true },
+        { "\2\2\0\x8\x84\x80\4\x80\x80\x80\x80\x88\x40\x88\x20\x88\x81", 17, true },
+        { "\2\2\0\x9\x88\x80\x88\x40\x88\x20\x88\x81", 12, false },
+        { "\2\2\0\x8\x89\x80\x88\x40\x88\x20\x88\x81", 12, false },
+        { "\2\2\0\x8\0\0\0\0\0\0\0\0", 12, false },
+        { "\2\2\0\x8\x80\x80\x88\x40\x88\x20\x88\x81", 12, false },
+        { "\2\2\0\x8\x88\x80\x88\x40\x88\x20\7\x81", 12, false },
+        { "\x80\x40\x20\x81\x80\x40\x20\x81\x80\x40\x20\x81\x80\x40\x20\x81"
+          "\x80\x40\x20\x81\x80\x40\x20\x81\x80\x40\x20\x81\x80\x40\x20\x81",
+          32, true },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static const char header[] = "#?RGBE\nGAMMA=1\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
+        char bytes[128];
+        struct image image;
+        memcpy(bytes, header, sizeof header - 1);
+        memcpy(bytes + sizeof header - 1, cases[i].rows, cases[i].size);
+        files_write("rows.hdr", bytes, sizeof header - 1 + cases[i].size);
+        assert_int_equal(image_read(&image, files_path("rows.hdr"), error, sizeof error), cases[i].good);
+        for (int k = 0; cases[i].good && k < 8; k++)
+            assert_true(image.rgba[4 * k] == 1 && image.rgba[4 * k + 1] == 0.5f &&
+                        image.rgba[4 * k + 2] == 0.25f && image.rgba[4 * k + 3] == 1);
+        image_finish(&image);
     }
 }
 
@@ -195,6 +296,9 @@ int main(void)
         cmocka_unit_test(a_big_endian_pfm_is_swapped),
         cmocka_unit_test(broken_files_give_one_line_that_names_them),
         cmocka_unit_test(truncated_files_are_refused),
+        cmocka_unit_test(pictures_are_what_their_names_say),
+        cmocka_unit_test(small_files_cannot_claim_large_pictures),
+        cmocka_unit_test(hdr_rows_are_read_as_encoded),
         cmocka_unit_test(an_unwritable_place_gives_one_line_and_no_file),
         cmocka_unit_test(a_cancelled_file_leaves_the_old_one),
     };
