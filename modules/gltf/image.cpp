@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Images: PNG and JPEG through stb_image, to 8-bit RGBA (16-bit files keep their upper byte). stb_image's
-// other formats are not compiled in: glTF does not have them, and they are where its known defects are.
+// Images: PNG through libpng and JPEG through stb_image, to 8-bit RGBA (16-bit files keep their upper byte).
+// stb_image's other formats are not compiled in: glTF does not have them, and they are where its known
+// defects are.
 #include "import.h"
 
-#include <algorithm>
 #include <cstring>
 #include <memory>
+#include <picture/picture_png.h>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
@@ -27,6 +27,9 @@ static_assert(max_image_size == STBI_MAX_DIMENSIONS, "the decoder's limit is our
 namespace
 {
 
+// The shortest code of a JPEG is one bit, and stands for a block of 8 x 8 texels.
+constexpr uint64_t max_jpeg_texels_per_byte = 8 * 64;
+
 struct stb_deleter {
     void operator()(stbi_uc *texels) const
     {
@@ -34,75 +37,53 @@ struct stb_deleter {
     }
 };
 
-void dimensions_check(const byte_range &file, uint64_t &texels, const std::string &what)
+struct dimensions {
+    bool is_png = false;
+    uint32_t width = 0, height = 0;
+};
+
+dimensions dimensions_read(const byte_range &file, const std::string &what)
 {
+    dimensions size;
+    size.is_png = picture_png_size(file.data, file.size, &size.width, &size.height);
+    if (size.is_png)
+        return size;
     int width = 0, height = 0, channels = 0;
     if (file.size > INT32_MAX)
         fail("%s is larger than 2 GiB", what.c_str());
+    jpeg_check(file, what);
     if (stbi_info_from_memory(file.data, static_cast<int>(file.size), &width, &height, &channels) == 0)
         fail("%s is not a PNG or JPEG image: %s", what.c_str(), stbi_failure_reason());
-    if (width < 1 || height < 1 || width > max_image_size || height > max_image_size)
-        fail("%s: %d x %d texels, the limits are 1 and %d", what.c_str(), width, height, max_image_size);
-    texels += static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+    size.width = static_cast<uint32_t>(width);
+    size.height = static_cast<uint32_t>(height);
+    return size;
+}
+
+void dimensions_check(const dimensions &size, const byte_range &file, uint64_t &texels,
+                      const std::string &what)
+{
+    if (size.width < 1 || size.height < 1 || size.width > max_image_size || size.height > max_image_size)
+        fail("%s: %u x %u texels, the limits are 1 and %u", what.c_str(), size.width, size.height,
+             max_image_size);
+    const uint64_t count = static_cast<uint64_t>(size.width) * size.height;
+    if (!size.is_png && count > max_jpeg_texels_per_byte * file.size)
+        fail("%s: the JPEG is too short for %u x %u texels", what.c_str(), size.width, size.height);
+    texels += count;
     if (texels > max_texels)
         fail("%s: more than %llu texels in all images", what.c_str(),
              static_cast<unsigned long long>(max_texels));
 }
 
-// Where a JPEG's first segment is that is neither an application's nor a comment: those hold other data,
-// often a whole small JPEG, and the decoder skips them by their length as is done here.
-size_t jpeg_tables_start(const byte_range &file)
+void png_decode(gltf_image &image, const byte_range &file, const std::string &what)
 {
-    size_t at = 0;
-    while (at < file.size && file.data[at] == 0xff)
-        at++;
-    at = std::min(at + 1, file.size); // past the marker that starts the image, which fill bytes may precede
-    while (file.size - at >= 4 && file.data[at] == 0xff) {
-        const unsigned char marker = file.data[at + 1];
-        const size_t length = static_cast<size_t>(file.data[at + 2]) << 8 | file.data[at + 3];
-        const bool is_skipped = (marker >= 0xe0 && marker <= 0xef) || marker == 0xfe;
-        if (!is_skipped || length < 2 || length > file.size - at - 2)
-            break;
-        at += 2 + length;
-    }
-    return at;
+    char error[128];
+    picture_png png;
+    if (!picture_png_read(&png, file.data, file.size, false, error, sizeof error))
+        fail("%s cannot be decoded: %s", what.c_str(), error);
+    image.texels = static_cast<uint8_t *>(png.texels);
 }
 
-// Bytes past the end of the file count as zero, as they do in the decoder.
-size_t byte_at(const byte_range &file, size_t index)
-{
-    return index < file.size ? file.data[index] : 0;
-}
-
-// Each table: an id, 16 numbers of codes, one byte per code. The decoder starts on a table while any of the
-// segment's length is left, and then reads it whole.
-void huffman_tables_check(const byte_range &file, size_t segment, const std::string &what)
-{
-    const size_t length = byte_at(file, segment) << 8 | byte_at(file, segment + 1);
-    for (size_t used = 2; used < length;) {
-        size_t codes = 0;
-        for (size_t i = 1; i <= 16; i++)
-            codes += byte_at(file, segment + used + i);
-        if (codes > 256)
-            fail("%s: a Huffman table of the JPEG has %zu codes", what.c_str(), codes);
-        used += 17 + codes;
-    }
-}
-
-// stb_image 2.27, which Debian 12 has, writes past its arrays where a Huffman table declares more than 256
-// codes (2.28 checks). In image data a 0xff byte is never followed by 0xc4, so every such pair is a marker.
-void jpeg_tables_check(const byte_range &file, const std::string &what)
-{
-    if (byte_at(file, 0) != 0xff)
-        return; // not a JPEG
-    for (size_t i = jpeg_tables_start(file); i + 1 < file.size; i++) {
-        if (file.data[i] != 0xff || file.data[i + 1] != 0xc4)
-            continue;
-        huffman_tables_check(file, i + 2, what);
-    }
-}
-
-void image_decode(gltf_image &image, const byte_range &file, const std::string &what)
+void jpeg_decode(gltf_image &image, const byte_range &file, const std::string &what)
 {
     int width = 0, height = 0, channels = 0;
     const std::unique_ptr<stbi_uc, stb_deleter> texels(
@@ -112,8 +93,18 @@ void image_decode(gltf_image &image, const byte_range &file, const std::string &
     const size_t size = 4 * static_cast<size_t>(width) * static_cast<size_t>(height);
     image.texels = array_allocate<uint8_t>(size);
     memcpy(image.texels, texels.get(), size);
-    image.width = static_cast<uint32_t>(width);
-    image.height = static_cast<uint32_t>(height);
+}
+
+void image_decode(gltf_image &image, const byte_range &file, uint64_t &texels, const std::string &what)
+{
+    const dimensions size = dimensions_read(file, what);
+    dimensions_check(size, file, texels, what);
+    if (size.is_png)
+        png_decode(image, file, what);
+    else
+        jpeg_decode(image, file, what);
+    image.width = size.width;
+    image.height = size.height;
 }
 
 void image_import(const importer &in, size_t index, gltf_image &image, uint64_t &texels)
@@ -128,9 +119,7 @@ void image_import(const importer &in, size_t index, gltf_image &image, uint64_t 
         file = resource_read(in, source.uri, what, max_file_size);
         range = { file.data(), file.size() };
     }
-    jpeg_tables_check(range, what);
-    dimensions_check(range, texels, what);
-    image_decode(image, range, what);
+    image_decode(image, range, texels, what);
 }
 
 } // namespace

@@ -33,7 +33,7 @@ constexpr uint64_t max_vertices = UINT64_C(1) << 26;
 constexpr uint64_t max_indices = UINT64_C(1) << 28;
 constexpr uint64_t max_instances = UINT64_C(1) << 22;
 constexpr uint64_t max_texels = UINT64_C(1) << 31;
-constexpr int max_image_size = 16384;
+constexpr uint32_t max_image_size = 16384;
 // Of one file, since tinygltf measures in 32 bits, and of all buffers: naming one file many times costs
 // nothing.
 constexpr uint64_t max_file_size = UINT32_MAX;
@@ -100,6 +100,9 @@ int accessor_components(const tinygltf::Accessor &accessor);
 std::vector<float> accessor_read_floats(const tinygltf::Model &model, int index, const std::string &user,
                                         bool integers_are_normalized);
 std::vector<uint32_t> accessor_read_indices(const tinygltf::Model &model, int index, const std::string &user);
+
+// jpeg.cpp
+void jpeg_check(const byte_range &file, const std::string &what);
 
 // image.cpp
 std::vector<int32_t> images_import(importer &in);

@@ -2,14 +2,20 @@
 #include "scene_files.h"
 
 #include <string.h>
+#include <zlib.h>
+
+static void big_endian_put(uint8_t *out, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        out[i] = (uint8_t)(value >> (24 - 8 * i));
+}
 
 static size_t chunk_put(uint8_t *out, const char *type, const uint8_t *data, uint32_t size)
 {
-    for (int i = 0; i < 4; i++)
-        out[i] = (uint8_t)(size >> (24 - 8 * i));
+    big_endian_put(out, size);
     memcpy(out + 4, type, 4);
     memcpy(out + 8, data, size);
-    memset(out + 8 + size, 0, 4); /* the checksum, which the decoder leaves unread */
+    big_endian_put(out + 8 + size, (uint32_t)crc32(0, out + 4, size + 4));
     return size + 12;
 }
 
@@ -28,7 +34,7 @@ static size_t rows_deflate(const struct png *image, uint8_t *out)
         memcpy(out + at, image->samples + y * row, row);
         at += row;
     }
-    memset(out + at, 0, 4);
+    big_endian_put(out + at, (uint32_t)adler32(1, out + sizeof head, (uInt)size));
     return at + 4;
 }
 
@@ -37,10 +43,8 @@ size_t png_encode(const struct png *image, uint8_t *out, size_t capacity)
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
     uint8_t header[13] = { 0 }, rows[4096];
     assert_true((size_t)image->width * image->height * 8 + image->height < sizeof rows - 16);
-    for (int i = 0; i < 4; i++) {
-        header[i] = (uint8_t)(image->width >> (24 - 8 * i));
-        header[4 + i] = (uint8_t)(image->height >> (24 - 8 * i));
-    }
+    big_endian_put(header, image->width);
+    big_endian_put(header + 4, image->height);
     header[8] = image->depth;
     header[9] = 6; /* RGBA */
     const size_t rows_size = rows_deflate(image, rows);
@@ -50,6 +54,35 @@ size_t png_encode(const struct png *image, uint8_t *out, size_t capacity)
     at += chunk_put(out + at, "IHDR", header, sizeof header);
     at += chunk_put(out + at, "IDAT", rows, (uint32_t)rows_size);
     return at + chunk_put(out + at, "IEND", rows, 0);
+}
+
+void png_resize(uint8_t *png, uint32_t width, uint32_t height)
+{
+    big_endian_put(png + 16, width);
+    big_endian_put(png + 20, height);
+    big_endian_put(png + 29, (uint32_t)crc32(0, png + 12, 17));
+}
+
+/* Deflate with fixed codes: a zero byte, then eight times 258 of them per period of 13 bytes. */
+static void zeros_deflate(uint8_t *out, size_t periods)
+{
+    static const uint8_t period[13] = { 0x18, 0x05, 0xa3, 0x60, 0x14, 0x8c, 0x82,
+                                        0x51, 0x30, 0x0a, 0x46, 0xc1, 0x28 };
+    memcpy(out, (const uint8_t[3]){ 0x78, 0x01, 0x62 }, 3);
+    for (size_t i = 0; i < periods; i++)
+        memcpy(out + 3 + i * sizeof period, period, sizeof period);
+}
+
+size_t png_bomb_encode(uint8_t *out, size_t capacity)
+{
+    static const uint8_t texel[4];
+    const size_t head = 8 + 25, ends = head + 8 + 3 + 4 + 12;
+    png_encode(&(struct png){ 1, 1, 8, texel }, out, capacity);
+    const size_t periods = (capacity - ends) / 13, size = 3 + 13 * periods;
+    big_endian_put(out + head, (uint32_t)size);
+    zeros_deflate(out + head + 8, periods);
+    big_endian_put(out + head + 8 + size, (uint32_t)crc32(0, out + head + 4, (uInt)size + 4));
+    return head + 12 + size + chunk_put(out + head + 12 + size, "IEND", texel, 0);
 }
 
 void base64_encode(const uint8_t *data, size_t size, char *out, size_t capacity)

@@ -71,6 +71,11 @@ struct png {
     const uint8_t *samples;
 };
 size_t png_encode(const struct png *image, uint8_t *out, size_t capacity);
+/* Changes what the header says, and nothing else. */
+void png_resize(uint8_t *png, uint32_t width, uint32_t height);
+/* A PNG of one black and clear texel whose image data, as many as fit `capacity`, go on for 158 times that.
+ */
+size_t png_bomb_encode(uint8_t *out, size_t capacity);
 void base64_encode(const uint8_t *data, size_t size, char *out, size_t capacity);
 
 #endif

@@ -301,6 +301,49 @@ static void a_jpeg_with_too_many_huffman_codes_is_refused(void **state)
     }
 }
 
+/* A frame of 8 x 8, or of as many texels as 16 bits can say, and `scans` scans without data. */
+static size_t empty_jpeg(uint8_t *out, bool large, int scans)
+{
+    static const uint8_t frame[] = { 0xff, 0xd8, 0xff, 0xc2, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0 };
+    static const uint8_t scan[] = { 0xff, 0xda, 0, 8, 1, 1, 0, 1, 1, 0 };
+    memcpy(out, frame, sizeof frame);
+    if (large)
+        memset(out + 7, 0x3f, 4);
+    for (int i = 0; i < scans; i++)
+        memcpy(out + sizeof frame + (size_t)i * sizeof scan, scan, sizeof scan);
+    return sizeof frame + (size_t)scans * sizeof scan;
+}
+
+static void jpegs_that_cost_more_than_their_bytes_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        bool large;
+        int scans;
+        const char *wrong;
+    } cases[] = { { true, 1, "too short" }, { false, 65, "65 scans" }, { false, 64, "cannot be decoded" } };
+    for (int i = 0; i < 3; i++) {
+        struct draft d = { 0 };
+        uint8_t jpeg[1024];
+        draft_view(&d, jpeg, empty_jpeg(jpeg, cases[i].large, cases[i].scans));
+        draft_write(&d, ",\"images\":[{\"bufferView\":0}],\"textures\":[{\"source\":0}]", "image.glb");
+        refused_expect("image.glb", cases[i].wrong);
+    }
+}
+
+static void a_small_png_cannot_claim_a_large_picture(void **state)
+{
+    (void)state;
+    static const uint8_t texel[4];
+    struct draft d = { 0 };
+    uint8_t png[256];
+    const size_t size = png_encode(&(struct png){ 1, 1, 8, texel }, png, sizeof png);
+    png_resize(png, 16384, 16384);
+    draft_view(&d, png, size);
+    draft_write(&d, ",\"images\":[{\"bufferView\":0}],\"textures\":[{\"source\":0}]", "image.glb");
+    refused_expect("image.glb", "too short");
+}
+
 static void missing_files_folders_and_pipes_are_refused(void **state)
 {
     (void)state;
@@ -324,11 +367,11 @@ static void messages_end_where_the_buffer_does(void **state)
     gltf_scene_destroy(NULL);
 }
 
-enum { ROW_COUNT = sizeof rows / sizeof *rows };
+enum { ROW_COUNT = sizeof rows / sizeof *rows, FIXED_COUNT = 12 };
 
 int main(void)
 {
-    struct CMUnitTest tests[ROW_COUNT + 10] = {
+    struct CMUnitTest tests[FIXED_COUNT + ROW_COUNT] = {
         cmocka_unit_test(the_unbroken_file_loads),
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(text_that_is_not_gltf_is_refused),
@@ -337,10 +380,13 @@ int main(void)
         cmocka_unit_test(buffers_of_more_than_4_gib_in_all_are_refused),
         cmocka_unit_test(broken_images_are_refused),
         cmocka_unit_test(a_jpeg_with_too_many_huffman_codes_is_refused),
+        cmocka_unit_test(jpegs_that_cost_more_than_their_bytes_are_refused),
+        cmocka_unit_test(a_small_png_cannot_claim_a_large_picture),
         cmocka_unit_test(missing_files_folders_and_pipes_are_refused),
         cmocka_unit_test(messages_end_where_the_buffer_does),
     };
     for (size_t i = 0; i < ROW_COUNT; i++)
-        tests[10 + i] = (struct CMUnitTest){ rows[i].name, row_is_refused, NULL, NULL, (void *)&rows[i] };
+        tests[FIXED_COUNT + i] =
+            (struct CMUnitTest){ rows[i].name, row_is_refused, NULL, NULL, (void *)&rows[i] };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stb_image_write.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const uint8_t texels[16] = { 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 10, 20, 30, 40 };
@@ -211,6 +212,20 @@ static void growing_append(void *context, void *data, int size)
     g->size += (size_t)size;
 }
 
+/* 2.4 GB of image data for one texel: a decoder that inflates them all takes that much memory, or gives up.
+ */
+static void a_png_is_inflated_no_further_than_its_rows(void **state)
+{
+    (void)state;
+    enum { SIZE = 15600000 };
+    struct draft d = { 0 };
+    uint8_t *file = malloc(SIZE);
+    assert_non_null(file);
+    files_write("bomb.png", file, png_bomb_encode(file, SIZE));
+    free(file);
+    image_expect(image_load(&d, "\"uri\":\"bomb.png\""), (const uint8_t[4]){ 0 }, 4);
+}
+
 static void jpeg_images_are_decoded(void **state)
 {
     (void)state;
@@ -283,6 +298,7 @@ int main(void)
         cmocka_unit_test(png_images_come_from_a_data_uri),
         cmocka_unit_test(png_images_come_from_a_file_with_an_escaped_name),
         cmocka_unit_test(sixteen_bit_png_images_keep_their_upper_byte),
+        cmocka_unit_test(a_png_is_inflated_no_further_than_its_rows),
         cmocka_unit_test(jpeg_images_are_decoded),
         cmocka_unit_test(buffers_come_from_files_and_data_uris),
         cmocka_unit_test(images_that_no_texture_uses_are_not_read),
