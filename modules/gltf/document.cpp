@@ -126,8 +126,7 @@ std::vector<bytes> buffers_take(importer &in, const container &box, cJSON *docum
     cJSON_ArrayForEach(item, member_get(document, "buffers"))
     {
         buffers.push_back(buffer_read(in, box, item, buffers.size()));
-        while (member_get(item, "uri") != nullptr)
-            cJSON_DeleteItemFromObjectCaseSensitive(item, "uri");
+        cJSON_DeleteItemFromObjectCaseSensitive(item, "uri");
         if (cJSON_AddStringToObject(item, "uri", buffer_name(buffers.size() - 1).c_str()) == nullptr)
             throw std::bad_alloc();
     }
@@ -153,9 +152,8 @@ void images_take(importer &in, cJSON *document)
 void unused_remove(importer &in, cJSON *document)
 {
     in.omitted.animations = cJSON_GetArraySize(member_get(document, "animations")) != 0;
-    for (const char *name : { "animations", "skins", "images" })
-        while (member_get(document, name) != nullptr)
-            cJSON_DeleteItemFromObjectCaseSensitive(document, name);
+    for (const char *name : { "animations", "skins" })
+        cJSON_DeleteItemFromObjectCaseSensitive(document, name);
 }
 
 // tinygltf's file callbacks: the only files there are, are the buffers loaded above.

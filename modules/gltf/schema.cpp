@@ -4,6 +4,7 @@
 #include "import.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace gltf
 {
@@ -297,22 +298,32 @@ void inner_check(const cJSON *value, const member &row, const std::string &path)
         members_check(item, row.inner, label(path.c_str(), index++) + ".");
 }
 
-// Every member of that name is checked: a name may be there twice.
+// A name that is there twice would mean one thing here and another to the parser.
+const cJSON *member_find(const cJSON *object, const char *name, const std::string &path)
+{
+    const cJSON *found = nullptr;
+    for (const cJSON *value = object->child; value != nullptr; value = value->next) {
+        if (value->string == nullptr || strcmp(value->string, name) != 0)
+            continue;
+        if (found != nullptr)
+            fail("%s%s is given twice", path.c_str(), name);
+        found = value;
+    }
+    return found;
+}
+
 void members_check(const cJSON *object, const member *rows, const std::string &path)
 {
     for (const member *row = rows; row->name != nullptr; row++) {
-        bool found = false;
-        for (const cJSON *value = object->child; value != nullptr; value = value->next) {
-            if (value->string == nullptr || std::string(value->string) != row->name)
-                continue;
-            found = true;
-            if (!value_fits(value, *row))
-                fail("%s%s is not %s", path.c_str(), row->name, kind_describe(*row).c_str());
-            if (row->inner != nullptr)
-                inner_check(value, *row, path + row->name);
-        }
-        if (row->required && !found)
+        const cJSON *const value = member_find(object, row->name, path);
+        if (value == nullptr && row->required)
             fail("%s%s is missing", path.c_str(), row->name);
+        if (value == nullptr)
+            continue;
+        if (!value_fits(value, *row))
+            fail("%s%s is not %s", path.c_str(), row->name, kind_describe(*row).c_str());
+        if (row->inner != nullptr)
+            inner_check(value, *row, path + row->name);
     }
 }
 

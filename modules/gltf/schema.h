@@ -11,7 +11,7 @@
 namespace gltf
 {
 
-// Throws bad_file that names the first member of the wrong type.
+// Throws bad_file that names the first member of the wrong type, or that is there twice.
 void schema_check(const cJSON *document);
 
 } // namespace gltf
