@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <sys/stat.h>
@@ -108,6 +109,19 @@ bool path_stays_inside(const std::string &path)
     return true;
 }
 
+// Nor may links in its folder lead there. A file that is missing leads nowhere; reading it says so.
+bool links_stay_inside(const std::string &folder, const std::string &path)
+{
+    using text = std::unique_ptr<char, void (*)(void *)>;
+    const text top(realpath(folder.empty() ? "." : folder.c_str(), nullptr), free);
+    const text file(realpath((folder + path).c_str(), nullptr), free);
+    if (!top || !file || strcmp(top.get(), "/") == 0)
+        return true;
+    const size_t length = strlen(top.get());
+    const char next = strncmp(file.get(), top.get(), length) == 0 ? file.get()[length] : 'x';
+    return next == '/' || next == '\0';
+}
+
 } // namespace
 
 bytes file_read(const std::string &path, uint64_t limit)
@@ -162,6 +176,8 @@ bytes resource_read(const importer &in, const std::string &uri, const std::strin
     const std::string name = percent_decode(uri);
     if (!path_stays_inside(name))
         fail("%s: '%.200s' is not a path below the folder of the file", what.c_str(), name.c_str());
+    if (!links_stay_inside(in.folder, name))
+        fail("%s: '%.200s' leads outside of the folder of the file", what.c_str(), name.c_str());
     try {
         return file_read(in.folder + name, limit);
     } catch (const bad_file &error) {

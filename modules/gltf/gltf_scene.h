@@ -117,7 +117,8 @@ struct gltf_scene {
 
 /* Read `path` (.glb or .gltf). Returns NULL on failure, with one line in `error` that names the file and what
  * is wrong with it; `error` holds `error_size` bytes and is always terminated. Never crashes on broken input:
- * every offset, count and index is checked again after the parser. */
+ * every offset, count and index is checked again after the parser. Files that it names must lie below its
+ * folder: neither their names nor links may lead outside. */
 struct gltf_scene *gltf_scene_load(const char *path, char *error, size_t error_size);
 
 /* Frees the scene; NULL is accepted. */

@@ -258,8 +258,22 @@ static void broken_buffers_are_refused(void **state)
     text_is_refused(BUFFER("\"byteLength\":4"), "neither a uri nor");
     text_is_refused(BUFFER("\"byteLength\":4,\"uri\":\"data:text/plain,abcd\""), "not base64");
     text_is_refused(BUFFER("\"byteLength\":4,\"uri\":\"/etc/hostname\""), "not a path below");
-#undef BUFFER
 }
+
+/* The first link points at the file beside it, the other two at what lies elsewhere. */
+static void links_that_lead_outside_of_the_folder_are_refused(void **state)
+{
+    (void)state;
+    files_write_text("near.bin", "abc");
+    assert_int_equal(symlink("near.bin", files_path("inside.bin")), 0);
+    assert_int_equal(symlink("/etc/passwd", files_path("outside.bin")), 0);
+    assert_int_equal(symlink("/etc", files_path("outside")), 0);
+    files_write_text("link.gltf", BUFFER("\"byteLength\":3,\"uri\":\"inside.bin\""));
+    gltf_scene_destroy(file_load("link.gltf"));
+    text_is_refused(BUFFER("\"byteLength\":3,\"uri\":\"outside.bin\""), "'outside.bin' leads outside");
+    text_is_refused(BUFFER("\"byteLength\":3,\"uri\":\"outside/passwd\""), "leads outside");
+}
+#undef BUFFER
 
 /* The second file is a hole that takes no room on the disk; reading it would take 4 GiB of memory. */
 static void buffers_of_more_than_4_gib_in_all_are_refused(void **state)
@@ -374,7 +388,7 @@ static void messages_end_where_the_buffer_does(void **state)
     gltf_scene_destroy(NULL);
 }
 
-enum { ROW_COUNT = sizeof rows / sizeof *rows, FIXED_COUNT = 12 };
+enum { ROW_COUNT = sizeof rows / sizeof *rows, FIXED_COUNT = 13 };
 
 int main(void)
 {
@@ -384,6 +398,7 @@ int main(void)
         cmocka_unit_test(text_that_is_not_gltf_is_refused),
         cmocka_unit_test(deep_nesting_is_refused),
         cmocka_unit_test(broken_buffers_are_refused),
+        cmocka_unit_test(links_that_lead_outside_of_the_folder_are_refused),
         cmocka_unit_test(buffers_of_more_than_4_gib_in_all_are_refused),
         cmocka_unit_test(broken_images_are_refused),
         cmocka_unit_test(a_jpeg_with_too_many_huffman_codes_is_refused),
