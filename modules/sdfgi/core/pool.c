@@ -5,11 +5,13 @@
 
 #include <string.h>
 
-enum { SLOT_BITS = 20, GENERATION_MASK = 0xfff, FIRST_CAPACITY = 64 };
+enum { FIRST_CAPACITY = 64, HANDLE_BITS = 32 };
 
 void sdfgi_pool_init(struct pool *pool, size_t item_size, uint32_t limit)
 {
-    *pool = (struct pool){ .item_size = item_size, .limit = limit };
+    *pool = (struct pool){ .item_size = item_size, .limit = limit, .slot_bits = 1 };
+    while (limit >> pool->slot_bits != 0)
+        pool->slot_bits++;
 }
 
 void sdfgi_pool_finish(struct pool *pool, const struct hooks *hooks)
@@ -47,23 +49,27 @@ static bool grow(struct pool *pool, const struct hooks *hooks)
     return true;
 }
 
+static bool is_used_up(const struct pool *pool, uint32_t slot)
+{
+    return pool->generations[slot] >> (HANDLE_BITS - pool->slot_bits) != 0;
+}
+
 static uint32_t free_slot(const struct pool *pool)
 {
-    if (pool->count < pool->end)
-        for (uint32_t i = 0; i < pool->end; i++)
-            if (!pool->live[i])
-                return i;
-    return pool->end;
+    uint32_t slot = pool->first_free;
+    while (slot < pool->end && (pool->live[slot] || is_used_up(pool, slot)))
+        slot++;
+    return slot;
 }
 
 uint32_t sdfgi_pool_id(const struct pool *pool, uint32_t index)
 {
-    return (index + 1) | (uint32_t)pool->generations[index] << SLOT_BITS;
+    return (index + 1) | pool->generations[index] << pool->slot_bits;
 }
 
-uint32_t sdfgi_pool_index(uint32_t id)
+uint32_t sdfgi_pool_index(const struct pool *pool, uint32_t id)
 {
-    return (id & ((1u << SLOT_BITS) - 1)) - 1;
+    return (id & ((1u << pool->slot_bits) - 1)) - 1;
 }
 
 void *sdfgi_pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id)
@@ -73,6 +79,7 @@ void *sdfgi_pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id)
         return NULL;
     pool->live[slot] = true;
     pool->count++;
+    pool->first_free = slot + 1;
     pool->end = slot + 1 > pool->end ? slot + 1 : pool->end;
     *id = sdfgi_pool_id(pool, slot);
     return memset(pool->items + slot * pool->item_size, 0, pool->item_size);
@@ -85,7 +92,7 @@ void *sdfgi_pool_at(const struct pool *pool, uint32_t index)
 
 void *sdfgi_pool_get(const struct pool *pool, uint32_t id)
 {
-    const uint32_t slot = sdfgi_pool_index(id);
+    const uint32_t slot = sdfgi_pool_index(pool, id);
     if (slot >= pool->end || sdfgi_pool_id(pool, slot) != id)
         return NULL;
     return sdfgi_pool_at(pool, slot);
@@ -93,10 +100,11 @@ void *sdfgi_pool_get(const struct pool *pool, uint32_t id)
 
 void sdfgi_pool_remove(struct pool *pool, uint32_t id)
 {
-    const uint32_t slot = sdfgi_pool_index(id);
+    const uint32_t slot = sdfgi_pool_index(pool, id);
     if (!sdfgi_pool_get(pool, id))
         return;
     pool->live[slot] = false;
-    pool->generations[slot] = (uint16_t)((pool->generations[slot] + 1) & GENERATION_MASK);
+    pool->generations[slot]++;
+    pool->first_free = slot < pool->first_free ? slot : pool->first_free;
     pool->count--;
 }

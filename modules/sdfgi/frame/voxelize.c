@@ -87,7 +87,7 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
         .groups = groups,
         .slices = slice_count(cascade, &work->box, &instance->bounds, (double)groups * SDFGI_GROUP_TRIANGLE,
                               columns),
-        .material = sdfgi_pool_index(instance->desc.material.id),
+        .material = sdfgi_pool_index(&v->scene->materials, instance->desc.material.id),
         .flags = mesh_flags(d),
         .position_offset = (uint32_t)(d->position_offset / 4),
         .position_stride = d->position_stride / 4,

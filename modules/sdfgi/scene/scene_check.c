@@ -30,7 +30,7 @@ bool sdfgi_check_non_negative(const float *v, int count)
 enum sdfgi_result sdfgi_check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit)
 {
     sdfgi_message_log(&scene->backend->hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY,
-                      "%s: out of host memory, or more than %u of them", what, limit);
+                      "%s: out of host memory, more than %u of them, or no handle left", what, limit);
     return SDFGI_ERROR_OUT_OF_MEMORY;
 }
 
