@@ -4,6 +4,19 @@
 
 #include "shaders/shared/bindings.h"
 
+/* Sizes that no image has, or that take more workgroups than a dispatch may. */
+static const char *size_problem(const struct sdfgi *gi, const struct work *work)
+{
+    const VkPhysicalDeviceLimits *limits = &gi->backend.device.limits;
+    const uint32_t most = limits->maxImageDimension2D;
+    if (work->args.gather.width > most || work->args.gather.height > most)
+        return "width or height is more than the device's maxImageDimension2D";
+    const struct work_groups groups = sdfgi_work_groups(work, &gi->volume.resources->extent, 1);
+    if (groups.x > limits->maxComputeWorkGroupCount[0] || groups.y > limits->maxComputeWorkGroupCount[1])
+        return "width or height takes more workgroups than the device's maxComputeWorkGroupCount";
+    return NULL;
+}
+
 static void record(struct sdfgi *gi, VkCommandBuffer cmd, const struct view *view, const struct work *work)
 {
     struct pass_recorder *rec = &gi->recorder;
@@ -31,6 +44,9 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     if (problem)
         return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
     const struct work work = sdfgi_view_gather_work(desc);
+    problem = size_problem(gi, &work);
+    if (problem)
+        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
     VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
     struct view *view = result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
     if (!view)

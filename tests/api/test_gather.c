@@ -233,6 +233,14 @@ static void twenty_gathers_in_a_frame_give_twenty_pictures_twice(void **state)
     gi_test_close(&t);
 }
 
+/* None of the refused calls touches its command buffer. */
+static void require_refused(struct gi_test *t, const struct sdfgi_gather_desc *desc)
+{
+    t->messages[SDFGI_MESSAGE_INVALID_ARGUMENT] = 0;
+    REQUIRE_CMP((int)sdfgi_gather(t->gi, (VkCommandBuffer)t, desc), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_CMP(t->messages[SDFGI_MESSAGE_INVALID_ARGUMENT], ==, 1u);
+}
+
 static void gather_refuses_bad_descriptors(void **state)
 {
     (void)state;
@@ -249,8 +257,8 @@ static void gather_refuses_bad_descriptors(void **state)
                                             .height = HEIGHT,
                                             .inverse_view_projection = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
                                                                          0, 0, 0, 1 } };
-    struct sdfgi_gather_desc bad[7];
-    for (int i = 0; i < 7; i++)
+    struct sdfgi_gather_desc bad[10];
+    for (int i = 0; i < 10; i++)
         bad[i] = good;
     bad[0].depth = VK_NULL_HANDLE;
     bad[1].normal = VK_NULL_HANDLE;
@@ -259,11 +267,15 @@ static void gather_refuses_bad_descriptors(void **state)
     bad[4].height = 0;
     bad[5].inverse_view_projection[7] = NAN;
     bad[6].resolution = (enum sdfgi_gather_resolution)(SDFGI_GATHER_QUARTER + 1);
-    for (int i = 0; i < 7; i++) {
-        t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT] = 0;
-        REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &bad[i]), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
-        REQUIRE_CMP(t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT], ==, 1u);
-    }
+    bad[7].width = UINT32_MAX;
+    bad[8].height = t.gi->backend.device.limits.maxImageDimension2D + 1;
+    bad[9].width = UINT32_MAX;
+    bad[9].resolution = SDFGI_GATHER_QUARTER;
+    for (int i = 0; i < 10; i++)
+        require_refused(&t, &bad[i]);
+    REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &good), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    t.gi->backend.device.limits.maxComputeWorkGroupCount[1] = 1;
+    require_refused(&t, &good);
     gpu_test_image_destroy(&t.gpu, &depth);
     gpu_test_image_destroy(&t.gpu, &output);
     gi_test_close(&t);

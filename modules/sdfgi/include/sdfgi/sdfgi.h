@@ -352,7 +352,7 @@ enum sdfgi_gather_resolution {
 struct sdfgi_gather_desc {
     VkImageView depth, normal, output;
     VkImageLayout input_layout; /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
-    uint32_t width, height;     /* pixels of all three */
+    uint32_t width, height;     /* pixels of all three: 1 to the device's maxImageDimension2D */
     float
         inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin */
     float background_depth;          /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
