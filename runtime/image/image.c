@@ -9,6 +9,9 @@
 #include <string.h>
 #include <strings.h>
 
+/* The largest picture, in floats. */
+static const uint64_t file_bytes_max = UINT64_C(16) * IMAGE_SIDE_MAX * IMAGE_SIDE_MAX;
+
 struct codec {
     const char *ending;
     bool (*read)(struct image *image, const struct image_input *input, char *error, size_t error_size);
@@ -83,10 +86,11 @@ bool image_read(struct image *image, const char *path, char *error, size_t error
     if (format == IMAGE_FORMAT_COUNT)
         return base_text_error(error, error_size, "%s: unknown picture format, expected %s", path,
                                image_format_list());
-    char reason[256] = "";
+    char reason[256] = "larger than 16 GiB";
     struct image_input input = { .path = path };
     input.stream = input_file_open(path, &input.size, reason, sizeof reason);
-    const bool complete = input.stream && codecs[format].read(image, &input, reason, sizeof reason);
+    const bool complete = input.stream && input.size <= file_bytes_max &&
+                          codecs[format].read(image, &input, reason, sizeof reason);
     if (input.stream)
         fclose(input.stream);
     if (complete)

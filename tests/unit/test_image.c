@@ -159,7 +159,7 @@ static void truncated_files_are_refused(void **state)
     }
 }
 
-static void write_and_rename(const char *name, const char *other)
+static void require_refused_under_name(const char *name, const char *other)
 {
     char from[256];
     struct image image = write_and_read(name, 3);
@@ -169,7 +169,7 @@ static void write_and_rename(const char *name, const char *other)
     assert_false(image_read(&image, files_path(other), error, sizeof error));
 }
 
-/* Bytes that a decoder for any format takes for one: 32 x 2 pixels of TGA, whose rows may be missing. */
+/* Among them a TGA of 32 x 2 pixels, which has no signature. */
 static void pictures_are_what_their_names_say(void **state)
 {
     (void)state;
@@ -180,12 +180,12 @@ static void pictures_are_what_their_names_say(void **state)
         files_write(names[i], tga, sizeof tga);
         assert_false(image_read(&image, files_path(names[i]), error, sizeof error));
     }
-    write_and_rename("b.pfm", "b.png");
-    write_and_rename("b.hdr", "b.png");
-    write_and_rename("b.exr", "b.hdr");
+    require_refused_under_name("b.pfm", "b.png");
+    require_refused_under_name("b.hdr", "b.png");
+    require_refused_under_name("b.exr", "b.hdr");
 }
 
-/* The last number of the data window, which EXR keeps low byte first. */
+/* Its data window ends at (32767, 32767), low bytes first. */
 static void enlarge_exr(const char *name)
 {
     char bytes[4096];
@@ -201,6 +201,28 @@ static void enlarge_exr(const char *name)
     fail();
 }
 
+static void require_refused(const char *name, const char *reason)
+{
+    struct image image;
+    assert_false(image_read(&image, files_path(name), error, sizeof error));
+    if (!strstr(error, name) || !strstr(error, reason))
+        fail_msg("%s", error);
+}
+
+/* The last file is a hole that takes no room on the disk. */
+static void only_plain_files_of_some_size_are_read(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "pipe.exr", "pipe.hdr", "pipe.pfm", "pipe.png" };
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(mkfifo(files_path(names[i]), 0600), 0);
+        require_refused(names[i], "not a plain file");
+    }
+    files_write_text("hole.png", "");
+    assert_int_equal(truncate(files_path("hole.png"), (INT64_C(16) << 30) + 1), 0);
+    require_refused("hole.png", "larger than 16 GiB");
+}
+
 /* What the header says is held against the bytes that follow before room is made for it. */
 static void small_files_cannot_claim_large_pictures(void **state)
 {
@@ -210,14 +232,11 @@ static void small_files_cannot_claim_large_pictures(void **state)
                                            "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32768 +X 32767\n",
                                            "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32768 +X 32768\n", NULL };
     for (int i = 0; i < 4; i++) {
-        struct image image;
         if (headers[i])
             files_write_text(names[i], headers[i]);
         else if (image_write_float(files_path(names[i]), pixels, 2, 2, 3, error, sizeof error))
             enlarge_exr(names[i]);
-        assert_false(image_read(&image, files_path(names[i]), error, sizeof error));
-        if (!strstr(error, "too short"))
-            fail_msg("%s", error);
+        require_refused(names[i], "too short");
     }
 }
 
@@ -297,6 +316,7 @@ int main(void)
         cmocka_unit_test(broken_files_give_one_line_that_names_them),
         cmocka_unit_test(truncated_files_are_refused),
         cmocka_unit_test(pictures_are_what_their_names_say),
+        cmocka_unit_test(only_plain_files_of_some_size_are_read),
         cmocka_unit_test(small_files_cannot_claim_large_pictures),
         cmocka_unit_test(hdr_rows_are_read_as_encoded),
         cmocka_unit_test(an_unwritable_place_gives_one_line_and_no_file),
