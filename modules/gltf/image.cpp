@@ -5,8 +5,6 @@
 // defects are.
 #include "import.h"
 
-#include <cstring>
-#include <memory>
 #include <picture/picture_png.h>
 
 #pragma GCC diagnostic push
@@ -29,13 +27,6 @@ namespace
 
 // The shortest code of a JPEG is one bit, and stands for a block of 8 x 8 texels.
 constexpr uint64_t max_jpeg_texels_per_byte = 8 * 64;
-
-struct stb_deleter {
-    void operator()(stbi_uc *texels) const
-    {
-        stbi_image_free(texels);
-    }
-};
 
 struct dimensions {
     bool is_png = false;
@@ -81,18 +72,20 @@ void png_decode(gltf_image &image, const byte_range &file, const std::string &wh
     if (!picture_png_read(&png, file.data, file.size, false, error, sizeof error))
         fail("%s cannot be decoded: %s", what.c_str(), error);
     image.texels = static_cast<uint8_t *>(png.texels);
+    image.width = png.width;
+    image.height = png.height;
 }
 
+// The decoder allocates with malloc, as the scene's arrays are.
 void jpeg_decode(gltf_image &image, const byte_range &file, const std::string &what)
 {
     int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, stb_deleter> texels(
-        stbi_load_from_memory(file.data, static_cast<int>(file.size), &width, &height, &channels, 4));
-    if (!texels)
+    image.texels =
+        stbi_load_from_memory(file.data, static_cast<int>(file.size), &width, &height, &channels, 4);
+    if (image.texels == nullptr)
         fail("%s cannot be decoded: %s", what.c_str(), stbi_failure_reason());
-    const size_t size = 4 * static_cast<size_t>(width) * static_cast<size_t>(height);
-    image.texels = array_allocate<uint8_t>(size);
-    memcpy(image.texels, texels.get(), size);
+    image.width = static_cast<uint32_t>(width);
+    image.height = static_cast<uint32_t>(height);
 }
 
 void image_decode(gltf_image &image, const byte_range &file, uint64_t &texels, const std::string &what)
@@ -103,8 +96,6 @@ void image_decode(gltf_image &image, const byte_range &file, uint64_t &texels, c
         png_decode(image, file, what);
     else
         jpeg_decode(image, file, what);
-    image.width = size.width;
-    image.height = size.height;
 }
 
 void image_import(const importer &in, size_t index, gltf_image &image, uint64_t &texels)
