@@ -5,7 +5,10 @@
 // defects are.
 #include "import.h"
 
+#include <map>
 #include <picture/picture_png.h>
+#include <string_view>
+#include <utility>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -116,11 +119,12 @@ void image_import(const importer &in, size_t index, gltf_image &image, uint64_t 
 } // namespace
 
 // Only images that a texture uses are read: a file may carry others in formats that an extension is needed
-// for.
+// for. Those that name the same bytes are read once.
 std::vector<int32_t> images_import(importer &in)
 {
     std::vector<int32_t> slots(in.images.size(), -1);
     std::vector<size_t> used;
+    std::map<std::pair<int, std::string_view>, int32_t> known;
     for (size_t t = 0; t < in.model.textures.size(); t++) {
         const int source = in.model.textures[t].source;
         if (source < 0)
@@ -130,8 +134,12 @@ std::vector<int32_t> images_import(importer &in)
                  in.images.size());
         if (slots[static_cast<size_t>(source)] >= 0)
             continue;
-        slots[static_cast<size_t>(source)] = static_cast<int32_t>(used.size());
-        used.push_back(static_cast<size_t>(source));
+        const image_source &image = in.images[static_cast<size_t>(source)];
+        const auto place = known.emplace(std::make_pair(image.buffer_view, std::string_view(image.uri)),
+                                         static_cast<int32_t>(used.size()));
+        slots[static_cast<size_t>(source)] = place.first->second;
+        if (place.second)
+            used.push_back(static_cast<size_t>(source));
     }
     in.scene->images = array_allocate<gltf_image>(used.size());
     in.scene->image_count = static_cast<uint32_t>(used.size());

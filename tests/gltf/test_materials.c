@@ -272,6 +272,25 @@ static void buffers_come_from_files_and_data_uris(void **state)
     }
 }
 
+static void images_that_name_the_same_bytes_are_read_once(void **state)
+{
+    (void)state;
+    struct draft d = { 0 };
+    uint8_t file[256];
+    png_view(&d, &small_png);
+    png_view(&d, &small_png);
+    files_write("same.png", file, png_encode(&small_png, file, sizeof file));
+    struct gltf_scene *const s = draft_load(
+        &d, ",\"images\":[{\"bufferView\":0},{\"uri\":\"same.png\"},{\"bufferView\":0},{\"bufferView\":1},"
+            "{\"uri\":\"same.png\"}],\"textures\":[{\"source\":0},{\"source\":1},{\"source\":2},"
+            "{\"source\":3},{\"source\":4}]");
+    assert_int_equal(s->image_count, 3);
+    static const int32_t wanted[] = { 0, 1, 0, 2, 1 };
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(s->textures[i].image, wanted[i]);
+    gltf_scene_destroy(s);
+}
+
 static void images_that_no_texture_uses_are_not_read(void **state)
 {
     (void)state;
@@ -301,6 +320,7 @@ int main(void)
         cmocka_unit_test(a_png_is_inflated_no_further_than_its_rows),
         cmocka_unit_test(jpeg_images_are_decoded),
         cmocka_unit_test(buffers_come_from_files_and_data_uris),
+        cmocka_unit_test(images_that_name_the_same_bytes_are_read_once),
         cmocka_unit_test(images_that_no_texture_uses_are_not_read),
     };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
