@@ -1,50 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 #include "file_write.h"
 
+#include "file/output_file.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-static bool parts_write(FILE *file, const struct file_part *parts, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (parts[i].size && fwrite(parts[i].bytes, 1, parts[i].size, file) != parts[i].size)
-            return false;
-    return true;
-}
 
 bool file_write_parts(const char *path, const struct file_part *parts, size_t count, char *error,
                       size_t error_size)
 {
-    const size_t temp_size = strlen(path) + 16;
-    char *temp = malloc(temp_size);
-    if (!temp) {
-        snprintf(error, error_size, "%s: out of memory", path);
+    struct output_file file;
+    if (!output_file_check(path, error, error_size) || !output_file_begin(&file, path, error, error_size))
         return false;
-    }
-    snprintf(temp, temp_size, "%s.%d.tmp", path, (int)(getpid() % 1000000));
-    FILE *file = fopen(temp, "wb");
-    bool ok = file && parts_write(file, parts, count);
-    int code = errno;
-    /* fclose flushes: a full disk may show only here. */
-    if (file && fclose(file) != 0 && ok) {
-        ok = false;
-        code = errno;
-    }
-    if (ok && rename(temp, path) != 0) {
-        ok = false;
-        code = errno;
-    }
-    if (!ok) {
-        snprintf(error, error_size, "%s: cannot write: %s", path, strerror(code));
-        if (file)
-            remove(temp);
-    }
-    free(temp);
-    return ok;
+    for (size_t i = 0; i < count; i++)
+        if (parts[i].size)
+            fwrite(parts[i].bytes, 1, parts[i].size, file.stream);
+    return output_file_commit(&file, error, error_size);
 }
 
 static bool folder_make_one(const char *path)

@@ -23,8 +23,12 @@ bool output_file_commit(struct output_file *file, char *error, size_t error_size
 /* Closes and removes the file. */
 void output_file_cancel(struct output_file *file);
 
-/* True if a file can be written at `path`; otherwise one line in `error`. Leaves nothing behind. To be called
- * before minutes of work, not after. */
+/* Removes the file that is being written, if there is one. For a handler of signals that ends the process
+ * afterwards. */
+void output_file_abandon(void);
+
+/* True if a file can be written at `path`; otherwise one line in `error`. Leaves nothing behind, and removes
+ * what killed runs have left of this output. To be called before minutes of work, not after. */
 bool output_file_check(const char *path, char *error, size_t error_size);
 
 #endif
