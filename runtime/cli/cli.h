@@ -27,7 +27,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Exit codes of the program. */
+/* Exit codes of the program; a run that SIGINT or SIGTERM ended leaves with 128 + its number instead. */
 enum { CLI_EXIT_OK = 0, CLI_EXIT_FAILURE = 1, CLI_EXIT_USAGE = 2 };
 
 enum { CLI_LIST_MAX = 64, CLI_ERROR_BYTES = 512 };

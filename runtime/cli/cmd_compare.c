@@ -4,7 +4,7 @@
 #include "commands.h"
 #include "compare/compare.h"
 #include "file/json_write.h"
-#include "file/output_file.h"
+#include "file/output_names.h"
 #include "image/flip.h"
 #include "image/tone.h"
 
@@ -156,8 +156,9 @@ int cmd_compare(int argc, char **argv)
     if (outcome != CLI_RUN)
         return cli_exit_code(outcome);
     char error[CLI_ERROR_BYTES];
-    if ((o.error_map && !output_file_check(o.error_map, error, sizeof error)) ||
-        (o.strip && !output_file_check(o.strip, error, sizeof error)))
+    const struct output_name outputs[] = { { o.error_map, "--error-map", NULL },
+                                           { o.strip, "--strip", NULL } };
+    if (!output_names_check(outputs, 2, error, sizeof error))
         return cli_error("%s", error);
     struct images images = { 0 };
     const int code = compare(&o, &images);

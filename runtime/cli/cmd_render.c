@@ -3,7 +3,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "run_options.h"
-#include "file/output_file.h"
+#include "file/stop.h"
 #include "host/host.h"
 #include "image/image.h"
 #include "report/report.h"
@@ -42,6 +42,7 @@ struct run {
     float exposure; /* that a PNG was written with */
     struct report_cost cost;
     bool until_converged;
+    bool stopped; /* by a signal, before the last frame */
 };
 
 /* ---- Arguments -------------------------------------------------------------------------------------- */
@@ -82,13 +83,16 @@ static bool check_outputs(const struct options *options)
                   image_format_list());
         return false;
     }
+    struct output_name names[CLI_LIST_MAX + 2] = { { options->out, "--out", NULL },
+                                                   { options->report, "--report", NULL } };
     for (uint32_t i = 0; i < options->aov.count; i++) {
         enum host_aov aov;
-        const char *path = split_aov(options->aov.values[i], &aov);
-        if (!path || !run_check_output(path))
+        const char *pair = options->aov.values[i], *path = split_aov(pair, &aov);
+        if (!path)
             return false;
+        names[2 + i] = (struct output_name){ path, "--aov", pair };
     }
-    return run_check_output(options->out) && (!options->report || run_check_output(options->report));
+    return run_check_outputs(names, 2 + options->aov.count);
 }
 
 static bool resolve_options(struct options *options)
@@ -132,11 +136,15 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "out", CLI_TEXT, &o->out, "FILE", .help = "picture: .png, .exr, .hdr or .pfm", .required = true },
     };
     const struct cli_positional positionals[] = { { "SCENE", &o->scene, true } };
-    const struct cli_spec spec = { "render", "Renders a glTF scene offscreen.", CLI_ARRAY(table),
-                                   CLI_ARRAY(positionals),
-                                   "Float pictures are linear radiance without exposure. Parts of the light: "
-                                   "color, direct, diffuse_indirect,\n"
-                                   "irradiance, reflection, normal, depth, albedo." };
+    const struct cli_spec spec = {
+        "render", "Renders a glTF scene offscreen.", CLI_ARRAY(table), CLI_ARRAY(positionals),
+        "Float pictures are linear radiance without exposure. Parts of the light: "
+        "color, direct, diffuse_indirect,\n"
+        "irradiance, reflection, normal, depth, albedo.\n"
+        "SIGINT and SIGTERM end it after the frame in flight. The files are written "
+        "as they are then, and the exit\n"
+        "code is 128 + the signal's number."
+    };
     return cli_parse(&spec, argc, argv);
 }
 
@@ -186,12 +194,14 @@ static void collect_times(struct run *run)
 static bool collect_frame(void *user, const struct host_frame *frame)
 {
     struct run *run = user;
+    stop_keep();
     report_add_frame(&run->report, frame->report, frame->gpu_ns);
     collect_times(run);
     cli_progress_update(&run->progress, run->until_converged
                                             ? (uint64_t)(100.0 * (double)frame->report->converged_fraction)
                                             : frame->index + 1);
-    return true;
+    run->stopped = stop_asked();
+    return !run->stopped;
 }
 
 static bool render_frames(struct run *run, const struct options *options)
@@ -289,7 +299,7 @@ static bool measure_cost(struct run *run, const struct options *options)
 {
     struct report_cost_pair pairs[FRAMES_OFF];
     struct host_times times;
-    if (!options->settings.enabled || (options->quiet && !options->report))
+    if (!options->settings.enabled || (options->quiet && !options->report) || run->stopped)
         return true;
     for (int i = 0; i < FRAMES_OFF; i++) {
         if (!host_renderer_frame_without_gi(run->renderer, &run->view.camera)) {
@@ -331,6 +341,12 @@ static void print_summary(struct run *run, const struct options *options)
     report_cost_print(&run->cost);
 }
 
+static void print_stop(const struct run *run, const struct options *options)
+{
+    cli_error("render: stopped by %s after %llu frame%s; %s shows the light that there was then", stop_name(),
+              (unsigned long long)run->report.frames, run->report.frames == 1 ? "" : "s", options->out);
+}
+
 int cmd_render(int argc, char **argv)
 {
     struct options options = { .frames = "converged",
@@ -347,9 +363,12 @@ int cmd_render(int argc, char **argv)
     if (!run)
         return cli_error("render: out of memory");
     const bool done = start(run, &options) && render_frames(run, &options) && write_outputs(run, &options);
-    if (done && !options.quiet)
+    const bool stopped = done && run->stopped;
+    if (stopped)
+        print_stop(run, &options);
+    else if (done && !options.quiet)
         print_summary(run, &options);
     finish(run);
     free(run);
-    return done ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
+    return stopped ? stop_exit_code() : done ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
 }

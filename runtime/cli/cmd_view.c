@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "run_options.h"
+#include "file/stop.h"
 #include "host/host.h"
 #include "view/view_file.h"
 
@@ -31,9 +32,17 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
     const struct cli_spec spec = {
         "view", "Shows a glTF scene in a window.", CLI_ARRAY(table), CLI_ARRAY(positionals),
         "G switches global illumination, F1 the view. WASD, Q and E move, Shift hurries,\n"
-        "a held mouse button turns, Escape closes."
+        "a held mouse button turns, Escape closes. SIGINT and SIGTERM close, too; the exit code\n"
+        "is 128 + the signal's number then."
     };
     return cli_parse(&spec, argc, argv);
+}
+
+/* Asked before each frame: from the first on there is a window to close. */
+static bool stop_view(void)
+{
+    stop_keep();
+    return stop_asked();
 }
 
 int cmd_view(int argc, char **argv)
@@ -63,11 +72,12 @@ int cmd_view(int argc, char **argv)
                                            .width = options.size.width,
                                            .height = options.size.height,
                                            .frames = options.frames,
+                                           .stop = stop_view,
                                            .log = { run_log, NULL } };
     const bool ok = host_window_run(&desc, error, sizeof(error));
-    if (!ok)
-        cli_error("view: %s", error);
+    if (!ok || stop_asked())
+        cli_error("view: %s%s", ok ? "closed by " : error, ok ? stop_name() : "");
     gltf_scene_destroy(gltf);
     view_file_finish(&view);
-    return ok ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
+    return !ok ? CLI_EXIT_FAILURE : stop_asked() ? stop_exit_code() : CLI_EXIT_OK;
 }

@@ -4,7 +4,8 @@
 #include "commands.h"
 #include "run_options.h"
 #include "walk_run.h"
-#include "file/output_file.h"
+#include "file/stop.h"
+#include "file/temporary_file.h"
 
 #include <base/text.h>
 #include <errno.h>
@@ -67,7 +68,9 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         "  DIR/walk.svg           the same as a plot, through gnuplot\n"
         "PATH.json: {\"points\": [[x,y,z], ...]}, and if wanted speed_m_s, fps, yfov_deg,\n"
         "look_at, smooth_m and view (a VIEW.json). A point may be an object with position\n"
-        "and look_at."
+        "and look_at.\n"
+        "SIGINT and SIGTERM end it after the frame in flight. What is written then tells of the\n"
+        "frames before, and the exit code is 128 + the signal's number."
     };
     return cli_parse(&spec, argc, argv);
 }
@@ -186,6 +189,14 @@ struct outputs {
     char report[WALK_PATH_BYTES], plot[WALK_PATH_BYTES], sheet[WALK_PATH_BYTES];
 };
 
+/* What killed walks have left of their pictures. */
+static void remove_old_frames(const struct walk_order *order)
+{
+    char prefix[WALK_PATH_BYTES];
+    if (walk_output_path(order, "frame_", prefix))
+        temporary_file_remove_leftovers(prefix);
+}
+
 static bool resolve_outputs(const struct options *o, const struct walk_order *order, struct outputs *outputs)
 {
     const bool fits = walk_output_path(order, "contact_sheet.png", outputs->sheet) &&
@@ -203,8 +214,11 @@ static bool resolve_outputs(const struct options *o, const struct walk_order *or
         cli_error("%s: cannot be made: %s", order->out, strerror(errno));
         return false;
     }
-    return run_check_output(outputs->sheet) && run_check_output(outputs->plot) &&
-           run_check_output(outputs->report);
+    remove_old_frames(order);
+    const struct output_name names[] = { { outputs->sheet, "the contact sheet", NULL },
+                                         { outputs->plot, "the plot", NULL },
+                                         { outputs->report, "--report", NULL } };
+    return run_check_outputs(names, 3);
 }
 
 static bool write_outputs(const struct walk_result *result, const struct outputs *outputs)
@@ -279,10 +293,15 @@ static int walk(const struct options *options, struct walk_order *order)
     /* Stays where anything was written. */
     if (!walked && outputs.made_folder)
         rmdir(order->out);
-    if (walked && !order->quiet)
+    const uint32_t frames = result.record.frame_count;
+    const bool stopped = walked && stop_asked() && frames < order->frames;
+    if (stopped)
+        cli_error("walk: stopped by %s after %u of %u frames; %s keeps what there is of those", stop_name(),
+                  frames, order->frames, order->out);
+    else if (walked && !order->quiet)
         print_summary(&result, order->out);
     walk_record_finish(&result.record);
-    return walked ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
+    return stopped ? stop_exit_code() : walked ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
 }
 
 int cmd_walk(int argc, char **argv)

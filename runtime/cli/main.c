@@ -2,6 +2,7 @@
  * The `sdfgi` program: a table of sub-commands. */
 #include "cli.h"
 #include "commands.h"
+#include "file/stop.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -53,6 +54,7 @@ int main(int argc, char **argv)
         print_commands(stdout);
         return finish(CLI_EXIT_OK);
     }
+    stop_watch();
     for (int i = 0; i < COMMAND_COUNT; i++)
         if (strcmp(commands[i].name, argv[1]) == 0)
             return finish(commands[i].run(argc - 1, argv + 1));

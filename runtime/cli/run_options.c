@@ -2,7 +2,6 @@
 #include "run_options.h"
 
 #include "file/cache_file.h"
-#include "file/output_file.h"
 #include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
@@ -78,10 +77,10 @@ struct host_device *run_open_device(const char *select)
     return device;
 }
 
-bool run_check_output(const char *path)
+bool run_check_outputs(const struct output_name *names, uint32_t count)
 {
     char error[CLI_ERROR_BYTES];
-    if (output_file_check(path, error, sizeof error))
+    if (output_names_check(names, count, error, sizeof error))
         return true;
     cli_error("%s", error);
     return false;

@@ -4,6 +4,7 @@
 #define RUNTIME_RUN_OPTIONS_H
 
 #include "cli.h"
+#include "file/output_names.h"
 #include "host/host.h"
 
 #include <sdfgi/sdfgi.h>
@@ -33,8 +34,8 @@ struct host_device *run_open_device(const char *select);
 /* Where compiled pipelines are kept for the next run; NULL if the user has no such folder. */
 const char *run_cache_folder(void);
 
-/* True if a file can be written there; else prints one line. */
-bool run_check_output(const char *path);
+/* True if all outputs can be written, each to a file of its own; else prints one line. */
+bool run_check_outputs(const struct output_name *names, uint32_t count);
 
 /* Prints messages of the library to stderr: errors and warnings, one line each. `user` is not used. */
 void run_log(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text);

@@ -2,6 +2,7 @@
 #include "walk_run.h"
 
 #include "run_options.h"
+#include "file/stop.h"
 #include "image/image.h"
 #include "view/view_file.h"
 #include "walk/walk_sheet.h"
@@ -151,9 +152,9 @@ static bool write_sheet(struct run *run)
 
 /* ---- Cost ------------------------------------------------------------------------------------------- */
 
-static uint32_t pair_count(const struct walk_order *order)
+static uint32_t pair_count(uint32_t frames)
 {
-    return (order->frames + COST_STEP - 1) / COST_STEP;
+    return (frames + COST_STEP - 1) / COST_STEP;
 }
 
 /* Draws a frame again without GI. */
@@ -200,7 +201,7 @@ static bool start_offscreen(struct run *run)
     if (!run->off)
         return fail_device(run);
     run->picture = malloc((size_t)4 * size.width * size.height);
-    run->pairs = calloc(pair_count(run->order), sizeof *run->pairs);
+    run->pairs = calloc(pair_count(run->order->frames), sizeof *run->pairs);
     if (run->picture && run->pairs &&
         walk_sheet_init(&run->sheet, sheet_moments(run->order), size.width, size.height))
         return true;
@@ -271,16 +272,19 @@ static bool walk_offscreen(struct run *run)
     const uint32_t frames = run->order->frames;
     bool walked = start_offscreen(run) && hold(run);
     cli_progress_begin(&run->progress, "walking", frames);
-    for (uint32_t i = 0; walked && i < frames; i++) {
+    for (uint32_t i = 0; walked && i < frames && !stop_asked(); i++) {
         walked = walk_frame(run, i);
+        stop_keep();
         cli_progress_update(&run->progress, i + 1);
     }
-    walked = walked && collect_times(run);
+    const uint32_t done = run->result->record.frame_count;
+    /* Who stops a walk does not want to wait for the times of its last frames. */
+    walked = walked && (done < frames || collect_times(run));
     cli_progress_end(&run->progress);
     if (walked) {
         host_device_get_info(run->device, &run->result->device);
         if (run->order->settings.enabled)
-            run->result->summary.run.cost = report_cost_of(run->pairs, pair_count(run->order));
+            run->result->summary.run.cost = report_cost_of(run->pairs, pair_count(done));
         run->result->summary.run.validation_messages = host_device_validation_count(run->device);
     }
     return walked && write_sheet(run);
@@ -315,6 +319,7 @@ static bool follow_window(void *user, const struct host_frame *frame)
     if (index < run->order->frames && !record_frame(run, index, frame->report))
         return false;
     walk_record_times(record, (int64_t)index - FRAMES_LATE, frame->report);
+    stop_keep();
     if (index >= FRAMES_LATE)
         record->frames[index - FRAMES_LATE].gpu_ns = frame->gpu_ns;
     return true;
@@ -336,6 +341,7 @@ static bool walk_in_window(struct run *run)
                                            .log = { run_log, NULL },
                                            .camera = lead_camera,
                                            .progress = follow_window,
+                                           .stop = stop_asked,
                                            .user = run,
                                            .device_info = &run->result->device };
     if (host_window_run(&desc, error, sizeof error))

@@ -2,6 +2,7 @@
 #include "cache_file.h"
 
 #include "output_file.h"
+#include "temporary_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,6 +91,7 @@ bool cache_file_save(const char *path, const void *data, size_t size)
     char error[PATH_BYTES];
     memcpy(header.magic, magic, sizeof magic);
     make_folders(path);
+    temporary_file_remove_leftovers(path);
     if (!output_file_begin(&file, path, error, sizeof error))
         return false;
     if (fwrite(&header, sizeof header, 1, file.stream) == 1 && fwrite(data, size, 1, file.stream) == 1)

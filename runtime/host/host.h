@@ -236,6 +236,7 @@ struct host_window_desc {
     host_camera_fn camera;     /* NULL: the user flies */
     host_progress_fn progress; /* after each frame; may be NULL. Its GPU time is that of two frames before */
     void *user;                /* of both */
+    bool (*stop)(void);        /* asked before each frame; true closes the window; may be NULL */
     struct host_device_info *device_info; /* filled once there is a device; may be NULL */
 };
 

@@ -324,6 +324,8 @@ static bool device_run(struct window *window, const struct host_window_desc *des
         if (desc->frames > 0 && frame >= desc->frames)
             break;
         glfwPollEvents();
+        if (desc->stop && desc->stop())
+            break;
         ok = step(window);
     }
     if (!ok)

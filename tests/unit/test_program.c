@@ -67,6 +67,9 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "render none.glb --out a.png --aov direct=none/d.exr", "none/d.exr" },
         { "render none.glb --out a.png --aov direct=d.png", "d.png" },
         { "render none.glb --out a.png --aov shadows=d.exr", "shadows" },
+        { "render none.glb --out a.png --report ./a.png", "--out and --report" },
+        { "render none.glb --out a.exr --aov direct=b.exr --aov normal=$PWD/a.exr",
+          "--out and --aov normal=" },
         { "render none.glb --out a.png --view none.json", "none.json" },
         { "render none.glb --out a.png --view broken.json", "broken.json: broken JSON in line 2" },
         { "render none.glb --out a.png --view unknown.json", "unknown.json: skies: unknown key" },
@@ -94,6 +97,7 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "walk none.glb --path path.json --out .", "none.glb" },
         { "walk none.glb --path path.json --out w", "none.glb" },
         { "walk none.glb --path path.json --out w --report none/r.json", "none/r.json" },
+        { "walk none.glb --path path.json --out . --report ./walk.svg", "the plot and --report" },
         { "walk none.glb --path path.json --out . --start 11", "--start" },
         { "walk none.glb --path path.json --out . --speed 0", "--speed" },
         { "walk none.glb --path path.json --out . --fps 10000 --speed 0.001", "frames" },
@@ -118,6 +122,7 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "compare one.pfm two.pfm", "expected equal sizes" },
         { "compare one.pfm cut.pfm", "cut.pfm" },
         { "compare one.pfm one.pfm --error-map none/e.png", "none/e.png" },
+        { "compare one.pfm one.pfm --error-map e.png --strip e.png", "--error-map and --strip" },
     };
     const int before = files_count();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

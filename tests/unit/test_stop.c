@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT
+ * SIGINT and SIGTERM: the program stops within a second, keeps what is done, says so, and its exit code names
+ * the signal. */
+#include "files.h"
+#include "unit.h"
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+static const double limit_s = 1, longest_delay_s = 20;
+
+static const char *program;
+
+struct run {
+    int code;
+    double stop_s; /* from the signal to the end */
+    char err[4096];
+};
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void sleep_s(double seconds)
+{
+    const struct timespec t = { (time_t)seconds, (long)(1e9 * (seconds - (double)(time_t)seconds)) };
+    nanosleep(&t, NULL);
+}
+
+static pid_t start(const char *arguments)
+{
+    char command[1024];
+    snprintf(command, sizeof command, "cd %s && exec '%s' %s >out.txt 2>err.txt", files_path(""), program,
+             arguments);
+    const pid_t child = fork();
+    if (child != 0)
+        return child;
+    execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+    _exit(127);
+}
+
+static struct run stop(pid_t child, int number)
+{
+    struct run run;
+    int status;
+    kill(child, number);
+    const double before_s = now_s();
+    waitpid(child, &status, 0);
+    run.stop_s = now_s() - before_s;
+    run.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    files_take_text("err.txt", run.err, sizeof run.err);
+    remove(files_path("out.txt"));
+    return run;
+}
+
+/* It stopped in time and said so in one line. */
+static void assert_stopped(const struct run *run, const char *arguments, int number)
+{
+    char said[64];
+    snprintf(said, sizeof said, ": stopped by %s after ", number == SIGINT ? "SIGINT" : "SIGTERM");
+    if (run->code != 128 + number || !strstr(run->err, said) ||
+        strchr(run->err, '\n') != run->err + strlen(run->err) - 1)
+        fail_msg("%s: code %d, stderr \"%s\"", arguments, run->code, run->err);
+    if (run->stop_s > limit_s)
+        fail_msg("%s: stopped after %.2f s", arguments, run->stop_s);
+}
+
+/* Gives the program `delay_s` to begin its work, and more where that was not enough. */
+static void stop_at_work(const char *arguments, double delay_s, int number)
+{
+    struct run run;
+    for (;; delay_s *= 2) {
+        const pid_t child = start(arguments);
+        sleep_s(delay_s);
+        run = stop(child, number);
+        if (!strstr(run.err, "before there was anything to keep") || delay_s > longest_delay_s)
+            break;
+    }
+    assert_stopped(&run, arguments, number);
+}
+
+static bool has_device(void)
+{
+    static int code = -1;
+    char command[512];
+    snprintf(command, sizeof command, "'%s' info >/dev/null 2>&1", program);
+    if (code < 0)
+        code = system(command);
+    return code == 0;
+}
+
+static void run_in_folder(const char *command)
+{
+    char line[512];
+    snprintf(line, sizeof line, "cd %s && %s", files_path(""), command);
+    if (system(line) != 0)
+        fail_msg("%s", command);
+}
+
+/* While it loads and looks for a device; earlier it has no handler yet, later it has a frame. */
+static void a_run_without_results_ends_at_once(void **state)
+{
+    (void)state;
+    if (!has_device())
+        skip();
+    struct run run = { .code = 0 };
+    for (double delay_s = 0.02; delay_s < longest_delay_s && run.code != 128 + SIGTERM; delay_s *= 1.5) {
+        const pid_t child = start("render tiny.gltf --gi off --size 8x8 --frames 1000000 --out a.png");
+        sleep_s(delay_s);
+        run = stop(child, SIGTERM);
+    }
+    assert_string_equal(run.err, "sdfgi: SIGTERM ended the run before there was anything to keep\n");
+    assert_int_equal(files_count(), 1);
+}
+
+static void a_picture_shows_the_light_that_there_was(void **state)
+{
+    (void)state;
+    if (!has_device())
+        skip();
+    stop_at_work("render tiny.gltf --gi off --size 8x8 --frames 1000000 --report r.json --out a.png", 1,
+                 SIGINT);
+    run_in_folder("test -s a.png && grep -q '\"frames\":.*[1-9]' r.json && rm a.png r.json");
+    assert_int_equal(files_count(), 1);
+}
+
+static void a_walk_keeps_its_frames(void **state)
+{
+    (void)state;
+    if (!has_device())
+        skip();
+    files_write_text("path.json", "{\"points\":[[0,0,2],[10,0,2]]}");
+    static const char arguments[] = "walk tiny.gltf --path path.json --set enabled=false --hold 0 --size 8x8 "
+                                    "--frames 100000 --every 100000 --out w";
+    const double begin_s = now_s();
+    const pid_t child = start(arguments);
+    while (access(files_path("w/frame_000000.off.png"), F_OK) != 0 && now_s() - begin_s < longest_delay_s)
+        sleep_s(0.01);
+    sleep_s(0.1); /* until a frame is finished */
+    const struct run run = stop(child, SIGTERM);
+    assert_stopped(&run, arguments, SIGTERM);
+    run_in_folder("grep -q '\"frames_rendered\":.*[1-9]' w/report.json && test -s w/contact_sheet.png");
+    run_in_folder("rm -r w path.json");
+    assert_int_equal(files_count(), 1);
+}
+
+static int make_scene(void **state)
+{
+    if (files_setup(state))
+        return 1;
+    files_write_text(
+        "tiny.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}]}");
+    setenv("XDG_CACHE_HOME", files_path(".cache"), 1);
+    setenv("MESA_SHADER_CACHE_DIR", files_path(".cache"), 1);
+    return 0;
+}
+
+static int remove_files(void **state)
+{
+    run_in_folder("rm -rf .cache");
+    return files_teardown(state);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2)
+        return EXIT_FAILURE;
+    program = argv[1]; /* an absolute path */
+    signal(SIGINT, SIG_DFL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_run_without_results_ends_at_once),
+        cmocka_unit_test(a_picture_shows_the_light_that_there_was),
+        cmocka_unit_test(a_walk_keeps_its_frames),
+    };
+    return cmocka_run_group_tests(tests, make_scene, remove_files);
+}
