@@ -40,6 +40,9 @@ uint32_t film_plane_channels(enum raycast_aov aov)
 bool raycast_film_init(struct film *f, uint32_t width, uint32_t height, uint32_t aovs)
 {
     *f = (struct film){ .width = width, .height = height };
+    f->tile_samples = calloc(film_tile_count(f), sizeof(*f->tile_samples));
+    if (f->tile_samples == NULL)
+        return false;
     for (uint32_t aov = 0; aov < RAYCAST_AOV_COUNT; aov++) {
         if (!(aovs & 1u << aov))
             continue;
@@ -58,7 +61,55 @@ void raycast_film_finish(struct film *f)
         free(f->sums[aov]);
         f->sums[aov] = NULL;
     }
+    free(f->tile_samples);
+    f->tile_samples = NULL;
 }
+
+/* ---- Samples ---------------------------------------------------------------------------------------- */
+
+uint32_t film_tiles_across(const struct film *f)
+{
+    return (f->width + FILM_TILE - 1) / FILM_TILE;
+}
+
+size_t film_tile_count(const struct film *f)
+{
+    return (size_t)film_tiles_across(f) * ((f->height + FILM_TILE - 1) / FILM_TILE);
+}
+
+static uint32_t pixel_samples(const struct film *f, size_t pixel)
+{
+    const size_t x = pixel % f->width, y = pixel / f->width;
+    return f->tile_samples[y / FILM_TILE * film_tiles_across(f) + x / FILM_TILE];
+}
+
+uint32_t film_samples(const struct film *f)
+{
+    uint32_t least = UINT32_MAX;
+    for (size_t i = 0; i < film_tile_count(f); i++)
+        least = f->tile_samples[i] < least ? f->tile_samples[i] : least;
+    return least;
+}
+
+/* Pixels of tile `index` along an axis of `pixels`: the last tile may stick out. */
+static uint32_t tile_extent(uint32_t index, uint32_t pixels)
+{
+    const uint32_t left = pixels - index * FILM_TILE;
+    return left < FILM_TILE ? left : FILM_TILE;
+}
+
+double film_mean_samples(const struct film *f)
+{
+    const uint32_t across = film_tiles_across(f);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < film_tile_count(f); i++) {
+        const uint32_t size = tile_extent(i % across, f->width) * tile_extent(i / across, f->height);
+        sum += (double)f->tile_samples[i] * size;
+    }
+    return sum / (double)film_pixel_count(f);
+}
+
+/* ---- Sums ------------------------------------------------------------------------------------------- */
 
 static void add(struct film *f, enum raycast_aov aov, size_t pixel, struct vec3 v)
 {
@@ -124,17 +175,17 @@ static double pixel_error(const double *sum, const double *squares, double n)
 
 double film_error(const struct film *f)
 {
-    if (f->samples < MIN_SAMPLES_FOR_ERROR)
+    if (film_samples(f) < MIN_SAMPLES_FOR_ERROR)
         return INFINITY;
     const double *sums = f->sums[RAYCAST_AOV_RADIANCE], *squares = f->sums[RAYCAST_AOV_VARIANCE];
-    const double n = f->samples;
     const size_t count = film_pixel_count(f);
     double mean = 0.0, error = 0.0;
     for (size_t i = 0; i < count; i++)
-        mean += pixel_luminance(sums + 3 * i, n) / (double)count;
+        mean += pixel_luminance(sums + 3 * i, pixel_samples(f, i)) / (double)count;
     if (!(mean > 0.0))
         return 0.0;
     for (size_t i = 0; i < count; i++) {
+        const double n = pixel_samples(f, i);
         const double luminance = fmax(pixel_luminance(sums + 3 * i, n), 0.01 * mean);
         error += pixel_error(sums + 3 * i, squares + 3 * i, n) / luminance / (double)count;
     }
@@ -145,7 +196,7 @@ static void variance_image(const struct film *f, float *out)
 {
     const double *sums = f->sums[RAYCAST_AOV_RADIANCE], *squares = f->sums[RAYCAST_AOV_VARIANCE];
     for (size_t i = 0; i < 3 * film_pixel_count(f); i++)
-        out[i] = (float)mean_variance(sums[i], squares[i], f->samples);
+        out[i] = (float)mean_variance(sums[i], squares[i], pixel_samples(f, i / 3));
 }
 
 static void depth_image(const struct film *f, float *out)
@@ -157,7 +208,7 @@ static void depth_image(const struct film *f, float *out)
 
 bool film_image(const struct film *f, enum raycast_aov aov, float *out)
 {
-    if (f->sums[aov] == NULL || f->samples == 0)
+    if (f->sums[aov] == NULL || film_samples(f) == 0)
         return false;
     if (aov == RAYCAST_AOV_VARIANCE) {
         variance_image(f, out);
@@ -165,7 +216,7 @@ bool film_image(const struct film *f, enum raycast_aov aov, float *out)
         depth_image(f, out);
     } else {
         for (size_t i = 0; i < 3 * film_pixel_count(f); i++)
-            out[i] = (float)(f->sums[aov][i] / f->samples);
+            out[i] = (float)(f->sums[aov][i] / pixel_samples(f, i / 3));
     }
     return true;
 }

@@ -28,6 +28,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -141,15 +142,20 @@ struct raycast_settings {
     const struct raycast_voxels *voxels;
 };
 
+/* Asked by all threads many times a second; return true to stop. `user` is that of raycast_render. */
+typedef bool raycast_stop_fn(void *user);
+
 /* When to stop: whichever comes first; zero: no such limit (but one is needed). */
 struct raycast_budget {
     uint32_t samples; /* per pixel, counted from the start of the picture, resumed samples included */
     double seconds;   /* of this call */
     double error;     /* mean over the pixels of standard error / luminance (of at least 1 % of the mean) */
+    raycast_stop_fn *stop; /* NULL: nobody asks for an end */
 };
 
 struct raycast_progress {
-    uint32_t samples;    /* per pixel, so far */
+    uint32_t samples;    /* of each pixel, so far: of those that have the fewest */
+    double mean_samples; /* of all pixels */
     double fraction;     /* of the time of this call, by the nearest limit, [0, 1] */
     double seconds;      /* of this call */
     double seconds_left; /* estimated; infinite where nothing can be foreseen */
@@ -158,7 +164,7 @@ struct raycast_progress {
     uint64_t not_finite; /* samples left out */
 };
 
-/* Called between passes, about once a second; return false to stop there. */
+/* Called about once a second; return false to stop there. */
 typedef bool raycast_progress_fn(const struct raycast_progress *progress, void *user);
 
 /* Prepare a tracer. Returns NULL with one line in `error` when the view or the settings are wrong (naming the
@@ -173,18 +179,21 @@ void raycast_destroy(struct raycast *rc);
 const struct raycast_settings *raycast_settings_get(const struct raycast *rc);
 
 /* Add samples until the budget is spent. `progress` may be NULL; `last` (may be NULL) receives the final
- * state. Returns false when the callback stopped it. */
+ * state. Returns false when a callback stopped it before. A run that is stopped, or that has spent its time,
+ * keeps all samples: some tiles of the picture may have more than others. */
 bool raycast_render(struct raycast *rc, const struct raycast_budget *budget, raycast_progress_fn *progress,
                     void *user, struct raycast_progress *last);
 
-/* Copy a picture: width * height * channels floats. False when the AOV was not asked for at creation, or no
- * sample has been taken. */
+/* Copy a picture: width * height * channels floats. False when the AOV was not asked for at creation, or
+ * there is a pixel without a sample. */
 bool raycast_image(const struct raycast *rc, enum raycast_aov aov, float *out);
 
-/* Write the accumulated sums (through a temporary file and a rename), or take them up again. Loading refuses
- * a state of another scene, view or setting, and one that is cut short or damaged. On failure: false, one
- * line in `error`, and the tracer unchanged. */
-bool raycast_state_save(const struct raycast *rc, const char *path, char *error, size_t error_size);
+/* Write the accumulated sums; false when the stream fails. */
+bool raycast_state_write(const struct raycast *rc, FILE *file);
+
+/* Take such sums up again. A state of another scene, view or setting is refused, and so is one without
+ * samples, or one that is cut short or damaged. On failure: false, one line in `error`, and the tracer
+ * unchanged. */
 bool raycast_state_load(struct raycast *rc, const char *path, char *error, size_t error_size);
 
 /* Irradiance on a small one-sided plane at a point in free space. */

@@ -5,72 +5,59 @@
  */
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "internal.h"
 
+/* All of it but the checksum is hashed, so there is no padding. */
 struct state_header {
     char magic[8];
     uint64_t identity;
-    uint64_t checksum; /* of the sums */
+    uint64_t checksum; /* of the header, the samples of the tiles, and the sums */
     uint64_t rays, not_finite;
-    uint32_t samples, width, height, aovs;
+    uint32_t width, height, aovs, tile;
 };
 
-static const char magic[8] = { 'r', 'a', 'y', 'c', 's', 't', '0', '1' };
+_Static_assert(sizeof(struct state_header) == 56, "no padding");
+
+static const char magic[8] = { 'r', 'a', 'y', 'c', 's', 't', '0', '2' };
 
 static size_t plane_size(const struct film *f, uint32_t aov)
 {
     return f->sums[aov] != NULL ? film_pixel_count(f) * film_plane_channels(aov) : 0;
 }
 
-static uint64_t checksum(const struct film *f)
+static uint64_t checksum(struct state_header header, const struct film *f)
 {
-    uint64_t h = 0;
+    header.checksum = 0;
+    uint64_t h = raycast_hash_bytes(0, &header, sizeof(header));
+    h = raycast_hash_bytes(h, f->tile_samples, film_tile_count(f) * sizeof(*f->tile_samples));
     for (uint32_t aov = 0; aov < RAYCAST_AOV_COUNT; aov++)
         h = raycast_hash_bytes(h, f->sums[aov], plane_size(f, aov) * sizeof(double));
     return h;
 }
 
-static bool write_all(const struct raycast *rc, FILE *file)
+bool raycast_state_write(const struct raycast *rc, FILE *file)
 {
+    const struct film *f = &rc->film;
     struct state_header header = {
         .identity = rc->identity,
-        .checksum = checksum(&rc->film),
         .rays = rc->rays,
         .not_finite = rc->not_finite,
-        .samples = rc->film.samples,
-        .width = rc->film.width,
-        .height = rc->film.height,
+        .width = f->width,
+        .height = f->height,
         .aovs = rc->settings.aovs,
+        .tile = FILM_TILE,
     };
     memcpy(header.magic, magic, sizeof(magic));
-    bool ok = fwrite(&header, sizeof(header), 1, file) == 1;
+    header.checksum = checksum(header, f);
+    const size_t tiles = film_tile_count(f);
+    bool ok = fwrite(&header, sizeof(header), 1, file) == 1 &&
+              fwrite(f->tile_samples, sizeof(*f->tile_samples), tiles, file) == tiles;
     for (uint32_t aov = 0; ok && aov < RAYCAST_AOV_COUNT; aov++) {
-        const size_t size = plane_size(&rc->film, aov);
-        ok = size == 0 || fwrite(rc->film.sums[aov], sizeof(double), size, file) == size;
+        const size_t size = plane_size(f, aov);
+        ok = size == 0 || fwrite(f->sums[aov], sizeof(double), size, file) == size;
     }
-    return ok;
-}
-
-bool raycast_state_save(const struct raycast *rc, const char *path, char *error, size_t error_size)
-{
-    const size_t size = strlen(path) + sizeof(".part");
-    char *part = malloc(size);
-    if (part == NULL)
-        return raycast_fail(error, error_size, "%s: out of memory", path);
-    snprintf(part, size, "%s.part", path);
-    FILE *file = fopen(part, "wb");
-    bool ok = file != NULL && write_all(rc, file);
-    ok = (file == NULL || fclose(file) == 0) && ok;
-    ok = ok && rename(part, path) == 0;
-    if (!ok) {
-        raycast_fail(error, error_size, "%s: cannot be written: %s", path, strerror(errno));
-        if (file != NULL)
-            remove(part);
-    }
-    free(part);
     return ok;
 }
 
@@ -82,20 +69,23 @@ static bool header_check(const struct raycast *rc, const struct state_header *h,
     if (h->width != rc->film.width || h->height != rc->film.height)
         return raycast_fail(error, error_size, "%s: is of a picture of %ux%u, not %ux%u", path, h->width,
                             h->height, rc->film.width, rc->film.height);
-    if (h->identity != rc->identity || h->aovs != rc->settings.aovs)
+    if (h->identity != rc->identity || h->aovs != rc->settings.aovs || h->tile != FILM_TILE)
         return raycast_fail(error, error_size, "%s: belongs to another scene, view, seed or choice of AOVs",
                             path);
     return true;
 }
 
-static bool read_sums(struct film *f, const struct state_header *h, FILE *file)
+static bool read_film(struct film *f, const struct state_header *h, FILE *file)
 {
+    const size_t tiles = film_tile_count(f);
+    if (fread(f->tile_samples, sizeof(*f->tile_samples), tiles, file) != tiles)
+        return false;
     for (uint32_t aov = 0; aov < RAYCAST_AOV_COUNT; aov++) {
         const size_t size = plane_size(f, aov);
         if (size != 0 && fread(f->sums[aov], sizeof(double), size, file) != size)
             return false;
     }
-    return fgetc(file) == EOF && checksum(f) == h->checksum;
+    return fgetc(file) == EOF && checksum(*h, f) == h->checksum;
 }
 
 static bool read_state(struct raycast *rc, FILE *file, const char *path, char *error, size_t error_size)
@@ -108,13 +98,14 @@ static bool read_state(struct raycast *rc, FILE *file, const char *path, char *e
     struct film film;
     if (!raycast_film_init(&film, rc->film.width, rc->film.height, rc->settings.aovs))
         return raycast_fail(error, error_size, "%s: out of memory", path);
-    if (!read_sums(&film, &header, file)) {
+    const bool whole = read_film(&film, &header, file);
+    if (!whole || !(film_mean_samples(&film) > 0.0)) {
         raycast_film_finish(&film);
-        return raycast_fail(error, error_size, "%s: is damaged or cut short", path);
+        return raycast_fail(error, error_size, "%s: %s", path,
+                            whole ? "holds no samples" : "is damaged or cut short");
     }
     raycast_film_finish(&rc->film);
     rc->film = film;
-    rc->film.samples = header.samples;
     rc->rays = header.rays;
     rc->not_finite = header.not_finite;
     return true;

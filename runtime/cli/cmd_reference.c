@@ -5,17 +5,18 @@
 #include "reference_voxels.h"
 #include "run_options.h"
 #include "file/output_file.h"
+#include "file/stop.h"
 #include "image/image.h"
 #include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <modules/raycast/raycast.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-enum { AOV_NAME_BYTES = 32, DEFAULT_SPP = 64 };
+enum { AOV_NAME_BYTES = 32, DEFAULT_SPP = 64, PATH_BYTES = 4096 };
 
 static const double state_interval_s = 30;
 static const double degrees_per_radian = 57.29577951308232;
@@ -44,28 +45,17 @@ struct run {
     struct cli_progress bar;
     double saved_s; /* when the state was last written */
     bool saved;     /* by this run */
+    char spare_path[PATH_BYTES];
 };
-
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int number)
-{
-    (void)number;
-    interrupted = 1;
-}
 
 /* ---- Arguments -------------------------------------------------------------------------------------- */
 
-static bool check_output(const char *path)
+static bool check_format(const char *path)
 {
-    char error[CLI_ERROR_BYTES];
     const enum image_format format = image_format_from_path(path);
-    if (format == IMAGE_FORMAT_COUNT || format == IMAGE_PNG)
-        cli_error("reference: %s: expected a float format: .exr, .hdr or .pfm", path);
-    else if (!output_file_check(path, error, sizeof error))
-        cli_error("%s", error);
-    else
+    if (format != IMAGE_FORMAT_COUNT && format != IMAGE_PNG)
         return true;
+    cli_error("reference: %s: expected a float format: .exr, .hdr or .pfm", path);
     return false;
 }
 
@@ -76,8 +66,12 @@ static bool parse_aov(struct options *options, const char *pair)
     for (int aov = 0; path && aov < RAYCAST_AOV_COUNT; aov++) {
         if (strcmp(name, raycast_aov_name(aov)) != 0)
             continue;
+        if (options->aov_paths[aov]) {
+            cli_error("reference: --aov %s is given twice", name);
+            return false;
+        }
         options->aov_paths[aov] = path;
-        return check_output(path);
+        return check_format(path);
     }
     cli_error("reference: --aov is \"%s\", expected NAME=FILE with a name that sdfgi reference --help lists",
               pair);
@@ -100,16 +94,27 @@ static bool parse_geometry(struct options *options)
     return run_apply_settings("reference", &options->set, &options->settings);
 }
 
+static bool check_outputs(struct options *options)
+{
+    struct output_name names[CLI_LIST_MAX + 1] = { { options->out, "--out", NULL } };
+    if (!check_format(options->out))
+        return false;
+    for (uint32_t i = 0; i < options->aov.count; i++) {
+        const char *pair = options->aov.values[i];
+        if (!parse_aov(options, pair))
+            return false;
+        names[1 + i] = (struct output_name){ strchr(pair, '=') + 1, "--aov", pair };
+    }
+    return run_check_outputs(names, 1 + options->aov.count);
+}
+
 /* What the parser cannot know. */
 static bool options_finish(struct options *options)
 {
     if (!options->spp_given && (options->seconds > 0 || options->error > 0))
         options->spp = 0;
-    if (!parse_geometry(options) || !check_output(options->out))
+    if (!parse_geometry(options) || !check_outputs(options))
         return false;
-    for (uint32_t i = 0; i < options->aov.count; i++)
-        if (!parse_aov(options, options->aov.values[i]))
-            return false;
     const size_t bytes = strlen(options->out) + sizeof ".state";
     options->state_path = malloc(bytes);
     if (!options->state_path) {
@@ -124,10 +129,13 @@ static const char notes[] =
     "AOVs: radiance, emission, direct, diffuse_indirect, reflection, irradiance, normal, depth, albedo, and\n"
     "variance (of the mean, per channel). --spp counts from the start of the picture, --time from the start "
     "of\n"
-    "this run; whichever limit comes first ends it. An interrupted run keeps its samples in OUT.state, and "
-    "so\n"
-    "does every run with --resume; the same command with --resume goes on from there, to the same bits as a\n"
-    "run that was never interrupted.\n"
+    "this run; whichever limit comes first ends it. SIGINT and SIGTERM end it as well: the pictures show "
+    "the\n"
+    "samples there are, and the exit code is 128 + the signal's number. Such a run keeps its samples in\n"
+    "OUT.state, and so does one whose pictures cannot be written, one whose time did not do for a sample in\n"
+    "each pixel (no picture, exit code 1), and every run with --resume. The same command with --resume goes "
+    "on\n"
+    "from there, to the same bits as a run that was never stopped.\n"
     "--geometry voxels traces what the renderer's rays see: the set sub-voxels of its cascades, placed as "
     "for "
     "this\nview, with the albedo, emission and normals found there. The camera, and sun, point and spot "
@@ -303,14 +311,30 @@ static bool resume(struct run *run)
     return false;
 }
 
-static bool save_state(struct run *run)
+static bool save_state(struct run *run, const char *path)
 {
     char error[CLI_ERROR_BYTES];
+    struct output_file file;
     run->saved_s = cli_time_s();
-    if (raycast_state_save(run->raycast, run->options->state_path, error, sizeof error))
-        return run->saved = true;
-    cli_error("%s", error);
-    return false;
+    bool saved = output_file_begin(&file, path, error, sizeof error);
+    if (saved) {
+        raycast_state_write(run->raycast, file.stream); /* commit sees whether the stream failed */
+        saved = output_file_commit(&file, error, sizeof error);
+    }
+    if (!saved)
+        cli_error("%s", error);
+    return saved;
+}
+
+/* Saves to OUT.state, or where that cannot be written among the temporary files. Returns where, or NULL. */
+static const char *keep_state(struct run *run)
+{
+    const char *const temporary = getenv("TMPDIR"), *const path = run->options->state_path;
+    if (save_state(run, path))
+        return path;
+    snprintf(run->spare_path, sizeof run->spare_path, "%s/sdfgi.%ld.state", temporary ? temporary : "/tmp",
+             (long)getpid());
+    return save_state(run, run->spare_path) ? run->spare_path : NULL;
 }
 
 static bool on_progress(const struct raycast_progress *progress, void *user)
@@ -318,8 +342,14 @@ static bool on_progress(const struct raycast_progress *progress, void *user)
     struct run *const run = user;
     cli_progress_update(&run->bar, (uint64_t)(1000 * progress->fraction));
     if (cli_time_s() - run->saved_s > state_interval_s)
-        save_state(run);
-    return !interrupted;
+        run->saved |= save_state(run, run->options->state_path);
+    return true;
+}
+
+static bool stop_tracing(void *user)
+{
+    (void)user;
+    return stop_asked();
 }
 
 static bool write_image(const struct run *run, enum raycast_aov aov, const char *path)
@@ -366,26 +396,57 @@ static void print_summary(const struct run *run, const struct raycast_progress *
         printf("%llu samples were not finite and are left out\n", (unsigned long long)p->not_finite);
 }
 
+/* Says why a run ended before its limits or without all its pictures, and where its samples are. */
+static void print_end(const struct run *run, const struct raycast_progress *p, bool finished, bool written,
+                      const char *kept)
+{
+    const char *const usual = run->options->state_path;
+    const char *const pictures = written          ? "the pictures show them"
+                                 : p->samples > 0 ? "not all pictures could be written"
+                                                  : "too few for a picture";
+    char place[2 * PATH_BYTES] = "nothing is kept";
+    if (!kept && run->saved)
+        snprintf(place, sizeof place, "only the earlier samples in %s are kept", usual);
+    else if (kept)
+        snprintf(place, sizeof place, "--resume goes on from %s%s%s", kept,
+                 kept == usual ? "" : " once it is moved to ", kept == usual ? "" : usual);
+    cli_error("reference: %s%s after %.4g samples per pixel; %s; %s", finished ? "ended" : "stopped by ",
+              finished ? "" : stop_name(), p->mean_samples, pictures, place);
+}
+
+/* Keeps the state of a run that has more to do, or whose pictures cannot be written. */
+static int keep(struct run *run, const struct raycast_progress *last, bool finished)
+{
+    const struct options *const o = run->options;
+    const bool any = last->mean_samples > 0, whole = finished && last->samples > 0;
+    const char *kept = any && (!whole || o->resume) ? keep_state(run) : NULL;
+    const bool written = last->samples > 0 && write_images(run);
+    if (!written && any && !kept)
+        kept = keep_state(run);
+    const bool ok = whole && written && (!o->resume || kept == o->state_path);
+    if (!ok) {
+        print_end(run, last, finished, written, kept);
+        return finished ? CLI_EXIT_FAILURE : stop_exit_code();
+    }
+    if (run->saved && !o->resume)
+        remove(o->state_path);
+    print_summary(run, last);
+    return CLI_EXIT_OK;
+}
+
 static int trace(struct run *run)
 {
     const struct options *const o = run->options;
-    const struct raycast_budget budget = { .samples = o->spp, .seconds = o->seconds, .error = o->error };
+    const struct raycast_budget budget = {
+        .samples = o->spp, .seconds = o->seconds, .error = o->error, .stop = stop_tracing
+    };
     struct raycast_progress last;
     cli_progress_begin(&run->bar, "reference", 1000);
     run->saved_s = cli_time_s();
+    stop_keep();
     const bool finished = raycast_render(run->raycast, &budget, on_progress, run, &last);
     cli_progress_end(&run->bar);
-    if ((!finished || o->resume) && !save_state(run))
-        return CLI_EXIT_FAILURE;
-    if (!finished)
-        return cli_error("reference: interrupted after %u samples per pixel; --resume goes on from %s",
-                         last.samples, o->state_path);
-    if (!write_images(run))
-        return CLI_EXIT_FAILURE;
-    if (run->saved && !o->resume)
-        remove(o->state_path);
-    print_summary(run, &last);
-    return CLI_EXIT_OK;
+    return keep(run, &last, finished);
 }
 
 int cmd_reference(int argc, char **argv)
@@ -398,11 +459,8 @@ int cmd_reference(int argc, char **argv)
     int code = CLI_EXIT_FAILURE;
     if (!options_finish(&options))
         code = CLI_EXIT_USAGE;
-    else if (load_inputs(&run) && voxelize(&run) && create_tracer(&run) && resume(&run)) {
-        signal(SIGINT, on_interrupt);
-        signal(SIGTERM, on_interrupt);
+    else if (load_inputs(&run) && voxelize(&run) && create_tracer(&run) && resume(&run))
         code = trace(&run);
-    }
     raycast_destroy(run.raycast);
     reference_voxels_finish(&run.voxels);
     view_file_finish(&run.view);

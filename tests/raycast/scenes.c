@@ -164,6 +164,14 @@ struct raycast *tracer_create(const struct built_scene *s, const struct raycast_
     return rc;
 }
 
+void state_save(const struct raycast *rc, const char *path)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(raycast_state_write(rc, file));
+    assert_int_equal(fclose(file), 0);
+}
+
 double trace_mean(const struct built_scene *s, const struct raycast_view *v, uint32_t width, uint32_t height,
                   uint32_t spp, uint32_t max_bounces, enum raycast_aov aov)
 {

@@ -53,6 +53,9 @@ void view_set_sky(struct raycast_view *v, float radiance);
 struct raycast *tracer_create(const struct built_scene *s, const struct raycast_view *v,
                               const struct raycast_settings *settings);
 
+/* Writes the state to a file; failing that the test fails. */
+void state_save(const struct raycast *rc, const char *path);
+
 /* Trace `spp` samples into a picture of width x height and return the mean over all its channels. */
 double trace_mean(const struct built_scene *s, const struct raycast_view *v, uint32_t width, uint32_t height,
                   uint32_t spp, uint32_t max_bounces, enum raycast_aov aov);

@@ -104,7 +104,7 @@ static void interrupted_run_resumes_to_the_same_bits(void **state)
     uint32_t done = 0;
     assert_false(raycast_render(b, &(struct raycast_budget){ .samples = 20 }, stop_at_once, &done, NULL));
     assert_in_range(done, 1, 19);
-    assert_true(raycast_state_save(b, state_path(), error, sizeof error));
+    state_save(b, state_path());
     raycast_destroy(b);
     struct raycast *c = tracer_create(&s, &v, &small);
     assert_true(raycast_state_load(c, state_path(), error, sizeof error));
@@ -114,6 +114,65 @@ static void interrupted_run_resumes_to_the_same_bits(void **state)
     assert_memory_equal(variance[0], variance[1], sizeof variance[0]);
     raycast_destroy(a);
     raycast_destroy(c);
+    sdfgi_scene_finish(&s);
+}
+
+/* Has begun as many tiles as it is worth, and then asks for an end. */
+static bool stop_after(void *user)
+{
+    uint32_t *left = user;
+    return *left == 0 || --*left == 0;
+}
+
+/* In the middle of a pass: tiles to the left and above have a sample more than the others. */
+static struct raycast_progress stop_inside(struct raycast *rc, uint32_t tiles)
+{
+    struct raycast_progress p;
+    const struct raycast_budget budget = { .samples = 4, .stop = stop_after };
+    assert_false(raycast_render(rc, &budget, NULL, &tiles, &p));
+    assert_true(p.mean_samples > p.samples && p.mean_samples < p.samples + 1);
+    return p;
+}
+
+static void run_stopped_inside_a_pass_resumes_to_the_same_bits(void **state)
+{
+    (void)state;
+    float whole[VALUES], resumed[VALUES];
+    char error[ERROR_BYTES] = "";
+    struct built_scene s;
+    struct raycast_settings settings = small;
+    settings.threads = 1;
+    const struct raycast_view v = scene_make(&s, 0);
+    render_whole(0, settings, 4, whole);
+    struct raycast *a = tracer_create(&s, &v, &settings), *b = tracer_create(&s, &v, &settings);
+    assert_int_equal(stop_inside(a, 4).samples, 0);
+    assert_false(raycast_image(a, RAYCAST_AOV_RADIANCE, resumed));
+    state_save(a, state_path());
+    assert_true(raycast_state_load(b, state_path(), error, sizeof error));
+    render(b, 4, resumed);
+    assert_memory_equal(whole, resumed, sizeof whole);
+    raycast_destroy(a);
+    raycast_destroy(b);
+    sdfgi_scene_finish(&s);
+}
+
+/* Each tile's sums are shared among its own samples. */
+static void run_stopped_inside_a_pass_is_as_bright(void **state)
+{
+    (void)state;
+    float picture[VALUES];
+    struct built_scene s;
+    struct raycast_settings settings = small;
+    settings.threads = 1;
+    sdfgi_scene_init(&s);
+    struct raycast_view v = view_make((double[]){ 0, 0, 0 }, (double[]){ 0, 0, -1 }, 60);
+    view_set_sky(&v, 0.25f);
+    struct raycast *rc = tracer_create(&s, &v, &settings);
+    assert_int_equal(stop_inside(rc, 12).samples, 1);
+    assert_true(raycast_image(rc, RAYCAST_AOV_RADIANCE, picture));
+    for (int i = 0; i < VALUES; i++)
+        assert_ratio((double)picture[i], 0.25, 1e-6);
+    raycast_destroy(rc);
     sdfgi_scene_finish(&s);
 }
 
@@ -138,13 +197,12 @@ static void refuses(const struct raycast_view *v, const struct built_scene *s,
 static void states_of_other_pictures_are_refused(void **state)
 {
     (void)state;
-    char error[ERROR_BYTES] = "";
     float picture[VALUES];
     struct built_scene s;
     struct raycast_view v = scene_make(&s, 0);
     struct raycast *rc = tracer_create(&s, &v, &small);
     render(rc, 2, picture);
-    assert_true(raycast_state_save(rc, state_path(), error, sizeof error));
+    state_save(rc, state_path());
     raycast_destroy(rc);
     struct raycast_settings settings = small;
     settings.seed = 6;
@@ -177,6 +235,45 @@ static void states_of_other_pictures_are_refused(void **state)
     sdfgi_scene_finish(&s);
 }
 
+static void flip_byte(const char *path, long at)
+{
+    FILE *file = fopen(path, "r+b");
+    fseek(file, at, SEEK_SET);
+    const int byte = fgetc(file);
+    fseek(file, at, SEEK_SET);
+    fputc(byte ^ 4, file);
+    fclose(file);
+}
+
+/* Counts of samples and rays as much as sums: with a wrong count the picture would be too bright or too dark.
+ */
+static void states_with_any_other_byte_before_their_sums_are_refused(void **state)
+{
+    (void)state;
+    enum { HEADER = 56, TILES = 6 };
+    char error[ERROR_BYTES] = "";
+    float picture[VALUES];
+    struct built_scene s;
+    const struct raycast_view v = scene_make(&s, 0);
+    struct raycast *rc = tracer_create(&s, &v, &small);
+    render(rc, 2, picture);
+    state_save(rc, state_path());
+    for (long at = 0; at < HEADER + 4 * TILES; at++) {
+        flip_byte(state_path(), at);
+        if (raycast_state_load(rc, state_path(), error, sizeof error))
+            fail_msg("byte %ld is not looked at", at);
+        flip_byte(state_path(), at);
+    }
+    assert_true(raycast_state_load(rc, state_path(), error, sizeof error));
+    raycast_destroy(rc);
+    rc = tracer_create(&s, &v, &small);
+    state_save(rc, state_path());
+    assert_false(raycast_state_load(rc, state_path(), error, sizeof error));
+    assert_non_null(strstr(error, "no samples"));
+    raycast_destroy(rc);
+    sdfgi_scene_finish(&s);
+}
+
 static void unwritable_states_are_reported(void **state)
 {
     (void)state;
@@ -184,8 +281,11 @@ static void unwritable_states_are_reported(void **state)
     struct built_scene s;
     const struct raycast_view v = scene_make(&s, 0);
     struct raycast *rc = tracer_create(&s, &v, &small);
-    assert_false(raycast_state_save(rc, "/nonexistent/a.state", error, sizeof error));
-    assert_non_null(strstr(error, "/nonexistent/a.state"));
+    FILE *full = fopen("/dev/full", "wb");
+    if (full) {
+        assert_false(raycast_state_write(rc, full));
+        fclose(full);
+    }
     assert_false(raycast_state_load(rc, "/nonexistent/a.state", error, sizeof error));
     raycast_destroy(rc);
     sdfgi_scene_finish(&s);
@@ -204,6 +304,21 @@ static void runs_stop_at_their_limits(void **state)
     assert_true(raycast_render(rc, &(struct raycast_budget){ .seconds = 0.2 }, NULL, NULL, &p));
     assert_true(p.samples > before && p.seconds >= 0.2 && p.seconds < 3);
     assert_true(p.rays >= (uint64_t)(p.samples - before) * WIDTH * HEIGHT);
+    raycast_destroy(rc);
+    sdfgi_scene_finish(&s);
+}
+
+/* One sample of each of these pixels would take many seconds. */
+static void time_is_kept_inside_a_pass(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    const struct raycast_view v = scene_make(&s, 0);
+    const struct raycast_settings settings = { .width = 4096, .height = 4096 };
+    struct raycast_progress p;
+    struct raycast *rc = tracer_create(&s, &v, &settings);
+    assert_true(raycast_render(rc, &(struct raycast_budget){ .seconds = 0.1 }, NULL, NULL, &p));
+    assert_true(p.seconds >= 0.1 && p.seconds < 1 && p.mean_samples > 0);
     raycast_destroy(rc);
     sdfgi_scene_finish(&s);
 }
@@ -300,9 +415,13 @@ int main(void)
         cmocka_unit_test(threads_do_not_change_a_bit),
         cmocka_unit_test(a_million_metres_away_looks_the_same),
         cmocka_unit_test(interrupted_run_resumes_to_the_same_bits),
+        cmocka_unit_test(run_stopped_inside_a_pass_resumes_to_the_same_bits),
+        cmocka_unit_test(run_stopped_inside_a_pass_is_as_bright),
         cmocka_unit_test(states_of_other_pictures_are_refused),
+        cmocka_unit_test(states_with_any_other_byte_before_their_sums_are_refused),
         cmocka_unit_test(unwritable_states_are_reported),
         cmocka_unit_test(runs_stop_at_their_limits),
+        cmocka_unit_test(time_is_kept_inside_a_pass),
         cmocka_unit_test(variance_predicts_the_spread_of_seeds),
         cmocka_unit_test(wrong_views_are_refused_by_name),
         cmocka_unit_test(an_empty_scene_is_its_sky),

@@ -275,7 +275,7 @@ static void volumes_are_part_of_a_picture(void **state)
     const struct raycast_settings settings = { .width = 8, .height = 8, .voxels = &v.voxels };
     struct raycast *a = tracer_create(&s, &view, &settings);
     assert_true(raycast_render(a, &(struct raycast_budget){ .samples = 2 }, NULL, NULL, NULL));
-    assert_true(raycast_state_save(a, files_path("picture.state"), error, sizeof error));
+    state_save(a, files_path("picture.state"));
     assert_true(raycast_state_load(a, files_path("picture.state"), error, sizeof error));
     raycast_destroy(a);
     v.bits[0][5]++;

@@ -112,6 +112,8 @@ static void bad_input_gives_one_line_and_no_file(void **state)
         { "info --set cascades=9", "sdfgi_cascades" },
         { "properties --xml --json", "--xml" },
 #ifdef SDFGI_WITH_RAYCAST
+        { "reference none.glb --out a.exr --aov normal=./a.exr", "--out and --aov normal=./a.exr" },
+        { "reference none.glb --out a.exr --aov normal=b.exr --aov normal=c.exr", "normal is given twice" },
         { "reference none.glb --out a.exr --geometry cubes", "cubes" },
         { "reference none.glb --out a.exr --set cascades=2", "--set" },
         { "reference none.glb --out a.exr --device 0", "--device" },

@@ -153,6 +153,64 @@ static void a_walk_keeps_its_frames(void **state)
     assert_int_equal(files_count(), 1);
 }
 
+#ifdef SDFGI_WITH_RAYCAST
+
+static void a_reference_keeps_picture_and_samples(void **state)
+{
+    (void)state;
+    static const int signals[] = { SIGINT, SIGTERM };
+    for (int i = 0; i < 2; i++) {
+        stop_at_work("reference tiny.gltf --size 64x64 --spp 100000000 --out a.exr", 0.2, signals[i]);
+        run_in_folder("test -s a.exr && test -s a.exr.state && rm a.exr");
+    }
+    char command[512];
+    snprintf(command, sizeof command,
+             "'%s' reference tiny.gltf --size 64x64 --spp 2 --resume --out a.exr >/dev/null", program);
+    run_in_folder(command);
+    run_in_folder("rm a.exr a.exr.state");
+    assert_int_equal(files_count(), 1);
+}
+
+/* Spoils the place of the picture while the program works, and returns what that said. */
+static struct run spoil(const char *out, const char *command)
+{
+    struct run run;
+    double delay_s = 0.15;
+    do {
+        char arguments[128];
+        int status;
+        snprintf(arguments, sizeof arguments, "reference tiny.gltf --size 64x64 --time %.2f --out %s",
+                 3 * delay_s, out);
+        run_in_folder("mkdir -p gone");
+        const pid_t child = start(arguments);
+        sleep_s(delay_s);
+        run_in_folder(command);
+        waitpid(child, &status, 0);
+        run.code = WEXITSTATUS(status);
+        files_take_text("err.txt", run.err, sizeof run.err);
+        delay_s *= 2;
+    } while (!strstr(run.err, "samples per pixel") && delay_s < longest_delay_s);
+    assert_int_equal(run.code, 1);
+    assert_non_null(strstr(run.err, "not all pictures could be written; --resume goes on from"));
+    remove(files_path("out.txt"));
+    return run;
+}
+
+static void samples_outlive_a_picture_that_cannot_be_written(void **state)
+{
+    (void)state;
+    setenv("TMPDIR", files_path(""), 1);
+    struct run run = spoil("a.exr", "rmdir gone && mkdir a.exr");
+    assert_non_null(strstr(run.err, "goes on from a.exr.state\n"));
+    run_in_folder("rmdir a.exr && rm a.exr.state");
+    run = spoil("gone/a.exr", "rm -r gone");
+    assert_non_null(strstr(run.err, ".state once it is moved to gone/a.exr.state\n"));
+    run_in_folder("rm sdfgi.*.state");
+    assert_int_equal(files_count(), 1);
+}
+
+#endif
+
 static int make_scene(void **state)
 {
     if (files_setup(state))
@@ -187,6 +245,10 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_run_without_results_ends_at_once),
         cmocka_unit_test(a_picture_shows_the_light_that_there_was),
         cmocka_unit_test(a_walk_keeps_its_frames),
+#ifdef SDFGI_WITH_RAYCAST
+        cmocka_unit_test(a_reference_keeps_picture_and_samples),
+        cmocka_unit_test(samples_outlive_a_picture_that_cannot_be_written),
+#endif
     };
     return cmocka_run_group_tests(tests, make_scene, remove_files);
 }
