@@ -228,10 +228,14 @@ static bool write_outputs(const struct walk_result *result, const struct outputs
         cli_error("%s", error);
         return false;
     }
+    const enum walk_plot_result plot =
+        walk_plot_write(&result->record, &result->summary, outputs->plot, error, sizeof error);
     /* Pictures and report are worth keeping where there is no gnuplot. */
-    if (!walk_plot_write(&result->record, &result->summary, outputs->plot, error, sizeof error))
+    if (plot == WALK_PLOT_NO_GNUPLOT)
         fprintf(stderr, "sdfgi: warning: %s\n", error);
-    return true;
+    else if (plot == WALK_PLOT_NOT_WRITTEN)
+        cli_error("%s", error);
+    return plot != WALK_PLOT_NOT_WRITTEN;
 }
 
 static void print_summary(const struct walk_result *result, const char *out)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The plot of a walk. gnuplot reads its script, data included, from a file without a name and writes into
- * ours: no name of a file has to survive its quoting. */
+ * another: no name of a file has to survive its quoting. It leaves with 0 where a full disk cut its plot
+ * short, so the plot is looked at before it is copied to its place. */
 #include "walk_report.h"
 #include "file/output_file.h"
 
@@ -21,6 +22,8 @@ enum { FIRST_PASS_COLUMN = 4 };
 
 /* gnuplot has so many before it begins again. */
 enum { COLORS = 8 };
+
+enum { COPY_BYTES = 1 << 14 };
 
 static bool pass_ever_ran(const struct walk_record *record, uint32_t pass)
 {
@@ -155,32 +158,86 @@ static int run_gnuplot(FILE *script, FILE *picture)
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : -1;
 }
 
-static bool plot(FILE *script, const char *path, char *error, size_t error_size)
+static enum walk_plot_result draw(FILE *script, FILE *plot, const char *path, char *error, size_t error_size)
 {
-    struct output_file file;
-    if (!output_file_begin(&file, path, error, error_size))
-        return false;
-    const int failure = run_gnuplot(script, file.stream);
+    const int failure = run_gnuplot(script, plot);
     if (!failure)
-        return output_file_commit(&file, error, error_size);
-    output_file_cancel(&file);
-    return base_text_error(error, error_size, "%s: no plot: gnuplot %s", path,
-                           failure == ENOENT ? "is not installed"
-                           : failure > 0     ? strerror(failure)
-                                             : "failed");
+        return WALK_PLOT_WRITTEN;
+    base_text_error(error, error_size, "%s: no plot: gnuplot %s", path,
+                    failure == ENOENT ? "is not installed"
+                    : failure > 0     ? strerror(failure)
+                                      : "failed");
+    return WALK_PLOT_NO_GNUPLOT;
 }
 
-bool walk_plot_write(const struct walk_record *record, const struct walk_summary *summary, const char *path,
-                     char *error, size_t error_size)
+/* ---- Its place -------------------------------------------------------------------------------------- */
+
+static bool is_whole(FILE *plot)
 {
-    FILE *script = tmpfile();
-    if (!script)
-        return base_text_error(error, error_size, "%s: no temporary file: %s", path, strerror(errno));
-    print_script(script, record, summary);
-    const bool printed = fflush(script) == 0 && !ferror(script) && fseek(script, 0, SEEK_SET) == 0;
-    const bool plotted =
-        printed ? plot(script, path, error, error_size)
-                : base_text_error(error, error_size, "%s: no temporary file: %s", path, strerror(errno));
-    fclose(script);
-    return plotted;
+    static const char end[] = "</svg>";
+    char tail[32];
+    if (fseek(plot, 0, SEEK_END) != 0 || ftell(plot) < (long)sizeof tail ||
+        fseek(plot, -(long)sizeof tail + 1, SEEK_END) != 0)
+        return false;
+    tail[fread(tail, 1, sizeof tail - 1, plot)] = '\0';
+    const char *const found = strstr(tail, end);
+    return found && strspn(found + strlen(end), "\r\n") == strlen(found + strlen(end));
+}
+
+static bool copy(FILE *from, FILE *to)
+{
+    char bytes[COPY_BYTES];
+    size_t size;
+    rewind(from);
+    while ((size = fread(bytes, 1, sizeof bytes, from)) > 0)
+        if (fwrite(bytes, 1, size, to) != size)
+            return false;
+    return !ferror(from);
+}
+
+static bool put_in_place(FILE *plot, const char *path, char *error, size_t error_size)
+{
+    struct output_file file;
+    if (!is_whole(plot))
+        return base_text_error(error, error_size,
+                               "%s: gnuplot's plot is cut short: is there disk space for "
+                               "temporary files?",
+                               path);
+    if (!output_file_begin(&file, path, error, error_size))
+        return false;
+    if (copy(plot, file.stream) || ferror(file.stream))
+        return output_file_commit(&file, error, error_size);
+    output_file_cancel(&file);
+    return base_text_error(error, error_size, "%s: gnuplot's plot cannot be read", path);
+}
+
+static enum walk_plot_result write_plot(FILE *script, FILE *plot, const char *path, char *error,
+                                        size_t error_size)
+{
+    enum walk_plot_result result = WALK_PLOT_NOT_WRITTEN;
+    if (fflush(script) == 0 && !ferror(script) && fseek(script, 0, SEEK_SET) == 0)
+        result = draw(script, plot, path, error, error_size);
+    else
+        base_text_error(error, error_size, "%s: no temporary file: %s", path, strerror(errno));
+    if (result == WALK_PLOT_WRITTEN && !put_in_place(plot, path, error, error_size))
+        result = WALK_PLOT_NOT_WRITTEN;
+    return result;
+}
+
+enum walk_plot_result walk_plot_write(const struct walk_record *record, const struct walk_summary *summary,
+                                      const char *path, char *error, size_t error_size)
+{
+    enum walk_plot_result result = WALK_PLOT_NOT_WRITTEN;
+    FILE *const script = tmpfile(), *const plot = tmpfile();
+    if (script && plot) {
+        print_script(script, record, summary);
+        result = write_plot(script, plot, path, error, error_size);
+    } else {
+        base_text_error(error, error_size, "%s: no temporary file: %s", path, strerror(errno));
+    }
+    if (script)
+        fclose(script);
+    if (plot)
+        fclose(plot);
+    return result;
 }

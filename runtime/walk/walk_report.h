@@ -23,9 +23,15 @@ cJSON *walk_report_to_json(const struct walk_record *record, const struct walk_s
 bool walk_report_write(const struct walk_record *record, const struct walk_summary *summary, const char *path,
                        char *error, size_t error_size);
 
-/* Plots times, work and light over the frames into an SVG at `path`, through gnuplot. On failure, also where
- * gnuplot is not installed, returns false and one line in `error`; no file is left then. */
-bool walk_plot_write(const struct walk_record *record, const struct walk_summary *summary, const char *path,
-                     char *error, size_t error_size);
+enum walk_plot_result {
+    WALK_PLOT_WRITTEN,
+    WALK_PLOT_NO_GNUPLOT, /* it is not installed, or failed */
+    WALK_PLOT_NOT_WRITTEN,
+};
+
+/* Plots times, work and light over the frames into an SVG at `path`, through gnuplot. Where it does not write
+ * the file, it leaves the one that is there, and one line in `error`. */
+enum walk_plot_result walk_plot_write(const struct walk_record *record, const struct walk_summary *summary,
+                                      const char *path, char *error, size_t error_size);
 
 #endif

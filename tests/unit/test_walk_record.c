@@ -7,9 +7,11 @@
 #include "walk/walk_sheet.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 /* The library's own lives beside its Vulkan code, which a unit test does without. */
 const char *sdfgi_memory_category_name(enum sdfgi_memory_category category)
@@ -189,7 +191,7 @@ static void the_plot_has_every_series(void **state)
         skip();
     fill();
     const struct walk_summary summary = summary_of();
-    if (!walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error))
+    if (walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error) != WALK_PLOT_WRITTEN)
         fail_msg("%s", error);
     files_take_text("walk.svg", text, sizeof text);
     static const char *const expected[] = {
@@ -209,11 +211,36 @@ static void without_gnuplot_there_is_a_message_and_no_file(void **state)
     const struct walk_summary summary = summary_of();
     char *programs = getenv("PATH") ? strdup(getenv("PATH")) : NULL;
     setenv("PATH", "/nonexistent", 1);
-    assert_false(walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error));
+    assert_int_equal(walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error),
+                     WALK_PLOT_NO_GNUPLOT);
     if (programs)
         setenv("PATH", programs, 1);
     free(programs);
     assert_non_null(strstr(error, "gnuplot is not installed"));
+    assert_int_equal(files_count(), 0);
+    walk_record_finish(&record);
+}
+
+/* gnuplot leaves with 0 then. A limit on the size of files stands for a full disk. */
+static void a_plot_that_is_cut_short_is_no_plot(void **state)
+{
+    (void)state;
+    char error[300];
+    if (system("gnuplot --version >/dev/null 2>&1") != 0)
+        skip();
+    fill();
+    const struct walk_summary summary = summary_of();
+    struct rlimit before;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const struct rlimit small = { 16384, before.rlim_max };
+    void (*const handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const enum walk_plot_result result =
+        walk_plot_write(&record, &summary, files_path("walk.svg"), error, sizeof error);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    signal(SIGXFSZ, handler);
+    assert_int_equal(result, WALK_PLOT_NOT_WRITTEN);
+    assert_non_null(strstr(error, "cut short"));
     assert_int_equal(files_count(), 0);
     walk_record_finish(&record);
 }
@@ -267,6 +294,7 @@ int main(void)
         cmocka_unit_test(the_report_says_what_every_frame_did),
         cmocka_unit_test(the_plot_has_every_series),
         cmocka_unit_test(without_gnuplot_there_is_a_message_and_no_file),
+        cmocka_unit_test(a_plot_that_is_cut_short_is_no_plot),
         cmocka_unit_test(every_picture_has_its_place_on_the_sheet),
         cmocka_unit_test(a_sliver_of_a_picture_fits_a_sheet),
     };
