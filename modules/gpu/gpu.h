@@ -96,7 +96,7 @@ struct gpu_device {
     VkPhysicalDeviceLimits limits;
     VkQueueFlags queue_flags; /* of the queue family; 0: there is no such family */
     uint32_t timestamp_bits;  /* of it; 0: no timestamps */
-    bool is_cpu;             /* a software driver: few threads run at once */
+    bool is_cpu;              /* a software driver: few threads run at once */
 };
 
 /* Loads functions of an instance; false if one is missing. */
@@ -238,10 +238,10 @@ VkResult gpu_timer_init(const struct gpu_device *device, struct gpu_timer *timer
                         uint32_t *tags, uint32_t *counts);
 void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer);
 
-/* Reads the spans last recorded in `slot`, whose frame must be over. Returns how many were written to
- * `spans`. */
-uint32_t gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
-                        struct gpu_timer_span spans[GPU_TIMER_SPANS]);
+/* Reads the spans last recorded in `slot`, whose frame must be over. `*count` says how many were written to
+ * `spans`: none on failure, and none where the device has no times. */
+VkResult gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
+                        struct gpu_timer_span spans[GPU_TIMER_SPANS], uint32_t *count);
 
 /* Starts recording into `slot`, forgetting what it held. */
 void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot);

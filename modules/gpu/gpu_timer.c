@@ -25,26 +25,28 @@ void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer)
     timer->pool = VK_NULL_HANDLE;
 }
 
-uint32_t gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
-                        struct gpu_timer_span spans[GPU_TIMER_SPANS])
+VkResult gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
+                        struct gpu_timer_span spans[GPU_TIMER_SPANS], uint32_t *count)
 {
-    const uint32_t count = timer->counts[slot];
-    if (!timer->pool || count == 0)
-        return 0;
+    const uint32_t recorded = timer->counts[slot];
+    *count = 0;
+    if (!timer->pool || recorded == 0)
+        return VK_SUCCESS;
     uint64_t ticks[GPU_TIMER_SPANS * 2];
     const VkResult result = device->fn.GetQueryPoolResults(
-        device->handle, timer->pool, slot * GPU_TIMER_SPANS * 2, count * 2, count * 2 * sizeof *ticks, ticks,
-        sizeof *ticks, VK_QUERY_RESULT_64_BIT);
+        device->handle, timer->pool, slot * GPU_TIMER_SPANS * 2, recorded * 2, recorded * 2 * sizeof *ticks,
+        ticks, sizeof *ticks, VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS)
-        return 0;
+        return result == VK_NOT_READY ? VK_SUCCESS : result;
     const uint64_t mask =
         device->timestamp_bits >= 64 ? UINT64_MAX : (UINT64_C(1) << device->timestamp_bits) - 1;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < recorded; i++) {
         const uint64_t span = (ticks[2 * i + 1] - ticks[2 * i]) & mask;
         spans[i].tag = timer->tags[slot * GPU_TIMER_SPANS + i];
         spans[i].ns = (uint64_t)((double)span * (double)device->limits.timestampPeriod);
     }
-    return count;
+    *count = recorded;
+    return VK_SUCCESS;
 }
 
 void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot)

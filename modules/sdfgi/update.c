@@ -51,15 +51,20 @@ static void report_frame(struct sdfgi *gi)
 }
 
 /* Takes in what the frame found out that used this slot before. */
-static void read_back(struct sdfgi *gi, uint32_t slot)
+static enum sdfgi_result read_back(struct sdfgi *gi, uint32_t slot)
 {
-    if (sdfgi_volume_read_back(&gi->volume, slot))
-        return;
+    bool has_run;
+    const VkResult result = sdfgi_volume_read_back(&gi->volume, slot, &has_run);
+    if (result == VK_ERROR_DEVICE_LOST) /* times that cannot be read for another reason can be done without */
+        return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_update");
+    if (has_run)
+        return SDFGI_OK;
     gi->updates_lost++;
     sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_UPDATE_LOST,
                       "sdfgi_update: an update was recorded %u updates ago and has not run: all is made anew",
                       (unsigned)gi->backend.retired.frames_in_flight);
     sdfgi_volume_forget(&gi->volume, &gi->settings);
+    return SDFGI_OK;
 }
 
 enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc)
@@ -84,7 +89,9 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 
     /* Take in what an earlier frame found out. */
     const uint32_t slot = sdfgi_backend_slot(&gi->backend);
-    read_back(gi, slot);
+    const enum sdfgi_result read = read_back(gi, slot);
+    if (read != SDFGI_OK)
+        return read;
     sdfgi_volume_make_room(&gi->volume);
     sdfgi_volume_add_emitters(&gi->volume, gi->scene.emissive > 0);
 

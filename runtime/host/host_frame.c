@@ -17,20 +17,23 @@ static uint64_t span_ns(const struct host_device *device, const uint64_t *stamps
     return (uint64_t)((double)ticks * (double)device->limits.timestampPeriod);
 }
 
-static void timestamps_read(struct host_renderer *renderer, const struct host_slot *slot)
+static bool timestamps_read(struct host_renderer *renderer, const struct host_slot *slot)
 {
     struct host_device *device = renderer->device;
     uint64_t stamps[HOST_STAMP_COUNT];
-    if (!renderer->queries ||
-        vkGetQueryPoolResults(device->device, renderer->queries,
-                              HOST_STAMP_COUNT * slot_index(renderer, slot), HOST_STAMP_COUNT, sizeof(stamps),
-                              stamps, sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
-        return;
+    if (!renderer->queries)
+        return true;
+    const VkResult result = vkGetQueryPoolResults(
+        device->device, renderer->queries, HOST_STAMP_COUNT * slot_index(renderer, slot), HOST_STAMP_COUNT,
+        sizeof(stamps), stamps, sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT);
+    if (result != VK_SUCCESS)
+        return host_check(device, result, "reading times"); /* not ready is no failure */
     renderer->times = (struct host_times){
         .frame_ns = span_ns(device, stamps, HOST_STAMP_BEGIN, HOST_STAMP_END),
         .update_ns = span_ns(device, stamps, HOST_STAMP_BEGIN, HOST_STAMP_UPDATED),
         .shadow_ns = span_ns(device, stamps, HOST_STAMP_UPDATED, HOST_STAMP_SHADOWED),
     };
+    return true;
 }
 
 static void stamp(const struct host_renderer *renderer, const struct host_slot *slot, enum host_stamp which)
@@ -52,8 +55,7 @@ bool host_slot_wait(struct host_renderer *renderer, struct host_slot *slot)
         !host_check(device, vkResetFences(device->device, 1, &slot->fence), "resetting a fence"))
         return false;
     slot->in_flight = false;
-    timestamps_read(renderer, slot);
-    return true;
+    return timestamps_read(renderer, slot);
 }
 
 /* Oldest first, so that the newest frame's time is what remains. */

@@ -9,7 +9,7 @@
 
 static uint32_t calls, failing_call;
 static VkResult failure;
-static bool skip_shaders;
+static bool skip_shaders, lose_device;
 
 void failing_vulkan_reset(uint32_t fail_at, VkResult result)
 {
@@ -26,6 +26,11 @@ uint32_t failing_vulkan_calls(void)
 void failing_vulkan_skip_shaders(bool skip)
 {
     skip_shaders = skip;
+}
+
+void failing_vulkan_lose_device(bool lose)
+{
+    lose_device = lose;
 }
 
 static bool fails(void)
@@ -118,6 +123,14 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_empty_pipeline(VkDevice device, VkP
     return result;
 }
 
+static VKAPI_ATTR VkResult VKAPI_CALL lose_query_results(VkDevice device, VkQueryPool pool, uint32_t first,
+                                                         uint32_t count, size_t size, void *data,
+                                                         VkDeviceSize stride, VkQueryResultFlags flags)
+{
+    return lose_device ? VK_ERROR_DEVICE_LOST
+                       : vkGetQueryPoolResults(device, pool, first, count, size, data, stride, flags);
+}
+
 static PFN_vkVoidFunction real_function(VkDevice device, const char *name)
 {
     if (skip_shaders && strcmp(name, "vkCreateComputePipelines") == 0)
@@ -134,6 +147,8 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice de
     }
     FALLIBLE(CHOOSE)
 #undef CHOOSE
+    if (strcmp(name, "vkGetQueryPoolResults") == 0)
+        return (PFN_vkVoidFunction)lose_query_results;
     return vkGetDeviceProcAddr(device, name);
 }
 

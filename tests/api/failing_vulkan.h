@@ -13,6 +13,9 @@
 void failing_vulkan_reset(uint32_t fail_at, VkResult result);
 uint32_t failing_vulkan_calls(void);
 
+/* Whether contexts find their device lost when they read times. */
+void failing_vulkan_lose_device(bool lose);
+
 /* Contexts created from then on get pipelines of an empty shader: they take a hundredth of the time. */
 void failing_vulkan_skip_shaders(bool skip);
 

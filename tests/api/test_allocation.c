@@ -439,6 +439,24 @@ static void no_failure_to_make_a_view_is_fatal(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
+static void a_device_lost_while_times_are_read_is_noticed(void **state)
+{
+    (void)state;
+    const struct sdfgi_frame_desc frame = { 0 };
+    struct counting counting = { 0 };
+    sdfgi *gi = create_on(&counting);
+    add_a_triangle(gi);
+    update_twice(gi);
+    memset(messages, 0, sizeof messages);
+    failing_vulkan_lose_device(true);
+    REQUIRE_CMP((int)sdfgi_update(gi, unused_commands, &frame), ==, (int)SDFGI_ERROR_DEVICE_LOST);
+    failing_vulkan_lose_device(false);
+    REQUIRE_CMP(messages[SDFGI_MESSAGE_DEVICE_LOST], ==, 1u);
+    REQUIRE_CMP((int)sdfgi_update(gi, unused_commands, &frame), ==, (int)SDFGI_ERROR_DEVICE_LOST);
+    sdfgi_destroy(gi);
+    REQUIRE_CMP(counting.live, ==, 0);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -452,6 +470,7 @@ int main(void)
         cmocka_unit_test_setup(no_failure_while_the_light_list_grows_is_fatal, keep_shaders),
         cmocka_unit_test_setup(no_failure_to_make_a_late_pipeline_is_fatal, keep_shaders),
         cmocka_unit_test(no_failure_to_make_a_view_is_fatal),
+        cmocka_unit_test(a_device_lost_while_times_are_read_is_noticed),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

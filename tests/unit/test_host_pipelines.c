@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * A start makes no pipeline that it does not need: software drivers take a third of a second for each that
  * has GI's lookup in it. vkCreateGraphicsPipelines is defined here, stands before the loader's, and counts.
- */
+ * vkGetQueryPoolResults stands before the loader's as well, and can lose the device. */
 #include "files.h"
 #include "unit.h"
 
@@ -16,6 +16,7 @@ enum { SKIP = 77 };
 
 static struct host_device *device;
 static int forward_count; /* of pipelines that shade geometry */
+static bool lose_device;
 
 VKAPI_ATTR VkResult VKAPI_CALL vkCreateGraphicsPipelines(VkDevice handle, VkPipelineCache cache,
                                                          uint32_t count,
@@ -30,6 +31,15 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateGraphicsPipelines(VkDevice handle, VkPipe
                      info->pColorBlendState->attachmentCount > 0 &&
                      !info->pDepthStencilState->depthWriteEnable;
     return create(handle, cache, count, info, callbacks, pipeline);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkGetQueryPoolResults(VkDevice handle, VkQueryPool pool, uint32_t first,
+                                                     uint32_t count, size_t size, void *data,
+                                                     VkDeviceSize stride, VkQueryResultFlags flags)
+{
+    const PFN_vkGetQueryPoolResults get =
+        (PFN_vkGetQueryPoolResults)vkGetDeviceProcAddr(handle, "vkGetQueryPoolResults");
+    return lose_device ? VK_ERROR_DEVICE_LOST : get(handle, pool, first, count, size, data, stride, flags);
 }
 
 /* A triangle of each of the materials, which are JSON objects separated by commas. */
@@ -155,6 +165,22 @@ static void gathered_light_needs_as_many_pipelines(void **state)
     stage_close(&stage);
 }
 
+static void a_device_lost_while_times_are_read_is_noticed(void **state)
+{
+    (void)state;
+    struct stage stage;
+    stage_open(&stage, "{}", 1, HOST_LOOKUP_FORWARD);
+    const struct host_until_desc two = { .frames = 2 };
+    stage.settings.enabled = false;
+    assert_true(host_renderer_set_settings(stage.renderer, &stage.settings));
+    assert_true(host_render_until(stage.renderer, &view.camera, &two, NULL));
+    lose_device = true;
+    assert_false(host_render_until(stage.renderer, &view.camera, &two, NULL));
+    lose_device = false;
+    assert_non_null(strstr(host_device_error(device), "lost"));
+    stage_close(&stage);
+}
+
 int main(void)
 {
     char error[256];
@@ -168,6 +194,7 @@ int main(void)
         cmocka_unit_test(each_kind_of_material_adds_one),
         cmocka_unit_test(switching_gi_makes_the_other_pipelines_once),
         cmocka_unit_test(gathered_light_needs_as_many_pipelines),
+        cmocka_unit_test(a_device_lost_while_times_are_read_is_noticed),
     };
     const int failed = cmocka_run_group_tests(tests, files_setup, files_teardown);
     const bool quiet = host_device_validation_count(device) == 0;

@@ -38,25 +38,29 @@ static bool read_counters(struct volume *volume, const struct feedback_slot *slo
     return true;
 }
 
-static void read_times(struct volume *volume, uint32_t index)
+static VkResult read_times(struct volume *volume, uint32_t index)
 {
     struct gpu_timer_span spans[GPU_TIMER_SPANS];
-    const uint32_t count = gpu_timer_read(&volume->backend->device, &volume->resources->timer, index, spans);
+    uint32_t count;
+    const VkResult result =
+        gpu_timer_read(&volume->backend->device, &volume->resources->timer, index, spans, &count);
     for (uint32_t i = 0; i < count; i++) {
         struct feedback_time *time = &volume->feedback.times[spans[i].tag];
         time->ns = spans[i].ns + (time->is_new ? time->ns : 0);
         time->is_new = true;
     }
+    return result;
 }
 
-bool sdfgi_volume_read_back(struct volume *volume, uint32_t index)
+VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t index, bool *has_run)
 {
+    VkResult result = VK_SUCCESS;
     struct feedback_slot *slot = &volume->feedback.slots[index];
     for (int i = 0; i < PASS_COUNT; i++)
         volume->feedback.times[i].is_new = false;
-    const bool has_run = slot->content != FEEDBACK_TIMES_AND_COUNTERS || read_counters(volume, slot, index);
-    if (has_run && slot->content != FEEDBACK_NOTHING)
-        read_times(volume, index);
+    *has_run = slot->content != FEEDBACK_TIMES_AND_COUNTERS || read_counters(volume, slot, index);
+    if (*has_run && slot->content != FEEDBACK_NOTHING)
+        result = read_times(volume, index);
     *slot = (struct feedback_slot){ .content = FEEDBACK_NOTHING };
-    return has_run;
+    return result;
 }

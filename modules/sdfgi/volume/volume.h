@@ -93,8 +93,8 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
 /* True if the light has converged and nothing has changed since. */
 bool sdfgi_volume_has_converged(const struct volume *volume);
 
-/* Takes in what the frame that last used the slot left there. False if that frame has not run. */
-bool sdfgi_volume_read_back(struct volume *volume, uint32_t slot);
+/* Takes in what the frame that last used the slot left there, if it has run. */
+VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t slot, bool *has_run);
 /* Makes the light lists longer where the newest counters say that they were too short. */
 void sdfgi_volume_make_room(struct volume *volume);
 /* Makes the emitter lists as soon as something emits. */
