@@ -34,6 +34,7 @@ static void print_commands(FILE *out)
     fputs("usage: sdfgi COMMAND [arguments], sdfgi COMMAND --help\n\n", out);
     for (int i = 0; i < COMMAND_COUNT; i++)
         fprintf(out, "  %-11s %s\n", commands[i].name, commands[i].summary);
+    fputs("\nexit codes: 0 done, 1 failed, 2 wrong arguments, 130 stopped by SIGINT, 143 by SIGTERM\n", out);
 }
 
 static int finish(int code)
