@@ -386,9 +386,9 @@ static bool write_images(const struct run *run)
 static void print_summary(const struct run *run, const struct raycast_progress *p)
 {
     const struct raycast_settings *const s = raycast_settings_get(run->raycast);
-    printf("%ux%u, %u samples per pixel, %.1f s, %.1f million rays, %.2f million rays per second", s->width,
-           s->height, p->samples, p->seconds, 1e-6 * (double)p->rays,
-           p->seconds > 0 ? 1e-6 * (double)p->rays / p->seconds : 0.0);
+    printf("%ux%u, %.*f samples per pixel, %.1f s, %.1f million rays, %.2f million rays per second", s->width,
+           s->height, p->mean_samples > p->samples ? 2 : 0, p->mean_samples, p->seconds,
+           1e-6 * (double)p->rays, p->seconds > 0 ? 1e-6 * (double)p->rays / p->seconds : 0.0);
     if (p->samples >= 16)
         printf(", mean relative standard error %.4f", p->error);
     putchar('\n');
@@ -410,8 +410,9 @@ static void print_end(const struct run *run, const struct raycast_progress *p, b
     else if (kept)
         snprintf(place, sizeof place, "--resume goes on from %s%s%s", kept,
                  kept == usual ? "" : " once it is moved to ", kept == usual ? "" : usual);
-    cli_error("reference: %s%s after %.4g samples per pixel; %s; %s", finished ? "ended" : "stopped by ",
-              finished ? "" : stop_name(), p->mean_samples, pictures, place);
+    const char *const end = !finished ? "stopped by " : p->samples > 0 ? "ended" : "--time ended it";
+    cli_error("reference: %s%s after %.4g samples per pixel; %s; %s", end, finished ? "" : stop_name(),
+              p->mean_samples, pictures, place);
 }
 
 /* Keeps the state of a run that has more to do, or whose pictures cannot be written. */

@@ -300,8 +300,8 @@ static int walk(const struct options *options, struct walk_order *order)
     const uint32_t frames = result.record.frame_count;
     const bool stopped = walked && stop_asked() && frames < order->frames;
     if (stopped)
-        cli_error("walk: stopped by %s after %u of %u frames; %s keeps what there is of those", stop_name(),
-                  frames, order->frames, order->out);
+        cli_error("walk: stopped by %s after %u of %u frames; %s has the report and the plot%s of those",
+                  stop_name(), frames, order->frames, order->out, order->window ? "" : " and the pictures");
     else if (walked && !order->quiet)
         print_summary(&result, order->out);
     walk_record_finish(&result.record);

@@ -395,6 +395,7 @@ static void summarise(const struct walk_order *order, struct walk_result *result
     summary->start_m = order->start_m;
     summary->speed_m_s = order->speed_m_s;
     summary->fps = order->fps;
+    summary->frames_asked = order->frames;
     summary->sample_count = order->sample_count;
     for (uint32_t i = 0; i < order->sample_count; i++) {
         memcpy(summary->sample_positions[i], order->samples[i].position, sizeof order->samples[i].position);

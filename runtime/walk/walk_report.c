@@ -47,6 +47,7 @@ static bool add_path(cJSON *json, const struct walk_summary *summary)
            json_add_number(path, "start_m", summary->start_m) &&
            json_add_number(path, "speed_m_s", summary->speed_m_s) &&
            json_add_number(path, "fps", summary->fps) &&
+           json_add_number(path, "frames_asked", summary->frames_asked) &&
            json_add_number(path, "hold_frames", summary->hold_frames);
 }
 

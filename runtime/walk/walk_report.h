@@ -10,7 +10,8 @@ struct walk_summary {
     struct report_summary run; /* device, size, seconds, settings, memory; its exposure is not used */
     const char *scene, *path;
     double length_m, start_m, speed_m_s, fps;
-    uint32_t hold_frames; /* rendered before the first, for light to settle */
+    uint32_t frames_asked; /* a walk that is stopped has fewer */
+    uint32_t hold_frames;  /* rendered before the first, for light to settle */
     double sample_positions[WALK_SAMPLES_MAX][3];
     float sample_normals[WALK_SAMPLES_MAX][3];
     uint32_t sample_count;

@@ -148,7 +148,8 @@ static void a_walk_keeps_its_frames(void **state)
     sleep_s(0.1); /* until a frame is finished */
     const struct run run = stop(child, SIGTERM);
     assert_stopped(&run, arguments, SIGTERM);
-    run_in_folder("grep -q '\"frames_rendered\":.*[1-9]' w/report.json && test -s w/contact_sheet.png");
+    run_in_folder("grep -q '\"frames_rendered\":.*[1-9]' w/report.json && test -s w/contact_sheet.png && "
+                  "grep -q '\"frames_asked\":.*100000' w/report.json");
     run_in_folder("rm -r w path.json");
     assert_int_equal(files_count(), 1);
 }
