@@ -5,7 +5,10 @@
 
 #include "file/output_file.h"
 #include "file/output_names.h"
+#include "file/stop.h"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -120,6 +123,40 @@ static void what_is_being_written_can_be_abandoned(void **state)
     assert_text("a.txt", "text");
 }
 
+/* Writes, and is sent signals meanwhile, the first of which may ask for an end alone. */
+static void write_under_signals(const char *path, bool keep)
+{
+    struct output_file file;
+    dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+    stop_watch();
+    if (keep)
+        stop_keep();
+    if (!output_file_begin(&file, path, error, sizeof error))
+        _exit(1);
+    raise(SIGINT);
+    if (!stop_asked())
+        _exit(2);
+    raise(SIGTERM);
+    _exit(3);
+}
+
+static void signals_that_end_a_program_remove_what_it_writes(void **state)
+{
+    (void)state;
+    char path[256];
+    snprintf(path, sizeof path, "%s", files_path("a.txt"));
+    for (int keep = 0; keep < 2; keep++) {
+        int status;
+        const pid_t child = fork();
+        if (child == 0)
+            write_under_signals(path, keep);
+        waitpid(child, &status, 0);
+        assert_true(WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 128 + (keep ? SIGTERM : SIGINT));
+        assert_int_equal(files_count(), 0);
+    }
+}
+
 static void two_names_of_one_file_are_refused(void **state)
 {
     (void)state;
@@ -158,6 +195,7 @@ int main(void)
         cmocka_unit_test(outputs_have_the_permissions_that_the_user_gives_files),
         cmocka_unit_test(what_killed_runs_left_is_removed),
         cmocka_unit_test(what_is_being_written_can_be_abandoned),
+        cmocka_unit_test(signals_that_end_a_program_remove_what_it_writes),
         cmocka_unit_test(two_names_of_one_file_are_refused),
     };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
