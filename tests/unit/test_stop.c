@@ -91,7 +91,7 @@ static void stop_at_work(const char *arguments, double delay_s, int number)
 static bool has_device(void)
 {
     static int code = -1;
-    char command[512];
+    char command[1024];
     snprintf(command, sizeof command, "'%s' info >/dev/null 2>&1", program);
     if (code < 0)
         code = system(command);
@@ -100,7 +100,7 @@ static bool has_device(void)
 
 static void run_in_folder(const char *command)
 {
-    char line[512];
+    char line[1024];
     snprintf(line, sizeof line, "cd %s && %s", files_path(""), command);
     if (system(line) != 0)
         fail_msg("%s", command);
