@@ -69,6 +69,9 @@
     X(PROBE_SEED, COMPUTE, probe_seed, PROBES, SEED, SEED, CREATED,                                          \
       PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS)     \
       | R(IRRADIANCE))                                                                                       \
+    X(LIGHT_RESCALE, COMPUTE, light_rescale, LIGHT_CELLS, RESCALE, OWN, CREATED,                             \
+      STORED_LIGHT, light_rescale, SDFGI_GROUP_LINEAR, NONE, 0, R(LIGHT) | R(LIGHT_CELLS) | R(SURFACES) |    \
+      R(GATHERED) | R(IRRADIANCE) | R(PREVIOUS) | R(SUMS))                                                   \
     X(RAY_INVALIDATE, COMPUTE, ray_invalidate, RAYS, SEED, OWN, CREATED,                                     \
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(BOUNDS), R(RAYS))                                             \
     X(LIGHT_BOUNCE, COMPUTE, light_bounce, LIGHT_CELLS, LIGHT, OWN, CREATED,                                 \

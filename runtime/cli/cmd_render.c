@@ -22,7 +22,7 @@ struct options {
     bool gi, quiet;
     struct cli_list set, aov;
     uint32_t supersample, seed;
-    double exposure;
+    double exposure, gi_exposure;
     /* Derived. */
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
@@ -123,6 +123,8 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
         { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "gi-exposure", CLI_FLOAT, &o->gi_exposure, "X", .help = RUN_GI_EXPOSURE_HELP, .minimum = 0,
+          .maximum = 1e12 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "one part of the light, as .exr, .hdr or .pfm" },
         { "report", CLI_TEXT, &o->report, "FILE", .help = "times, work, memory and health as JSON" },
@@ -165,6 +167,7 @@ static bool start(struct run *run, const struct options *options)
                                              .settings = &options->settings,
                                              .log = { options->quiet ? NULL : run_log, NULL },
                                              .seed = options->seed,
+                                             .gi_exposure = (float)options->gi_exposure,
                                              .lookup = options->lookup };
     run->renderer = run->scene ? host_renderer_create(run->device, run->scene, &desc) : NULL;
     if (!run->renderer)

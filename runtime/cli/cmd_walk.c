@@ -22,7 +22,7 @@ struct options {
     const char *scene, *path, *view, *device, *report, *out, *lookup_name;
     struct cli_size size;
     struct cli_list set, samples;
-    double speed_m_s, fps, start_m, exposure;
+    double speed_m_s, fps, start_m, exposure, gi_exposure;
     uint32_t frames, hold, every, seed;
     bool hold_given, window, quiet;
 };
@@ -48,6 +48,8 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
           .minimum = 1, .maximum = WALK_FRAMES_MAX },
         { "sample", CLI_LIST, &o->samples, "X,Y,Z,NX,NY,NZ", .help = "report diffuse light at a point" },
         { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "gi-exposure", CLI_FLOAT, &o->gi_exposure, "X", .help = RUN_GI_EXPOSURE_HELP, .minimum = 0,
+          .maximum = 1e12 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "window", CLI_FLAG, &o->window, .help = "show it in a window; no pictures are written" },
         { "exposure", CLI_FLOAT, &o->exposure, "X", .help = "factor for PNG; 0, the default: automatic",
@@ -277,6 +279,7 @@ static bool resolve(const struct options *o, struct walk_order *order, char **pa
     order->size = o->size;
     order->device = o->device;
     order->exposure = o->exposure;
+    order->gi_exposure = o->gi_exposure;
     order->seed = o->seed;
     order->every = o->every;
     order->window = o->window;

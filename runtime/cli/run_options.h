@@ -20,6 +20,8 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
 #define RUN_LOOKUP_DEFAULT "full"
 #define RUN_LOOKUP_HELP    "where light is looked up: forward, full, half, quarter; " RUN_LOOKUP_DEFAULT
 
+#define RUN_GI_EXPOSURE_HELP "what brings the light near 1, as a hint; 0, the default: from the lights"
+
 /* Reads the value of --lookup; on failure prints one line and returns false. */
 bool run_parse_lookup(const char *command, const char *text, enum host_lookup *lookup);
 

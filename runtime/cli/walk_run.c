@@ -185,6 +185,7 @@ static struct host_renderer *start_renderer(struct run *run, bool gi)
                                              .settings = &settings,
                                              .log = { gi && !order->quiet ? run_log : NULL, NULL },
                                              .seed = order->seed,
+                                             .gi_exposure = (float)order->gi_exposure,
                                              .lookup = order->lookup };
     return host_renderer_create(run->device, run->scene, &desc);
 }

@@ -17,7 +17,7 @@ struct walk_order {
     struct cli_size size;
     struct sdfgi_settings settings;
     enum host_lookup lookup;
-    double speed_m_s, fps, start_m, exposure;
+    double speed_m_s, fps, start_m, exposure, gi_exposure;
     uint32_t frames, seed;
     uint32_t hold;  /* frames before the walk; WALK_HOLD_SETTLED: until light has settled */
     uint32_t every; /* frames from one that is written to the next; 0: none */

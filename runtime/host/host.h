@@ -118,7 +118,7 @@ struct host_renderer_desc {
     const struct sdfgi_settings *settings; /* NULL: defaults, that is, GI is off */
     struct sdfgi_log log;                  /* messages of the library */
     uint32_t seed;
-    float gi_exposure; /* sdfgi_frame_desc::exposure; 0: 1 */
+    float gi_exposure; /* sdfgi_frame_desc::exposure */
     enum host_lookup lookup;
 };
 

@@ -271,7 +271,7 @@ float relative_change(vec3 a, vec3 b)
 {
     const vec3 difference = abs(a - b), larger = max(a, b);
     const float most = max(difference.r, max(difference.g, difference.b));
-    return min(most / (max(larger.r, max(larger.g, larger.b)) + SDFGI_DARK), 1.0);
+    return min(most / (max(larger.r, max(larger.g, larger.b)) + sdfgi_frame.dark), 1.0);
 }
 
 /* Visits in a cycle of a cell. Seen cells, where they are visited more often than others, need no second

@@ -103,7 +103,7 @@ uint filter_state(probe_history history)
 /* Relative difference of two colours, at most 1. */
 float texel_change(vec3 estimate, vec3 previous)
 {
-    const vec3 change = abs(estimate - previous) / (max(estimate, previous) + SDFGI_DARK);
+    const vec3 change = abs(estimate - previous) / (max(estimate, previous) + sdfgi_frame.dark);
     return min(max(change.r, max(change.g, change.b)), 1.0);
 }
 
@@ -127,8 +127,10 @@ texel texel_load(uint slot, bool is_new)
     t.previous = probe_load_previous(slot, gl_LocalInvocationIndex);
     const float missing = missing_weight(t.sum.w, t.previous.w, is_new);
     const float weight = t.sum.w + missing;
-    t.estimate =
-        vec4(min((t.sum.rgb + missing * t.previous.rgb) / max(weight, 1e-12), vec3(HALF_MAX)), weight);
+    const vec3 mean = (t.sum.rgb + missing * t.previous.rgb) / max(weight, 1e-12);
+    if (any(greaterThan(mean, vec3(HALF_MAX))))
+        counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
+    t.estimate = vec4(min(mean, vec3(HALF_MAX)), weight);
     t.change = texel_change(t.estimate.rgb, t.previous.rgb);
     return t;
 }

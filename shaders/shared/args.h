@@ -108,6 +108,11 @@ struct sdfgi_cell_gather_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 100);
 
+struct sdfgi_light_rescale_args {
+    float factor; /* a power of two */
+};
+SDFGI_ASSERT_SIZE(sdfgi_light_rescale_args, 4);
+
 struct sdfgi_probe_blend_args {
     uint cycle_ends;      /* 1: this is the last frame of a sample cycle */
     uint without_history; /* 1: no sample cycle has been completed since the cascades were empty */

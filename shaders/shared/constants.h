@@ -75,10 +75,6 @@
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)
 /* A smaller one, which means something where most cells change by it to the same side. */
 #define SDFGI_DRIFT (1.0 / 4096.0)
-/* Light times exposure that is dark in a picture. Changes count relative to light and this much more: not to
- * the brightest light, which may be a sun outside that a dim room never sees. */
-#define SDFGI_DARK (1.0 / 4096.0)
-
 /* Emitters: an albedo block in which something emits. A cascade lists so many at most; words of one in the
  * list, and of the list of a cascade: see sdfgi/emitters.glsl. */
 #define SDFGI_MAX_EMITTERS    256
@@ -124,8 +120,7 @@
 #define SDFGI_ALBEDO_STEPS           1023.0 /* as many as 10 bits hold */
 #define SDFGI_AREA_STEPS             65535.0
 /* Radiance in units of stored emission, W/(m^2 sr) unless something is brighter than the last of these: the
- * step of sums, the weight of their upper word, and the most. The sun's disc has 2e7; a lamp of 1e-4 has 1,678
- * steps. */
+ * step of sums, the weight of their upper word, the most. The sun's disc has 2e7; 1e-4 are 1,678 steps. */
 #define SDFGI_EMISSION_STEP          (1.0 / 16777216.0)
 #define SDFGI_EMISSION_UPPER         256.0
 #define SDFGI_EMISSION_MOST          67108864.0

@@ -77,7 +77,8 @@ struct sdfgi_frame_params {
     uint cycle_samples;    /* samples of a probe in a sample cycle */
     uint cycle_visits;     /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
     uint lists_emitters; /* 1: something emits, and emitters are listed */
-    uint padding_3, padding_4, padding_5;
+    float dark; /* light times exposure that counts as dark */
+    uint padding_3, padding_4;
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 9 * 16);
 

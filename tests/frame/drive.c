@@ -91,7 +91,6 @@ void drive_begin(struct drive *d, const struct sdfgi_settings *settings)
     sdfgi_scroll_init(&d->state.scroll);
     sdfgi_accumulation_init(&d->state.accumulation);
     sdfgi_relight_init(&d->state.relight);
-    d->state.exposure = 1;
     d->desc.exposure = 1;
     for (int i = 0; i < 3; i++)
         d->desc.camera_position[i] = 0.1;

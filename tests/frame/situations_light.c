@@ -148,7 +148,7 @@ static const struct situation_row rows[] = {
     { "a_light_in_the_second_frame_lights_all_that_lists_have_room_for", light_updated_in_the_second_frame },
     { "a_light_while_a_scroll_completes", light_updated_while_a_scroll_completes },
     { "a_changed_sky_begins_to_converge_again", sky_changed },
-    { "a_very_different_exposure_lights_all_cells", exposure_changed },
+    { "a_very_different_exposure_rescales_light", exposure_changed },
     { "another_exposure_costs_nothing", exposure_drifted },
     { "state_that_is_pushed_again_costs_nothing", state_pushed_again },
     { "a_changed_seed_rebuilds_everything", seed_changed },

@@ -67,9 +67,9 @@
     X(sdfgi_frame_params, cycle_samples)                                                                     \
     X(sdfgi_frame_params, cycle_visits)                                                                      \
     X(sdfgi_frame_params, lists_emitters)                                                                    \
+    X(sdfgi_frame_params, dark)                                                                              \
     X(sdfgi_frame_params, padding_3)                                                                         \
     X(sdfgi_frame_params, padding_4)                                                                         \
-    X(sdfgi_frame_params, padding_5)                                                                         \
     X(sdfgi_light_params, position)                                                                          \
     X(sdfgi_light_params, range_m)                                                                           \
     X(sdfgi_light_params, direction)                                                                         \

@@ -117,6 +117,57 @@ static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
     gi_test_close(&t);
 }
 
+/* Fades to black and back, and cuts between caves and deserts: in the very frame the light is what it was. */
+static void exposures_of_any_sequence_show_the_same_light(void **state)
+{
+    (void)state;
+    static struct sdfgi_report report;
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    light_add_box(&t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f }, 0.1f);
+    light_set_uniform_sky(&t, 0.3f);
+    gi_test_converge(&t, 160);
+    float before[POINT_COUNT][3], found[POINT_COUNT][3];
+    gi_test_irradiance(&t, points, POINT_COUNT, before);
+    static const int powers[] = { 10, -12, 20, -20, 30, 0, 12, 126, -126, 0 };
+    uint32_t rescaled = 0;
+    for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+        t.frame.exposure = ldexpf(1, powers[i]);
+        gi_test_update(&t, 1);
+        gi_test_irradiance(&t, points, POINT_COUNT, found);
+        const double worst = worst_ratio(found, before, 1);
+        sdfgi_get_report(t.gi, &report);
+        rescaled += report.passes[PASS_LIGHT_RESCALE].dispatches;
+        printf("exposure 2^%d: off by %.2e at most\n", powers[i], worst);
+        REQUIRE_CMP(worst, <=, 0.01);
+    }
+    REQUIRE_CMP(rescaled, >=, 4u);
+    gi_test_close(&t);
+}
+
+/* The scene itself tells that light has to be stored smaller. */
+static void blinding_skies_need_no_exposure(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 1, 1, 1 }, 0);
+    for (int i = 0; i < 3; i++) {
+        const float sky = (float[]){ 1, 1e6f, 1 }[i];
+        float found[1][3];
+        light_set_uniform_sky(&t, sky);
+        gi_test_converge(&t, 400);
+        gi_test_irradiance(&t, &(struct gi_test_point){ { 0, -2, 0 }, { 0, 1, 0 } }, 1, found);
+        printf("under a sky of %g: %.5f of it\n", (double)sky, (double)(found[0][0] / sky) / 3.14159265);
+        REQUIRE_NEAR(found[0][0] / sky / 3.14159265f, 1, 0.01);
+        REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_VALUE_CLAMPED), ==, 0ul);
+    }
+    gi_test_close(&t);
+}
+
 /* No exposure makes light infinite or not a number, however little it fits the light. */
 static void extreme_exposures_leave_light_finite(void **state)
 {
@@ -192,6 +243,8 @@ int main(void)
         cmocka_unit_test(hard_31_lights_of_any_scale_give_the_same_picture),
         cmocka_unit_test(exposure_does_not_change_light),
         cmocka_unit_test(exposures_and_settings_in_every_frame_cost_nothing),
+        cmocka_unit_test(exposures_of_any_sequence_show_the_same_light),
+        cmocka_unit_test(blinding_skies_need_no_exposure),
         cmocka_unit_test(extreme_exposures_leave_light_finite),
         cmocka_unit_test(a_red_wall_reddens_what_faces_it),
         cmocka_unit_test(feedback_adds_bounces),

@@ -37,6 +37,7 @@ struct frame {
     struct work_list work;
     struct gather_range gathers[SDFGI_MAX_CASCADES];
     uint32_t gather_count;
+    int rescale_power;               /* light is stored with an exposure so many powers of two larger */
     uint32_t uploads;                /* enum frame_upload */
     bool cycle_ends;                 /* this is the last frame of a sample cycle */
     const char *reasons[PASS_COUNT]; /* why each pass runs, or not */

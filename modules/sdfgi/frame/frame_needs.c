@@ -95,6 +95,11 @@ static bool needs_light(const struct situation *s)
 }
 
 /* A gather is not planned with the frame: the host asks for it afterwards. */
+static bool needs_rescale(const struct situation *s)
+{
+    return s->rescales;
+}
+
 static bool needs_gather(const struct situation *s)
 {
     (void)s;
@@ -149,6 +154,8 @@ static const struct need_row needs[NEED_COUNT] = {
                      "light cells have settled, or light waits, or sdfgi_surface_light is probes" },
     [NEED_FILTER] = { needs_filter, "light cells have new light",
                       "no light cell has new light, or sdfgi_surface_light is probes" },
+    [NEED_RESCALE] = { needs_rescale, "light is stored with another exposure",
+                       "light is stored with the same exposure as before" },
     [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather",
                       "the host did not call sdfgi_gather at full resolution" },
     [NEED_GATHER_SPARSE] = { needs_gather, "the host called sdfgi_gather at half or quarter resolution",

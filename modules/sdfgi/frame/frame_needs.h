@@ -13,6 +13,7 @@ struct situation {
     bool scroll_completes; /* one that was not an edit */
     bool from_nothing;     /* no cascade was complete before */
     bool list_grew;        /* light lists were lost: they are written again */
+    bool rescales;         /* light is stored with another exposure than before */
     bool lists_emitters;   /* something emits, and there is room for emitter lists */
     bool has_lights;
     bool lights_changed;

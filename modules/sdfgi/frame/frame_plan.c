@@ -4,25 +4,18 @@
 #include "stage.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* Powers of two. Formats hold light of 2^-14 to 2^16 well: what is stored with another exposure than the
- * hint's keeps its precision if the two are no further apart than this. */
-#define EXPOSURE_APART 8
-/* Farthest exposure that light is stored with: times any light that makes sense, it fits a float. */
-#define EXPOSURE_FARTHEST 40
-
-/* The exposure that light is stored with: a power of two, and the same as before unless the hint is far from
- * it. Hosts with automatic exposure give another hint in each frame. */
-static float stored_exposure(float stored, float hint, bool first)
+/* Decides with which exposure light is stored. */
+static void plan_exposure(struct frame *frame, const struct frame_input *input)
 {
-    const int power = ilogbf(hint > 0 ? hint : 1.0f);
-    if (!first && abs(power - ilogbf(stored)) <= EXPOSURE_APART)
-        return stored;
-    return ldexpf(1, power < -EXPOSURE_FARTHEST  ? -EXPOSURE_FARTHEST
-                     : power > EXPOSURE_FARTHEST ? EXPOSURE_FARTHEST
-                                                 : power);
+    struct volume_state *next = &frame->next;
+    const bool first = next->updates == 0;
+    const struct exposure before = next->exposure;
+    const float brightest = sdfgi_scene_brightest(input->scene, input->settings->read_sky_light);
+    next->exposure = sdfgi_exposure_next(first ? NULL : &before, input->desc->exposure, brightest);
+    frame->situation.rescales = !first && next->exposure.stored != before.stored;
+    frame->rescale_power = next->exposure.stored - before.stored;
 }
 
 /* Takes over what the host says about the frame and what changed in the scene. */
@@ -31,20 +24,13 @@ static void take_input(struct frame *frame, const struct frame_input *input)
     const struct sdfgi_frame_desc *desc = input->desc;
     struct volume_state *next = &frame->next;
     const bool first = next->updates == 0;
-    const float exposure = stored_exposure(next->exposure, desc->exposure, first);
-    const bool exposure_changed = exposure != next->exposure;
     sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
-    if (exposure_changed) {
-        sdfgi_accumulation_invalidate(&next->accumulation);
-        sdfgi_gathering_outdate(&next->gathering);
-    }
-    next->exposure = exposure;
     if (desc->seed != next->seed)
         for (uint32_t c = 0; c < next->cascades.count; c++)
             sdfgi_cascade_outdate(&next->cascades.at[c]);
     next->seed = desc->seed;
-    frame->situation.lights_changed = first || exposure_changed || (input->journal->notes & JOURNAL_LIGHTS);
+    frame->situation.lights_changed = first || (input->journal->notes & JOURNAL_LIGHTS);
     if (first || (input->journal->notes & JOURNAL_MATERIALS))
         frame->uploads |= FRAME_UPLOAD_MATERIALS;
 }
@@ -191,6 +177,15 @@ static void plan_uploads(struct frame *frame, const struct frame_input *input,
         frame->uploads |= FRAME_UPLOAD_RAY_QUEUE;
 }
 
+/* Whatever else the frame does, and also where light has converged. */
+static void add_rescale(struct frame *frame)
+{
+    if (!frame->situation.rescales)
+        return;
+    struct work *work = sdfgi_work_add(&frame->work, PASS_LIGHT_RESCALE, 0, sdfgi_need_reason(NEED_RESCALE));
+    work->args.light_rescale.factor = ldexpf(1, frame->rescale_power);
+}
+
 static void plan_reasons(struct frame *frame)
 {
     for (int i = 0; i < PASS_COUNT; i++) {
@@ -206,6 +201,7 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
     frame->next = *input->state;
     frame->situation.list_grew = input->gaps.lists;
     frame->situation.lists_emitters = input->extent.emits;
+    plan_exposure(frame, input);
     take_input(frame, input);
     plan_scroll(frame, input);
     plan_cycle(frame, input);
@@ -215,6 +211,7 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
     frame->situation.geometry_due = geometry_is_due(frame, input->scene);
     const struct situation_needs needs = sdfgi_frame_needs(&frame->situation);
     plan_uploads(frame, input, &needs);
+    add_rescale(frame);
     if (!frame->situation.converged)
         sdfgi_frame_add_work(frame, input, &needs);
     plan_reasons(frame);

@@ -96,6 +96,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
         break;
     case DOMAIN_LIGHT_CELLS:
     case DOMAIN_ALL_LIGHT_CELLS:
+    case DOMAIN_STORED_LIGHT:
     case DOMAIN_PIXELS:
     case DOMAIN_TILES:
         assert(row->phase == PHASE_OWN);
@@ -180,6 +181,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_light_direct:
     case ARGS_light_bounce:
     case ARGS_cell_gather:
+    case ARGS_light_rescale:
     case ARGS_gather:
     case ARGS_COUNT:
         assert(sdfgi_pass_row(work->pass)->phase == PHASE_OWN);

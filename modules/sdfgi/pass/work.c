@@ -56,6 +56,12 @@ static struct work_groups tiles(const struct sdfgi_gather_args *args)
                                  groups_for(args->height, (SDFGI_SAMPLES_Y - 1) * args->step), 1 };
 }
 
+static uint64_t stored_light(const struct extent *e)
+{
+    const uint64_t axes = 6 * e->light_cells, texels = SDFGI_IRRADIANCE_COUNT * e->probes;
+    return e->cascades * (axes > texels ? axes : texels);
+}
+
 struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e,
                                      uint32_t blocks_per_group)
 {
@@ -92,6 +98,8 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return in_rows(groups_for(work->count, group));
     case DOMAIN_ALL_LIGHT_CELLS:
         return (struct work_groups){ groups_for(work->count, group), work->rows ? work->rows : cascades, 1 };
+    case DOMAIN_STORED_LIGHT:
+        return in_rows(groups_for(stored_light(e), group));
     case DOMAIN_PIXELS:
         return (struct work_groups){ groups_for(work->args.gather.width, group),
                                      groups_for(work->args.gather.height, group), 1 };

@@ -17,7 +17,7 @@ enum {
     SDFGI_MAX_MATERIALS = 4096,
     SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
     SDFGI_READBACK_WORDS = SDFGI_COUNTER_COUNT + 1, /* counters, and the number of the frame */
-    SDFGI_MAX_WORK = 512, /* the plan of a frame never has more: asserted */
+    SDFGI_MAX_WORK = 512,                           /* the plan of a frame never has more: asserted */
 };
 
 /* What a pass runs over; sdfgi_work_groups() tells how many workgroups that takes. */
@@ -37,6 +37,7 @@ enum domain {
     DOMAIN_LIGHT_ROWS,       /* rows of light blocks of a cascade */
     DOMAIN_LIGHT_CELLS,      /* `count` entries of the light list of a cascade */
     DOMAIN_ALL_LIGHT_CELLS,  /* `count` entries of the light lists of all cascades */
+    DOMAIN_STORED_LIGHT,     /* axes of light cells, and texels of probes, of all cascades */
     DOMAIN_PIXELS,           /* of a picture */
     DOMAIN_TILES,            /* of a picture, between SDFGI_SAMPLES_X x SDFGI_SAMPLES_Y samples */
 };
@@ -51,6 +52,7 @@ union work_args {
     struct sdfgi_light_direct_args light_direct;
     struct sdfgi_light_bounce_args light_bounce;
     struct sdfgi_cell_gather_args cell_gather;
+    struct sdfgi_light_rescale_args light_rescale;
     struct sdfgi_probe_blend_args probe_blend;
     struct sdfgi_gather_args gather;
 };

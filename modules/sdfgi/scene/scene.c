@@ -72,6 +72,36 @@ bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky)
     return scene->lights.count > 0 || scene->emissive > 0 || sky;
 }
 
+static float brightest_channel(const float color[static 3])
+{
+    return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
+
+/* Irradiance over pi. Of a lamp from a quarter of a metre: cells that are nearer are few. */
+static float brightest_of_light(const struct sdfgi_light_desc *light)
+{
+    const float pi = 3.14159265f, near_m = 0.25f;
+    const float intensity = brightest_channel(light->intensity) * light->indirect_energy / pi;
+    return light->type == SDFGI_LIGHT_DIRECTIONAL ? intensity : intensity / (near_m * near_m);
+}
+
+float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky)
+{
+    const struct sdfgi_sky *sky = &scene->sky;
+    float everywhere = 0, lamp = scene->most_emission;
+    if (reads_sky)
+        everywhere = fmaxf(brightest_channel(sky->zenith),
+                           fmaxf(brightest_channel(sky->horizon), brightest_channel(sky->ground)));
+    for (uint32_t i = 0; i < scene->lights.end; i++) {
+        const struct light *light = sdfgi_pool_at(&scene->lights, i);
+        if (light && light->desc.type == SDFGI_LIGHT_DIRECTIONAL)
+            everywhere += brightest_of_light(&light->desc);
+        else if (light)
+            lamp = fmaxf(lamp, brightest_of_light(&light->desc));
+    }
+    return everywhere + lamp;
+}
+
 /* ---- Materials */
 
 static bool emits(const struct sdfgi_material_desc *desc)
@@ -84,7 +114,8 @@ static bool emits(const struct sdfgi_material_desc *desc)
  * anew for that. */
 static void fit_emission_unit(struct scene *scene, const struct sdfgi_material_desc *desc)
 {
-    const float brightest = fmaxf(desc->emission[0], fmaxf(desc->emission[1], desc->emission[2]));
+    const float brightest = brightest_channel(desc->emission);
+    scene->most_emission = fmaxf(scene->most_emission, brightest);
     if (brightest <= scene->emission_unit * SDFGI_EMISSION_MOST)
         return;
     while (brightest > scene->emission_unit * SDFGI_EMISSION_MOST)

@@ -47,6 +47,7 @@ struct scene {
     struct set_pool *set_pools;
     struct sdfgi_sky sky;
     uint32_t emissive;   /* materials that emit */
+    float most_emission; /* of any material so far */
     float emission_unit; /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;
 };
@@ -82,6 +83,8 @@ enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double b
 bool sdfgi_instance_touches(const struct instance *instance, const struct box *box);
 /* True if any instance does. */
 bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
+/* The brightest that surfaces may get from all there is, about: radiance, or irradiance over pi. */
+float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky);
 /* True if anything in the scene gives light. */
 bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky);
 

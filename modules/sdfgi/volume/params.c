@@ -71,6 +71,9 @@ static struct sdfgi_cascade_params cascade_params(const struct volume_state *sta
 /* Light stored with an exposure that does not fit it. Beyond this, where no format reaches, sums of floats
  * could come out infinite. */
 #define BRIGHTEST 1e9f
+/* Light times the host's exposure that is dark in a picture. Changes count relative to light and this much
+ * more: not to the brightest light, which may be a sun outside that a dim room never sees. */
+#define DARK (1.0f / 4096)
 
 static vec3 scaled(const float color[static 3], float factor)
 {
@@ -123,14 +126,16 @@ static float emission_scale(const struct scene *scene, float exposure)
 void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *state,
                        const struct params_input *input)
 {
+    const float exposure = ldexpf(1, state->exposure.stored);
     memset(p, 0, sizeof *p);
     for (uint32_t c = 0; c < state->cascades.count; c++)
         p->cascades[c] = cascade_params(state, c);
-    fill_sky(p, &input->scene->sky, input->settings->read_sky_light ? state->exposure : 0.0f);
+    fill_sky(p, &input->scene->sky, input->settings->read_sky_light ? exposure : 0.0f);
     fill_settings(p, input->settings);
-    p->exposure = state->exposure;
-    p->exposure_inverse = 1.0f / state->exposure;
-    p->emission_scale = emission_scale(input->scene, state->exposure);
+    p->exposure = exposure;
+    p->exposure_inverse = 1.0f / exposure;
+    p->dark = ldexpf(DARK, state->exposure.stored - state->exposure.hint);
+    p->emission_scale = emission_scale(input->scene, exposure);
     p->light_count = input->scene->lights.count;
     p->light_cell_room = (uint32_t)input->extent->light_cells;
     p->lists_emitters = input->extent->emits;
@@ -152,7 +157,7 @@ struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state
         .range_m = l->range_m,
         .direction = { (float)(x * unit), (float)(y * unit), (float)(z * unit) },
         .cos_outer = cos_outer,
-        .intensity = scaled(l->intensity, l->indirect_energy * state->exposure),
+        .intensity = scaled(l->intensity, l->indirect_energy * ldexpf(1, state->exposure.stored)),
         .cone_scale = 1 / fmaxf(cos_inner - cos_outer, 1e-4f),
         .kind = (uint32_t)l->type | (l->casts_shadow ? SDFGI_LIGHT_CASTS_SHADOW : 0),
     };

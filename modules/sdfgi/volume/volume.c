@@ -44,7 +44,6 @@ void sdfgi_volume_forget(struct volume *volume, const struct sdfgi_settings *set
     sdfgi_accumulation_init(&state->accumulation);
     sdfgi_relight_init(&state->relight);
     sdfgi_gathering_init(&state->gathering);
-    state->exposure = 1;
 }
 
 void sdfgi_volume_cancel(struct volume *volume)

@@ -4,6 +4,7 @@
 #define SDFGI_VOLUME_H
 
 #include "accumulation.h"
+#include "exposure.h"
 #include "gathering.h"
 #include "pass/resources.h"
 #include "relight.h"
@@ -19,7 +20,7 @@ struct volume_state {
     struct relight relight;
     struct gathering gathering;
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders */
-    float exposure;
+    struct exposure exposure;
     uint32_t seed;
     struct sdfgi_frame_params params; /* as last uploaded */
     uint64_t updates;                 /* frames recorded since there was nothing */

@@ -20,7 +20,7 @@
     X(LIGHT_CELLS_OVERFLOW, WARNING,                                                                         \
       "more surface cells than the light list may grow to: larger cells, or fewer surfaces")                 \
     X(TRIANGLES_SKIPPED, WARNING, "triangles with non-finite or out-of-range vertices were skipped")         \
-    X(VALUE_CLAMPED, WARNING, "radiance beyond the range of the stored format: give an exposure")            \
+    X(VALUE_CLAMPED, WARNING, "light between surfaces outgrew its formats and was cut")                      \
     X(BOUNCE_CLAMPED, WARNING, "albedo times feedback reached 0.99 and was clamped to stay contractive")     \
     X(TRACE_CAP_REACHED, WARNING, "rays ran out of steps and were counted as hits")                          \
     X(UNLIT_HITS, WARNING, "rays hit surfaces with no light cell nearby")                                    \

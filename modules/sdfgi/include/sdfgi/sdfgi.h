@@ -293,10 +293,11 @@ struct sdfgi_frame_desc {
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders; for worlds of more than a few
                          kilometres use a point near the camera */
     uint32_t seed;    /* of the random sequence. Changing it rebuilds everything */
-    float exposure;   /* > 0: factor that brings scene radiance near 1, so that small formats keep
-                         their precision; 0: 1. May change in every frame: light is stored with the
-                         power of two below the first one, and gathered anew only if the exposure is
-                         256 times larger or smaller. Light that lookups return does not depend on it */
+    float exposure;   /* a hint: > 0, factor that brings what the picture shows near 1; 0: 1. Small formats
+                         keep their precision, and light settles, down to 1/4096 of that. May change in every
+                         frame and by any factor: what is stored stays, or is rescaled by a power of two.
+                         However large it is, the scene's brightest light fits. Light that lookups return
+                         does not depend on it */
 };
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
