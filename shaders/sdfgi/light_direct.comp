@@ -91,8 +91,11 @@ bool is_unshadowed(ivec3 cell, uint light)
     float range_m;
     light_arriving(sdfgi_lights[light], sdfgi_position_from_cascade(args.cascade, pos), to_light, range_m);
     const float cell_m = sdfgi_frame.cascades[args.cascade].cell_m;
-    return !sdfgi_trace_solid(args.cascade, sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m)
-                .hit;
+    const sdfgi_trace_hit hit =
+        sdfgi_trace_solid(args.cascade, sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m);
+    if (hit.capped)
+        counter_add(SDFGI_COUNTER_TRACE_CAPS, 1u);
+    return !hit.hit;
 }
 
 /* A bit per light from `first` on that would light a surface if nothing stood between them. */

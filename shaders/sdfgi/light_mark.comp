@@ -182,7 +182,7 @@ bool is_light_cell(ivec3 cell)
            light_cell_facing(args.cascade, cell) != 0u;
 }
 
-/* Clears the visibility bits of a cell that is no light cell any more. */
+/* Clears the visibility bits of a cell: those that the list has room for get new ones. */
 void clear_cell(uint index)
 {
     const uint bits = 0xffu << (8u * (index & 3u));
@@ -213,8 +213,7 @@ void mark_block(uint block)
     const uint index = sdfgi_cell_index(args.cascade, cell);
     if (is_light_cell(cell))
         atomicOr(found[bit >> 5u], 1u << (bit & 31u));
-    else
-        clear_cell(index);
+    clear_cell(index);
     barrier();
     const uint count = bitCount(found[0]) + bitCount(found[1]);
     if (bit > 0u || count == 0u)

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: occupancy bits, visibility bits, emissive bits and the
- * accumulators of its albedo blocks. Adds the cells that held bits to the dirty bounds. One thread per four
- * cells along y. Threads follow one another along x, because cells are stored side by side along x. The box
- * begins and ends at multiples of 8 cells. */
+ * Empties a box of cells before it is voxelised: occupancy bits, emissive bits and the accumulators of its
+ * albedo blocks. Visibility bits stay: light cells read them until the change completes. Adds the cells that
+ * held bits to the dirty bounds. One thread per four cells along y. Threads follow one another along x,
+ * because cells are stored side by side along x. The box begins and ends at multiples of 8 cells. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
-#define SDFGI_WRITES_MASKS
 #include "dirty_bounds.glsl"
-#include "visibility.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -55,11 +53,8 @@ void main()
     if (args.bounds_axis >= 0)
         add_removed(first, held);
     for (int k = 0; k < 4; k++) {
-        const uint index = sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0));
-        sdfgi_bits[index] = uvec2(0u);
+        sdfgi_bits[sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0))] = uvec2(0u);
         clear_emissive_bits(first + ivec3(0, k, 0));
-        if ((first.x & 3) == 0)
-            sdfgi_masks[index >> 2u] = 0u;
     }
     if (((first.x | first.z) & 1) == 0) {
         clear_accumulators(first);

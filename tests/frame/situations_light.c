@@ -100,7 +100,10 @@ static void seed_changed(struct show *show)
 {
     show_begin(show);
     drive_converge(&show->d);
-    show->d.desc.seed = 7;
+    for (int i = 0; i < 3; i++) {
+        show->d.desc.seed++; /* in every frame: nothing happens */
+        show_frames(show, 1);
+    }
     show_frames(show, 2);
 }
 

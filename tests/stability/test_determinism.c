@@ -53,27 +53,36 @@ static void build_scene(struct gi_test *t, uint32_t first_row)
         SDFGI_OK);
 }
 
-/* The list of light cells; what lies behind the last entry of a cascade belongs to nobody. */
-static void *take_list(struct gi_test *t, uint64_t *size)
+/* What is as long as the list of light cells, with so many bytes an entry in so many planes; what lies behind
+ * the last entry of a cascade belongs to nobody. */
+static void *take_list(struct gi_test *t, enum resource resource, uint64_t bytes, uint32_t planes,
+                       uint64_t *size)
 {
-    uint8_t *list = gi_test_read(t, RESOURCE_LIGHT_CELLS, size);
+    uint8_t *list = gi_test_read(t, resource, size);
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
     const uint64_t room = t->gi->volume.resources->extent.light_cells;
-    *size = 12 * room * t->gi->settings.cascades;
-    for (uint32_t c = 0; c < t->gi->settings.cascades; c++)
-        if (counters[SDFGI_COUNTER_LIGHT_CELLS + c] < room)
-            memset(list + 12 * (c * room + counters[SDFGI_COUNTER_LIGHT_CELLS + c]), 0,
-                   12 * (room - counters[SDFGI_COUNTER_LIGHT_CELLS + c]));
+    *size = bytes * planes * room * t->gi->settings.cascades;
+    for (uint32_t p = 0; p < planes * t->gi->settings.cascades; p++) {
+        const uint64_t count = counters[SDFGI_COUNTER_LIGHT_CELLS + p / planes];
+        if (count < room)
+            memset(list + bytes * (p * room + count), 0, bytes * (room - count));
+    }
     free(counters);
     return list;
+}
+
+static void *take_buffer(struct gi_test *t, enum resource resource, uint64_t *size)
+{
+    if (resource == RESOURCE_LIGHT_CELLS)
+        return take_list(t, resource, 12, 1, size);
+    return resource == RESOURCE_LIGHT ? take_list(t, resource, 4, 6, size) : gi_test_read(t, resource, size);
 }
 
 static struct snapshot take(struct gi_test *t)
 {
     struct snapshot s;
     for (int i = 0; i < COMPARED; i++)
-        s.buffers[i] = compared[i] == RESOURCE_LIGHT_CELLS ? take_list(t, &s.sizes[i])
-                                                           : gi_test_read(t, compared[i], &s.sizes[i]);
+        s.buffers[i] = take_buffer(t, compared[i], &s.sizes[i]);
     struct gi_test_point points[64];
     struct test_random random = { 5 };
     for (int i = 0; i < 64; i++) {

@@ -18,6 +18,18 @@ static void plan_exposure(struct frame *frame, const struct frame_input *input)
     frame->rescale_power = next->exposure.stored - before.stored;
 }
 
+/* A new seed makes everything new. A host that gives another one in each frame means none of them. */
+static void take_seed(struct volume_state *next, uint32_t seed, bool first)
+{
+    const bool lasts = first || seed == next->seed_asked;
+    next->seed_asked = seed;
+    if (!lasts || seed == next->seed)
+        return;
+    next->seed = seed;
+    for (uint32_t c = 0; c < next->cascades.count; c++)
+        sdfgi_cascade_outdate(&next->cascades.at[c]);
+}
+
 /* Takes over what the host says about the frame and what changed in the scene. */
 static void take_input(struct frame *frame, const struct frame_input *input)
 {
@@ -26,10 +38,7 @@ static void take_input(struct frame *frame, const struct frame_input *input)
     const bool first = next->updates == 0;
     sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
-    if (desc->seed != next->seed)
-        for (uint32_t c = 0; c < next->cascades.count; c++)
-            sdfgi_cascade_outdate(&next->cascades.at[c]);
-    next->seed = desc->seed;
+    take_seed(next, desc->seed, first);
     frame->situation.lights_changed = first || (input->journal->notes & JOURNAL_LIGHTS);
     if (first || (input->journal->notes & JOURNAL_MATERIALS))
         frame->uploads |= FRAME_UPLOAD_MATERIALS;

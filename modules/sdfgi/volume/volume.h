@@ -22,6 +22,7 @@ struct volume_state {
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders */
     struct exposure exposure;
     uint32_t seed;
+    uint32_t seed_asked; /* by the last frame: taken over once two in a row ask for it */
     struct sdfgi_frame_params params; /* as last uploaded */
     uint64_t updates;                 /* frames recorded since there was nothing */
 };

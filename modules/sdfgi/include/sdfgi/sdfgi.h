@@ -292,12 +292,13 @@ struct sdfgi_frame_desc {
     double camera_position[3]; /* cascades are centred on it */
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders; for worlds of more than a few
                          kilometres use a point near the camera */
-    uint32_t seed;    /* of the random sequence. Changing it rebuilds everything */
-    float exposure;   /* a hint: > 0, factor that brings what the picture shows near 1; 0: 1. Small formats
-                         keep their precision, and light settles, down to 1/4096 of that. May change in every
-                         frame and by any factor: what is stored stays, or is rescaled by a power of two.
-                         However large it is, the scene's brightest light fits. Light that lookups return
-                         does not depend on it */
+    uint32_t seed;  /* of the random sequence. Another one rebuilds everything once two updates in a row give
+                       it: a number that is different in every frame changes nothing */
+    float exposure; /* a hint: > 0, factor that brings what the picture shows near 1; 0: 1. Small formats
+                       keep their precision, and light settles, down to 1/4096 of that. May change in every
+                       frame and by any factor: what is stored stays, or is rescaled by a power of two.
+                       However large it is, the scene's brightest light fits. Light that lookups return
+                       does not depend on it */
 };
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
