@@ -13,11 +13,14 @@
 
 #include <vulkan/vulkan_core.h>
 
+/* The version of Vulkan that shaders and calls need. */
+#define GPU_API_VERSION VK_API_VERSION_1_2
+
 #define GPU_INSTANCE_FUNCTIONS(X)                                                                            \
     X(GetDeviceProcAddr)                                                                                     \
     X(GetPhysicalDeviceMemoryProperties)                                                                     \
     X(GetPhysicalDeviceProperties)                                                                           \
-    X(GetPhysicalDeviceFeatures2)                                                                            \
+    X(GetPhysicalDeviceFeatures)                                                                             \
     X(GetPhysicalDeviceFormatProperties)                                                                     \
     X(GetPhysicalDeviceQueueFamilyProperties)
 

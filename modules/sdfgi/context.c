@@ -41,6 +41,21 @@ static VkResult import_device(struct backend *backend, const struct sdfgi_desc *
     return result;
 }
 
+/* An instance does not tell for which version it was made. Drivers may: of a version that is too low, they
+ * have no functions. vkCreateRenderPass2 came with Vulkan 1.2. */
+static enum sdfgi_result check_api_version(struct sdfgi *gi, const struct sdfgi_vulkan *v)
+{
+    const bool shown_too_low = !gi->backend.device.fn.GetDeviceProcAddr(v->device, "vkCreateRenderPass2");
+    if (v->api_version ? v->api_version >= GPU_API_VERSION : !shown_too_low)
+        return SDFGI_OK;
+    const unsigned minor = v->api_version ? VK_API_VERSION_MINOR(v->api_version) : 1;
+    sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_UNSUPPORTED_DEVICE,
+                      "sdfgi_create: vulkan.instance was made with VkApplicationInfo::apiVersion of at most "
+                      "1.%u, needed is 1.%u",
+                      minor, (unsigned)VK_API_VERSION_MINOR(GPU_API_VERSION));
+    return SDFGI_ERROR_UNSUPPORTED;
+}
+
 static enum sdfgi_result check_queue_family(struct sdfgi *gi, const struct sdfgi_desc *desc)
 {
     if (gi->backend.device.queue_flags & VK_QUEUE_COMPUTE_BIT)
@@ -59,6 +74,8 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     if (result == SDFGI_OK)
         result = sdfgi_message_vulkan(hooks, import_device(&gi->backend, desc),
                                       "sdfgi_create: importing the device");
+    if (result == SDFGI_OK)
+        result = check_api_version(gi, &desc->vulkan);
     if (result == SDFGI_OK)
         result = check_queue_family(gi, desc);
     if (result == SDFGI_OK)

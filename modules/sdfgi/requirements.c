@@ -41,18 +41,21 @@ enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysicalDevice p
     struct gpu_functions fn;
     memset(&fn, 0, sizeof fn);
     memset(r, 0, sizeof *r);
+    r->api_version = GPU_API_VERSION;
     r->features_12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     if (!gpu_functions_load_instance(&fn, instance, get))
         return SDFGI_ERROR_INVALID_ARGUMENT;
     VkPhysicalDeviceProperties properties;
     fn.GetPhysicalDeviceProperties(physical, &properties);
-    if (properties.apiVersion < VK_API_VERSION_1_2)
-        refuse(r, "%s 1.%llu, needed is 1.%llu", "Vulkan", VK_API_VERSION_MINOR(properties.apiVersion), 2);
-    VkPhysicalDeviceFeatures2 features = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2 };
-    fn.GetPhysicalDeviceFeatures2(physical, &features);
+    if (properties.apiVersion < GPU_API_VERSION)
+        refuse(r, "%s 1.%llu, needed is 1.%llu", "Vulkan", VK_API_VERSION_MINOR(properties.apiVersion),
+               VK_API_VERSION_MINOR(GPU_API_VERSION));
+    /* Not vkGetPhysicalDeviceFeatures2, which an instance made for Vulkan 1.0 may not use. */
+    VkPhysicalDeviceFeatures features;
+    fn.GetPhysicalDeviceFeatures(physical, &features);
     /* Only the raster voxeliser stores from fragment shaders; devices without it use the compute one. */
-    r->features.fragmentStoresAndAtomics = features.features.fragmentStoresAndAtomics;
-    r->features.vertexPipelineStoresAndAtomics = features.features.vertexPipelineStoresAndAtomics;
+    r->features.fragmentStoresAndAtomics = features.fragmentStoresAndAtomics;
+    r->features.vertexPipelineStoresAndAtomics = features.vertexPipelineStoresAndAtomics;
     check_limits(&properties.limits, r);
     r->supported = r->reason_count == 0;
     return SDFGI_OK;

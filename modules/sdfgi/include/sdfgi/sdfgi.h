@@ -85,6 +85,8 @@ struct sdfgi_requirements {
     bool supported;
     uint32_t reason_count; /* why not; 0 when supported */
     char reasons[SDFGI_MAX_REASONS][96];
+    uint32_t api_version;     /* VkApplicationInfo::apiVersion must be so much: Vulkan 1.2. The library cannot
+                                 ask an instance for it: see sdfgi_vulkan */
     uint32_t extension_count; /* device extensions to enable: none so far */
     const char *extensions[SDFGI_MAX_EXTENSIONS];
     /* Features to enable, and no others are used. Chain them in VkDeviceCreateInfo::pNext, or set the same
@@ -130,6 +132,9 @@ struct sdfgi_vulkan {
                                     if the raster voxelizer is chosen */
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;
     const VkAllocationCallbacks *allocation_callbacks; /* may be NULL; copied */
+    uint32_t api_version; /* VkApplicationInfo::apiVersion of the instance; 0: not said. Where it is known to
+                             be below Vulkan 1.2, sdfgi_create fails with SDFGI_ERROR_UNSUPPORTED: say it,
+                             because not every driver shows it */
 };
 
 struct sdfgi_desc {
