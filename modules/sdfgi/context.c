@@ -2,18 +2,28 @@
  * Creation, settings, destruction. */
 #include "context.h"
 
+#include "core/problem.h"
+
 #include <string.h>
 
-static const char *desc_problem(const struct sdfgi_desc *d)
+static struct problem desc_problem(const struct sdfgi_desc *d)
 {
-    if (!d->vulkan.instance || !d->vulkan.physical_device || !d->vulkan.device ||
-        !d->vulkan.get_instance_proc_addr)
-        return "vulkan.instance, physical_device, device or get_instance_proc_addr is null";
+    struct problem p = { "" };
+    if (!d->vulkan.instance)
+        sdfgi_problem_add(&p, "vulkan.instance is null");
+    if (!d->vulkan.physical_device)
+        sdfgi_problem_add(&p, "vulkan.physical_device is null");
+    if (!d->vulkan.device)
+        sdfgi_problem_add(&p, "vulkan.device is null");
+    if (!d->vulkan.get_instance_proc_addr)
+        sdfgi_problem_add(&p, "vulkan.get_instance_proc_addr is null");
     if (d->frames_in_flight > SDFGI_MAX_FRAMES_IN_FLIGHT)
-        return "frames_in_flight exceeds 8";
+        sdfgi_problem_add(&p, "frames_in_flight is %u, must be at most %d", (unsigned)d->frames_in_flight,
+                          (int)SDFGI_MAX_FRAMES_IN_FLIGHT);
     if (!d->allocator.alloc != !d->allocator.free)
-        return "allocator has only one of alloc and free";
-    return NULL;
+        sdfgi_problem_add(&p, "allocator.%s is null, must be set where allocator.%s is",
+                          d->allocator.alloc ? "free" : "alloc", d->allocator.alloc ? "alloc" : "free");
+    return p;
 }
 
 static enum sdfgi_result check_device(struct hooks *hooks, const struct sdfgi_vulkan *vulkan)
@@ -91,9 +101,9 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
 enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out)
 {
     const struct hooks hooks = { .log = desc->log, .allocator = desc->allocator };
-    const char *problem = desc_problem(desc);
-    if (problem)
-        return sdfgi_message_invalid(&hooks, "sdfgi_create: %s", problem);
+    const struct problem problem = desc_problem(desc);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &hooks, "sdfgi_create");
     struct sdfgi *gi = sdfgi_hooks_alloc_zeroed(&hooks, sizeof *gi);
     if (!gi) {
         sdfgi_message_log(&hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "sdfgi_create: out of host memory");

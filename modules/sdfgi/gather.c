@@ -5,16 +5,20 @@
 #include "shaders/shared/bindings.h"
 
 /* Sizes that no image has, or that take more workgroups than a dispatch may. */
-static const char *size_problem(const struct sdfgi *gi, const struct work *work)
+static struct problem size_problem(const struct sdfgi *gi, const struct work *work)
 {
+    struct problem p = { "" };
     const VkPhysicalDeviceLimits *limits = &gi->backend.device.limits;
-    const uint32_t most = limits->maxImageDimension2D;
-    if (work->args.gather.width > most || work->args.gather.height > most)
-        return "width or height is more than the device's maxImageDimension2D";
+    const unsigned most = limits->maxImageDimension2D, width = work->args.gather.width,
+                   height = work->args.gather.height;
+    if (width > most || height > most)
+        sdfgi_problem_add(&p, "%s is %u, must be at most maxImageDimension2D = %u",
+                          width > most ? "width" : "height", width > most ? width : height, most);
     const struct work_groups groups = sdfgi_work_groups(work, &gi->volume.resources->extent, 1);
     if (groups.x > limits->maxComputeWorkGroupCount[0] || groups.y > limits->maxComputeWorkGroupCount[1])
-        return "width or height takes more workgroups than the device's maxComputeWorkGroupCount";
-    return NULL;
+        sdfgi_problem_add(&p, "%u x %u pixels take more workgroups than maxComputeWorkGroupCount", width,
+                          height);
+    return p;
 }
 
 static void record(struct sdfgi *gi, VkCommandBuffer cmd, const struct view *view, const struct work *work)
@@ -40,13 +44,15 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 {
     if (!sdfgi_is_active(gi))
         return SDFGI_OK;
-    const char *problem = cmd ? sdfgi_view_gather_problem(desc) : "cmd is null";
-    if (problem)
-        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
+    struct problem problem = sdfgi_view_gather_problem(desc);
+    if (!cmd)
+        sdfgi_problem_add(&problem, "cmd is null");
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_gather");
     const struct work work = sdfgi_view_gather_work(desc);
     problem = size_problem(gi, &work);
-    if (problem)
-        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_gather: %s", problem);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_gather");
     VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
     struct view *view = result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
     if (!view)

@@ -46,26 +46,32 @@ uint64_t sdfgi_inspect_volume_size(const sdfgi *gi, enum sdfgi_volume volume)
     return sdfgi_resource_size(volume_resources[volume], extent) / extent->cascades;
 }
 
-static const char *copy_problem(const struct sdfgi *gi, uint32_t cascade, enum sdfgi_volume volume,
-                                VkBuffer buffer, VkDeviceSize offset)
+static struct problem copy_problem(const struct sdfgi *gi, uint32_t cascade, enum sdfgi_volume volume,
+                                   VkBuffer buffer, VkDeviceSize offset)
 {
+    struct problem p = { "" };
     if (!sdfgi_is_active(gi))
-        return "nothing has been voxelised yet";
+        sdfgi_problem_add(&p, "nothing has been voxelised yet");
     if (cascade >= gi->settings.cascades)
-        return "there is no such cascade";
+        sdfgi_problem_add(&p, "cascade is %u, must be below %u", (unsigned)cascade,
+                          (unsigned)gi->settings.cascades);
     if (!volume_is_known(volume))
-        return "there is no such volume";
+        sdfgi_problem_add(&p, "volume is %d, must be one of enum sdfgi_volume", (int)volume);
     if (!buffer)
-        return "buffer is null";
-    return offset % 4 != 0 ? "offset is not a multiple of 4" : NULL;
+        sdfgi_problem_add(&p, "buffer is null");
+    if (offset % 4 != 0)
+        sdfgi_problem_add(&p, "offset is %llu, must be a multiple of 4", (unsigned long long)offset);
+    return p;
 }
 
 enum sdfgi_result sdfgi_inspect_copy(sdfgi *gi, VkCommandBuffer cmd, uint32_t cascade,
                                      enum sdfgi_volume volume, VkBuffer buffer, VkDeviceSize offset)
 {
-    const char *problem = copy_problem(gi, cascade, volume, buffer, offset);
-    if (problem)
-        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_inspect_copy: %s", problem);
+    struct problem problem = copy_problem(gi, cascade, volume, buffer, offset);
+    if (!cmd)
+        sdfgi_problem_add(&problem, "cmd is null");
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_inspect_copy");
     const enum resource resource = volume_resources[volume];
     const struct gpu_buffer to = { .handle = buffer };
     const uint64_t bytes = sdfgi_inspect_volume_size(gi, volume);

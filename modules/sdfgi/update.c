@@ -2,17 +2,18 @@
  * sdfgi_update: a frame, from top to bottom. */
 #include "context.h"
 
+#include "core/problem.h"
+
 #include <math.h>
 #include <string.h>
 
-static const char *frame_problem(const struct sdfgi_frame_desc *d)
+static struct problem frame_problem(const struct sdfgi_frame_desc *d)
 {
-    for (int i = 0; i < 3; i++)
-        if (!isfinite(d->camera_position[i]) || !isfinite(d->origin[i]))
-            return "camera_position or origin is not finite";
-    if (!(isfinite(d->exposure) && d->exposure >= 0))
-        return "exposure is negative or not finite";
-    return NULL;
+    struct problem p = { "" };
+    sdfgi_problem_finite(&p, "camera_position", d->camera_position, 3);
+    sdfgi_problem_finite(&p, "origin", d->origin, 3);
+    sdfgi_problem_floats(&p, "exposure", &d->exposure, 1, 0, INFINITY);
+    return p;
 }
 
 /* Threads that follow a shadow ray: where few threads run at once none should be idle. */
@@ -69,11 +70,11 @@ static enum sdfgi_result read_back(struct sdfgi *gi, uint32_t slot)
 
 enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc)
 {
-    const char *problem = frame_problem(desc);
-    if (problem)
-        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_update: %s", problem);
+    struct problem problem = frame_problem(desc);
     if (gi->volume.resources && !cmd)
-        return sdfgi_message_invalid(&gi->backend.hooks, "sdfgi_update: cmd is null");
+        sdfgi_problem_add(&problem, "cmd is null");
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_update");
     if (gi->backend.hooks.device_lost)
         return SDFGI_ERROR_DEVICE_LOST;
 

@@ -65,6 +65,20 @@ static struct sdfgi_transform transform_of(const struct host_instance *instance)
     return out;
 }
 
+static bool all_zero(const float *v, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (v[i] != 0.0f)
+            return false;
+    return true;
+}
+
+/* Meshes and instances that have shrunk to a point: the library refuses them. */
+static bool is_point(const struct host_primitive *p, const struct sdfgi_transform *transform)
+{
+    return all_zero(transform->basis, 9) || (all_zero(p->bounds_min, 3) && all_zero(p->bounds_max, 3));
+}
+
 static bool geometry_register(struct host_gi *gi, const struct host_scene *scene,
                               const sdfgi_material *materials, sdfgi_mesh *meshes)
 {
@@ -73,7 +87,8 @@ static bool geometry_register(struct host_gi *gi, const struct host_scene *scene
         const struct host_primitive *primitive = &scene->primitives[instance->primitive];
         sdfgi_mesh *mesh = &meshes[instance->primitive];
         sdfgi_instance unused;
-        if (!scene->materials[primitive->material].casts_shadow)
+        const struct sdfgi_transform transform = transform_of(instance);
+        if (!scene->materials[primitive->material].casts_shadow || is_point(primitive, &transform))
             continue;
         if (mesh->id == 0) {
             const struct sdfgi_mesh_desc desc = mesh_desc(scene, primitive);
@@ -82,7 +97,7 @@ static bool geometry_register(struct host_gi *gi, const struct host_scene *scene
         }
         const struct sdfgi_instance_desc desc = { .mesh = *mesh,
                                                   .material = materials[primitive->material],
-                                                  .transform = transform_of(instance),
+                                                  .transform = transform,
                                                   .mobility = SDFGI_STATIC };
         if (!gi_check(gi, sdfgi_instance_create(gi->context, &desc, &unused), "registering an instance"))
             return false;

@@ -7,6 +7,7 @@
  * one half, and one whose factor is below that does nothing to light at all. */
 #include "host_internal.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,10 +90,11 @@ static void gi_fill(const struct gltf_material *m, const struct host_material_da
         out->gi.albedo[i] = m->unlit ? 0.0f : fminf(fmaxf(m->base_color[i], 0.0f), 1.0f);
         out->gi.emission[i] = data->emissive[i];
     }
-    out->gi.alpha = fminf(fmaxf(m->base_color[3], 0.0f), 1.0f);
+    /* To the library an alpha of 0 means 1, and there is no cutoff beyond 1. */
+    out->gi.alpha = m->alpha_cutoff > 1.0f ? FLT_MIN : fminf(fmaxf(m->base_color[3], FLT_MIN), 1.0f);
     out->gi.double_sided_emission = m->double_sided;
     if (out->shadow_test)
-        out->gi.alpha_cutoff = m->alpha_mode == GLTF_ALPHA_BLEND ? 0.5f : m->alpha_cutoff;
+        out->gi.alpha_cutoff = m->alpha_mode == GLTF_ALPHA_BLEND ? 0.5f : fminf(m->alpha_cutoff, 1.0f);
     if (out->flags & HOST_MATERIAL_BASE_MAP)
         out->gi.albedo_texture = gi_texture(&images[0], &m->base_color_texture);
     if (out->flags & HOST_MATERIAL_EMISSIVE_MAP)

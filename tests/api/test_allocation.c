@@ -73,9 +73,9 @@ static struct sdfgi_desc desc_on(const struct gpu_test *gpu, struct counting *co
 static enum sdfgi_result add_objects(sdfgi *gi, VkBuffer buffer)
 {
     enum { COUNT = 70 };
-    const struct sdfgi_mesh_desc mesh_desc = { .position_buffer = buffer,
-                                               .vertex_count = 3,
-                                               .triangle_count = 1 };
+    const struct sdfgi_mesh_desc mesh_desc = {
+        .position_buffer = buffer, .vertex_count = 3, .triangle_count = 1, .bounds_max = { 1, 1, 0 }
+    };
     const struct sdfgi_material_desc material_desc = { .albedo = { 1, 1, 1 } };
     const struct sdfgi_light_desc light_desc = { .type = SDFGI_LIGHT_POINT, .intensity = { 1, 1, 1 } };
     for (int i = 0; i < COUNT; i++) {
@@ -300,9 +300,9 @@ static void no_vulkan_failure_while_adding_a_mesh_is_fatal(void **state)
     sdfgi *gi;
     failing_vulkan_reset(0, VK_SUCCESS);
     REQUIRE_CMP((int)sdfgi_create(&desc, &gi), ==, (int)SDFGI_OK);
-    const struct sdfgi_mesh_desc mesh = { .position_buffer = triangle.buffer,
-                                          .vertex_count = 3,
-                                          .triangle_count = 1 };
+    const struct sdfgi_mesh_desc mesh = {
+        .position_buffer = triangle.buffer, .vertex_count = 3, .triangle_count = 1, .bounds_max = { 1, 1, 0 }
+    };
     for (uint32_t k = 1;; k++) {
         sdfgi_mesh handle = { 77 };
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
@@ -388,9 +388,12 @@ static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
     update_twice(gi);
     const VkImageView view = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
     const VkSampler sampler = (VkSampler)(uintptr_t)1;
-    const struct sdfgi_gather_desc gather = {
-        .depth = view, .normal = view, .output = view, .width = 1, .height = 1
-    };
+    const struct sdfgi_gather_desc gather = { .depth = view,
+                                              .normal = view,
+                                              .output = view,
+                                              .width = 1,
+                                              .height = 1,
+                                              .inverse_view_projection = { 1 } };
     const struct sdfgi_material_desc material = { .albedo = { 1, 1, 1 },
                                                   .albedo_texture = { .view = view, .sampler = sampler } };
     for (uint32_t k = 1; k <= 2; k++) { /* its shader module, itself */
@@ -418,9 +421,12 @@ static void no_failure_to_make_a_view_is_fatal(void **state)
     sdfgi *gi = create_on(&counting);
     record_first_frame(gi);
     const VkImageView image = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
-    const struct sdfgi_gather_desc gather = {
-        .depth = image, .normal = image, .output = image, .width = 1, .height = 1
-    };
+    const struct sdfgi_gather_desc gather = { .depth = image,
+                                              .normal = image,
+                                              .output = image,
+                                              .width = 1,
+                                              .height = 1,
+                                              .inverse_view_projection = { 1 } };
     const int64_t live = counting.live;
     REQUIRE_CMP((int)sdfgi_pipelines_require(&gi->backend, PASS_GATHER, 0), ==, (int)VK_SUCCESS);
     for (uint32_t k = 1; k <= 3; k++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Every documented error: its code, its message id, and that nothing has changed. Message texts are not
- * looked at. */
+ * Every documented error: its code, its message id, and that nothing has changed. Of message texts only the
+ * promise is looked at: they name function, object, field, value and limit. */
 #include "gi_test.h"
 #include "require.h"
 
@@ -165,6 +165,7 @@ static void materials_are_checked(void **state)
     REFUSE(d.alpha = 2);
     REFUSE(d.alpha = NAN);
     REFUSE(d.alpha_cutoff = -1);
+    REFUSE(d.alpha_cutoff = 1.01f);
     REFUSE(d.albedo_texture.uv_transform[3] = NAN);
     REFUSE(d.emission_texture.uv_transform[0] = INFINITY);
     /* Never used: a view without a sampler is refused before anything looks at it. */
@@ -239,6 +240,7 @@ static void meshes_are_checked(void **state)
     REFUSE(d.bounds_min[0] = NAN);
     REFUSE(d.bounds_max[1] = INFINITY);
     REFUSE(d.bounds_min[2] = 1);
+    REFUSE(d.bounds_max[0] = d.bounds_max[1] = 0);
 #undef REFUSE
     const struct sdfgi_mesh_desc good = good_mesh();
     REQUIRE_CMP((int)sdfgi_mesh_create(t.gi, &good, &out), ==, (int)SDFGI_OK);
@@ -266,6 +268,7 @@ static void instances_are_checked(void **state)
     REFUSE(d.mesh.id += 1u << 20, REQUIRE_STALE);
     REFUSE(d.material.id = 12345, REQUIRE_STALE);
     REFUSE(d.transform.basis[4] = NAN, REQUIRE_INVALID);
+    REFUSE(memset(d.transform.basis, 0, sizeof d.transform.basis), REQUIRE_INVALID);
     REFUSE(d.transform.translation[1] = INFINITY, REQUIRE_INVALID);
     REFUSE(d.mobility = (enum sdfgi_mobility)7, REQUIRE_INVALID);
 #undef REFUSE
@@ -273,6 +276,7 @@ static void instances_are_checked(void **state)
     struct sdfgi_transform bad = identity;
     bad.basis[0] = INFINITY;
     REQUIRE_INVALID(sdfgi_instance_set_transform(t.gi, out, &bad));
+    REQUIRE_INVALID(sdfgi_instance_set_transform(t.gi, out, &(struct sdfgi_transform){ 0 }));
     REQUIRE_INVALID(sdfgi_material_destroy(t.gi, good.material)); /* still in use */
     REQUIRE_CMP((int)sdfgi_instance_destroy(t.gi, out), ==, (int)SDFGI_OK);
     REQUIRE_STALE(sdfgi_instance_destroy(t.gi, out));
@@ -382,6 +386,42 @@ static void skies_are_checked(void **state)
     REQUIRE_INVALID(sdfgi_set_sky(t.gi, &(struct sdfgi_sky){ .ground = { 0, 0, INFINITY } }));
 }
 
+/* ---- Texts */
+
+/* Whether the last message has all of these words. */
+static void require_words(const char *const words[static 5])
+{
+    for (int i = 0; i < 5 && words[i]; i++)
+        if (!strstr(t.last_message, words[i]))
+            require_fail(__FILE__, __LINE__, "'%s' is not in: %s", words[i], t.last_message);
+}
+
+static void messages_name_function_object_field_value_and_limit(void **state)
+{
+    (void)state;
+    struct sdfgi_light_desc light = { .type = SDFGI_LIGHT_POINT, .intensity = { 1, 1, 1 } };
+    struct sdfgi_mesh_desc mesh = good_mesh();
+    sdfgi_light handle;
+    sdfgi_mesh unused;
+    mesh.uv_stride = 6;
+    REQUIRE_INVALID(sdfgi_mesh_create(t.gi, &mesh, &unused));
+    require_words((const char *[5]){ "sdfgi_mesh_create", "uv_stride", " 6,", "multiple of 4", "8" });
+    mesh = good_mesh();
+    mesh.color_offset = 7;
+    REQUIRE_INVALID(sdfgi_mesh_create(t.gi, &mesh, &unused));
+    require_words((const char *[5]){ "sdfgi_mesh_create", "color_offset", " 7,", "multiple of 4" });
+    REQUIRE_CMP((int)sdfgi_light_create(t.gi, &light, &handle), ==, (int)SDFGI_OK);
+    char object[32];
+    snprintf(object, sizeof object, "light %u:", handle.id);
+    light.intensity[2] = -2.5f;
+    REQUIRE_INVALID(sdfgi_light_update(t.gi, handle, &light));
+    require_words((const char *[5]){ "sdfgi_light_update", object, "intensity[2]", "-2.5", "at least 0" });
+    REQUIRE_CMP((int)sdfgi_light_destroy(t.gi, handle), ==, (int)SDFGI_OK);
+    const struct sdfgi_material_desc material = { .albedo = { 0, 1.5f, 0 } };
+    REQUIRE_INVALID(sdfgi_material_create(t.gi, &material, &(sdfgi_material){ 0 }));
+    require_words((const char *[5]){ "sdfgi_material_create", "albedo[1]", "1.5", "from 0 to 1" });
+}
+
 /* ---- Frames */
 
 static void frames_are_checked(void **state)
@@ -445,6 +485,7 @@ int main(void)
         cmocka_unit_test(directions_of_any_length_are_taken),
         cmocka_unit_test(more_than_1024_lights_are_refused),
         cmocka_unit_test(skies_are_checked),
+        cmocka_unit_test(messages_name_function_object_field_value_and_limit),
         cmocka_unit_test(frames_are_checked),
         cmocka_unit_test(estimates_are_checked),
         cmocka_unit_test(every_memory_category_has_a_name),

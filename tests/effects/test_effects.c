@@ -377,21 +377,23 @@ static void removing_an_unused_bright_material_changes_no_light(void **state)
     gi_test_close(&t);
 }
 
-static void a_light_that_is_off_in_gi_lights_nothing(void **state)
+static void indirect_energy_scales_a_light_and_0_means_1(void **state)
 {
     (void)state;
     struct gi_test t;
     open_floor(&t, 1);
     struct sdfgi_light_desc sun = light_sun(0, -1, 0, 10);
-    sun.indirect_energy = 0;
     const sdfgi_light light = light_create(&t, &sun);
     gi_test_converge(&t, 120);
     const struct gi_test_point point = { { 0, 0, 0 }, { 0, -1, 0 } };
-    REQUIRE_NEAR(light_white_at(&t, point), 0, 0);
-    sun.indirect_energy = 1;
-    REQUIRE_CMP(sdfgi_light_update(t.gi, light, &sun), ==, SDFGI_OK);
-    gi_test_converge(&t, 120);
     const double one = light_white_at(&t, point);
+    sun.indirect_energy = 0;
+    REQUIRE_CMP(sdfgi_light_update(t.gi, light, &sun), ==, SDFGI_OK);
+    REQUIRE_TRUE(sdfgi_journal_is_empty(&t.gi->volume.journal));
+    const struct sdfgi_light_desc off = light_sun(0, -1, 0, 0);
+    REQUIRE_CMP(sdfgi_light_update(t.gi, light, &off), ==, SDFGI_OK);
+    gi_test_converge(&t, 120);
+    REQUIRE_NEAR(light_white_at(&t, point), 0, 0);
     sun.indirect_energy = 2;
     REQUIRE_CMP(sdfgi_light_update(t.gi, light, &sun), ==, SDFGI_OK);
     gi_test_converge(&t, 120);
@@ -420,7 +422,7 @@ int main(void)
         cmocka_unit_test(deleting_an_occluder_removes_its_shadow_and_bounce),
         cmocka_unit_test(hard_53_no_light_remains_of_a_removed_lamp),
         cmocka_unit_test(removing_an_unused_bright_material_changes_no_light),
-        cmocka_unit_test(a_light_that_is_off_in_gi_lights_nothing),
+        cmocka_unit_test(indirect_energy_scales_a_light_and_0_means_1),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@ static void log_message(void *user, enum sdfgi_log_level level, enum sdfgi_messa
 {
     struct gi_test *t = user;
     t->messages[id]++;
+    snprintf(t->last_message, sizeof t->last_message, "%s", text);
     if (level == SDFGI_LOG_ERROR && !t->gpu.messages.quiet)
         fprintf(stderr, "sdfgi: %s\n", text);
 }

@@ -18,6 +18,7 @@ struct gi_test {
     uint32_t buffer_count;
     struct sdfgi_frame_desc frame;
     uint32_t messages[SDFGI_MESSAGE_COUNT]; /* how often each was logged */
+    char last_message[256];
 };
 
 /* Opens a device and a context that is switched on with `settings`; the camera stands in the origin. Must

@@ -123,35 +123,18 @@ static void fit_emission_unit(struct scene *scene, const struct sdfgi_material_d
     sdfgi_journal_note(scene->journals, JOURNAL_EVERYTHING);
 }
 
-static const char *material_problem(const struct sdfgi_material_desc *d)
-{
-    if (!sdfgi_check_non_negative(d->albedo, 3) || d->albedo[0] > 1 || d->albedo[1] > 1 || d->albedo[2] > 1)
-        return "albedo is outside [0, 1]";
-    if (!sdfgi_check_non_negative(d->emission, 3))
-        return "emission is negative or not finite";
-    if (!sdfgi_check_non_negative(&d->alpha, 1) || d->alpha > 1 ||
-        !sdfgi_check_non_negative(&d->alpha_cutoff, 1))
-        return "alpha is outside [0, 1] or alpha_cutoff is negative";
-    if (!sdfgi_check_finite_floats(d->albedo_texture.uv_transform, 6) ||
-        !sdfgi_check_finite_floats(d->emission_texture.uv_transform, 6))
-        return "a uv_transform is not finite";
-    if ((d->albedo_texture.view && !d->albedo_texture.sampler) ||
-        (d->emission_texture.view && !d->emission_texture.sampler))
-        return "a texture has a view but no sampler";
-    return NULL;
-}
-
 enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
                                               sdfgi_material *out)
 {
-    const char *problem = material_problem(desc);
-    if (problem)
-        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_material_create: %s", problem);
+    const struct problem problem = sdfgi_check_material(desc);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_material_create");
     uint32_t id;
     struct material *material = sdfgi_pool_add(&scene->materials, &scene->backend->hooks, &id);
     if (!material)
         return sdfgi_check_out_of_slots(scene, "sdfgi_material_create", SDFGI_MAX_MATERIALS);
     material->desc = *desc;
+    material->desc.alpha = desc->alpha > 0 ? desc->alpha : 1;
     const VkResult result = sdfgi_scene_sets_material(scene, material);
     if (result != VK_SUCCESS) {
         sdfgi_pool_remove(&scene->materials, id);
@@ -184,41 +167,12 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
 
 /* ---- Meshes */
 
-static const char *mesh_problem(const struct sdfgi_mesh_desc *d)
-{
-    if (!d->position_buffer)
-        return "position_buffer is null";
-    if (d->vertex_count == 0 || d->triangle_count == 0)
-        return "vertex_count or triangle_count is 0";
-    if (!d->index_buffer && d->triangle_count > d->vertex_count / 3)
-        return "triangle_count exceeds vertex_count / 3 without an index buffer";
-    if (d->index_buffer && d->index_type != VK_INDEX_TYPE_UINT16 && d->index_type != VK_INDEX_TYPE_UINT32)
-        return "index_type is neither UINT16 nor UINT32";
-    if ((d->position_offset | d->position_stride | d->uv_offset | d->uv_stride | d->color_offset |
-         d->color_stride | d->index_offset) &
-        3)
-        return "an offset or stride is not a multiple of 4";
-    if (d->position_stride > 0 && d->position_stride < 12)
-        return "position_stride is below 12, the size of a position";
-    if (d->uv_stride > 0 && d->uv_stride < 8)
-        return "uv_stride is below 8, the size of a pair of coordinates";
-    if (d->color_stride > 0 && d->color_stride < 16)
-        return "color_stride is below 16, the size of a colour";
-    if ((d->position_offset | d->uv_offset | d->color_offset | d->index_offset) >> 34)
-        return "an offset exceeds 16 GiB";
-    if (!sdfgi_check_finite_floats(d->bounds_min, 3) || !sdfgi_check_finite_floats(d->bounds_max, 3) ||
-        d->bounds_min[0] > d->bounds_max[0] || d->bounds_min[1] > d->bounds_max[1] ||
-        d->bounds_min[2] > d->bounds_max[2])
-        return "bounds are not finite or bounds_min exceeds bounds_max";
-    return NULL;
-}
-
 enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc,
                                           sdfgi_mesh *out)
 {
-    const char *problem = mesh_problem(desc);
-    if (problem)
-        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_mesh_create: %s", problem);
+    const struct problem problem = sdfgi_check_mesh(desc);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_mesh_create");
     uint32_t id;
     struct mesh *mesh = sdfgi_pool_add(&scene->meshes, &scene->backend->hooks, &id);
     if (!mesh)
@@ -270,11 +224,6 @@ static struct box transformed_bounds(const struct mesh *mesh, const struct sdfgi
     return box;
 }
 
-static bool transform_finite(const struct sdfgi_transform *t)
-{
-    return sdfgi_check_finite_floats(t->basis, 9) && sdfgi_check_finite_doubles(t->translation, 3);
-}
-
 enum sdfgi_result sdfgi_scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
                                               sdfgi_instance *out)
 {
@@ -283,12 +232,12 @@ enum sdfgi_result sdfgi_scene_instance_create(struct scene *scene, const struct 
         return sdfgi_check_unknown_handle(scene, "sdfgi_instance_create: mesh", desc->mesh.id);
     if (!sdfgi_pool_get(&scene->materials, desc->material.id))
         return sdfgi_check_unknown_handle(scene, "sdfgi_instance_create: material", desc->material.id);
-    if (!transform_finite(&desc->transform))
-        return sdfgi_message_invalid(&scene->backend->hooks,
-                                     "sdfgi_instance_create: transform is not finite");
+    struct problem problem = sdfgi_check_transform(&desc->transform);
     if (desc->mobility != SDFGI_STATIC && desc->mobility != SDFGI_EXCLUDED)
-        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_instance_create: unknown mobility %d",
-                                     (int)desc->mobility);
+        sdfgi_problem_add(&problem, "mobility is %d, must be one of enum sdfgi_mobility",
+                          (int)desc->mobility);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_instance_create");
     uint32_t id;
     struct instance *instance = sdfgi_pool_add(&scene->instances, &scene->backend->hooks, &id);
     if (!instance)
@@ -307,9 +256,10 @@ enum sdfgi_result sdfgi_scene_instance_set_transform(struct scene *scene, sdfgi_
     struct instance *instance = sdfgi_pool_get(&scene->instances, handle.id);
     if (!instance)
         return sdfgi_check_unknown_handle(scene, "sdfgi_instance_set_transform", handle.id);
-    if (!transform_finite(transform))
-        return sdfgi_message_invalid(&scene->backend->hooks,
-                                     "sdfgi_instance_set_transform: transform is not finite");
+    const struct problem problem = sdfgi_check_transform(transform);
+    if (problem.text[0])
+        return sdfgi_problem_report_of(&problem, &scene->backend->hooks, "sdfgi_instance_set_transform",
+                                       "instance", handle.id);
     if (sdfgi_same_transform(&instance->desc.transform, transform))
         return SDFGI_OK;
     const bool in_volumes = instance->desc.mobility == SDFGI_STATIC;
@@ -336,14 +286,12 @@ enum sdfgi_result sdfgi_scene_instance_destroy(struct scene *scene, sdfgi_instan
 enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double box_min[3],
                                              const double box_max[3])
 {
+    const struct problem problem = sdfgi_check_box(box_min, box_max);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_invalidate_box");
     struct box box;
     memcpy(box.min, box_min, sizeof box.min);
     memcpy(box.max, box_max, sizeof box.max);
-    for (int i = 0; i < 3; i++)
-        if (!(box.min[i] <= box.max[i]))
-            return sdfgi_message_invalid(
-                &scene->backend->hooks,
-                "sdfgi_invalidate_box: box_min exceeds box_max, or one is not a number");
     sdfgi_journal_add_box(scene->journals, &box);
     return SDFGI_OK;
 }

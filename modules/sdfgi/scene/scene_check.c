@@ -3,29 +3,154 @@
 
 #include <math.h>
 
-bool sdfgi_check_finite_floats(const float *v, int count)
+static bool all_zero(const float *v, int count)
 {
     for (int i = 0; i < count; i++)
-        if (!isfinite(v[i]))
+        if (v[i] != 0)
             return false;
     return true;
 }
 
-bool sdfgi_check_finite_doubles(const double *v, int count)
+struct problem sdfgi_check_material(const struct sdfgi_material_desc *d)
 {
-    for (int i = 0; i < count; i++)
-        if (!isfinite(v[i]))
-            return false;
-    return true;
+    struct problem p = { "" };
+    sdfgi_problem_floats(&p, "albedo", d->albedo, 3, 0, 1);
+    sdfgi_problem_floats(&p, "emission", d->emission, 3, 0, INFINITY);
+    sdfgi_problem_floats(&p, "alpha", &d->alpha, 1, 0, 1);
+    sdfgi_problem_floats(&p, "alpha_cutoff", &d->alpha_cutoff, 1, 0, 1);
+    sdfgi_problem_floats(&p, "albedo_texture.uv_transform", d->albedo_texture.uv_transform, 6, -INFINITY,
+                         INFINITY);
+    sdfgi_problem_floats(&p, "emission_texture.uv_transform", d->emission_texture.uv_transform, 6, -INFINITY,
+                         INFINITY);
+    if (d->albedo_texture.view && !d->albedo_texture.sampler)
+        sdfgi_problem_add(&p, "albedo_texture has a view, but its sampler is null");
+    if (d->emission_texture.view && !d->emission_texture.sampler)
+        sdfgi_problem_add(&p, "emission_texture has a view, but its sampler is null");
+    return p;
 }
 
-bool sdfgi_check_non_negative(const float *v, int count)
+/* ---- Meshes */
+
+static void check_counts(struct problem *p, const struct sdfgi_mesh_desc *d)
 {
-    for (int i = 0; i < count; i++)
-        if (!(isfinite(v[i]) && v[i] >= 0))
-            return false;
-    return true;
+    if (!d->position_buffer)
+        sdfgi_problem_add(p, "position_buffer is null");
+    if (d->vertex_count == 0)
+        sdfgi_problem_add(p, "vertex_count is 0");
+    if (d->triangle_count == 0)
+        sdfgi_problem_add(p, "triangle_count is 0");
+    if (!d->index_buffer && d->triangle_count > d->vertex_count / 3)
+        sdfgi_problem_add(p, "triangle_count is %u, must be at most vertex_count / 3 = %u without indices",
+                          (unsigned)d->triangle_count, (unsigned)(d->vertex_count / 3));
+    if (d->index_buffer && d->index_type != VK_INDEX_TYPE_UINT16 && d->index_type != VK_INDEX_TYPE_UINT32)
+        sdfgi_problem_add(p, "index_type is %d, must be VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32",
+                          (int)d->index_type);
 }
+
+/* Shaders count in words of 4 bytes, with 32 bits. */
+static void check_offset(struct problem *p, const char *field, VkDeviceSize offset)
+{
+    if (offset & 3)
+        sdfgi_problem_add(p, "%s is %llu, must be a multiple of 4", field, (unsigned long long)offset);
+    if (offset >> 34)
+        sdfgi_problem_add(p, "%s is %llu, must be below 2^34", field, (unsigned long long)offset);
+}
+
+static void check_stride(struct problem *p, const char *field, uint32_t stride, uint32_t element)
+{
+    if (stride & 3 || (stride > 0 && stride < element))
+        sdfgi_problem_add(p, "%s is %u, must be 0 or a multiple of 4 that is at least %u", field,
+                          (unsigned)stride, (unsigned)element);
+}
+
+static void check_bounds(struct problem *p, const struct sdfgi_mesh_desc *d)
+{
+    sdfgi_problem_floats(p, "bounds_min", d->bounds_min, 3, -INFINITY, INFINITY);
+    sdfgi_problem_floats(p, "bounds_max", d->bounds_max, 3, -INFINITY, INFINITY);
+    for (int i = 0; i < 3; i++)
+        if (d->bounds_min[i] > d->bounds_max[i])
+            sdfgi_problem_add(p, "bounds_min[%d] is %g, must be at most bounds_max[%d] = %g", i,
+                              (double)d->bounds_min[i], i, (double)d->bounds_max[i]);
+    if (all_zero(d->bounds_min, 3) && all_zero(d->bounds_max, 3))
+        sdfgi_problem_add(p, "bounds_min and bounds_max are 0: state the box around all vertices");
+}
+
+struct problem sdfgi_check_mesh(const struct sdfgi_mesh_desc *d)
+{
+    struct problem p = { "" };
+    check_counts(&p, d);
+    check_offset(&p, "position_offset", d->position_offset);
+    check_offset(&p, "uv_offset", d->uv_offset);
+    check_offset(&p, "color_offset", d->color_offset);
+    check_offset(&p, "index_offset", d->index_offset);
+    check_stride(&p, "position_stride", d->position_stride, 12);
+    check_stride(&p, "uv_stride", d->uv_stride, 8);
+    check_stride(&p, "color_stride", d->color_stride, 16);
+    check_bounds(&p, d);
+    return p;
+}
+
+/* ---- Instances, lights, sky */
+
+struct problem sdfgi_check_transform(const struct sdfgi_transform *t)
+{
+    struct problem p = { "" };
+    sdfgi_problem_floats(&p, "transform.basis", t->basis, 9, -INFINITY, INFINITY);
+    sdfgi_problem_finite(&p, "transform.translation", t->translation, 3);
+    if (all_zero(t->basis, 9))
+        sdfgi_problem_add(&p, "transform.basis is 0: nothing is left of the mesh. The identity is "
+                              "1, 0, 0, 0, 1, 0, 0, 0, 1");
+    return p;
+}
+
+static void check_angles(struct problem *p, const struct sdfgi_light_desc *d)
+{
+    sdfgi_problem_floats(p, "inner_angle_rad", &d->inner_angle_rad, 1, 0, 1.5708f);
+    sdfgi_problem_floats(p, "outer_angle_rad", &d->outer_angle_rad, 1, 0, 1.5708f);
+    if (!(d->inner_angle_rad < d->outer_angle_rad))
+        sdfgi_problem_add(p, "outer_angle_rad is %g, must be more than inner_angle_rad = %g",
+                          (double)d->outer_angle_rad, (double)d->inner_angle_rad);
+}
+
+struct problem sdfgi_check_light(const struct sdfgi_light_desc *d)
+{
+    struct problem p = { "" };
+    if (d->type > SDFGI_LIGHT_SPOT)
+        sdfgi_problem_add(&p, "type is %d, must be one of enum sdfgi_light_type", (int)d->type);
+    sdfgi_problem_floats(&p, "intensity", d->intensity, 3, 0, INFINITY);
+    sdfgi_problem_floats(&p, "indirect_energy", &d->indirect_energy, 1, 0, INFINITY);
+    sdfgi_problem_floats(&p, "range_m", &d->range_m, 1, 0, INFINITY);
+    sdfgi_problem_finite(&p, "position", d->position, 3);
+    if (d->type != SDFGI_LIGHT_POINT) {
+        sdfgi_problem_floats(&p, "direction", d->direction, 3, -INFINITY, INFINITY);
+        if (all_zero(d->direction, 3))
+            sdfgi_problem_add(&p, "direction is 0, must be the way that the light travels");
+    }
+    if (d->type == SDFGI_LIGHT_SPOT)
+        check_angles(&p, d);
+    return p;
+}
+
+struct problem sdfgi_check_sky(const struct sdfgi_sky *sky)
+{
+    struct problem p = { "" };
+    sdfgi_problem_floats(&p, "zenith", sky->zenith, 3, 0, INFINITY);
+    sdfgi_problem_floats(&p, "horizon", sky->horizon, 3, 0, INFINITY);
+    sdfgi_problem_floats(&p, "ground", sky->ground, 3, 0, INFINITY);
+    return p;
+}
+
+struct problem sdfgi_check_box(const double box_min[static 3], const double box_max[static 3])
+{
+    struct problem p = { "" };
+    for (int i = 0; i < 3; i++)
+        if (!(box_min[i] <= box_max[i]))
+            sdfgi_problem_add(&p, "box_min[%d] is %g, must be at most box_max[%d] = %g", i, box_min[i], i,
+                              box_max[i]);
+    return p;
+}
+
+/* ---- Handles */
 
 enum sdfgi_result sdfgi_check_out_of_slots(const struct scene *scene, const char *what, uint32_t limit)
 {

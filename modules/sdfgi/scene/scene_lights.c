@@ -4,23 +4,12 @@
 #include "scene.h"
 #include "scene_check.h"
 
-static const char *light_problem(const struct sdfgi_light_desc *d)
+/* What zero stands for is filled in. */
+static struct sdfgi_light_desc resolved(const struct sdfgi_light_desc *desc)
 {
-    const bool aims = d->type == SDFGI_LIGHT_DIRECTIONAL || d->type == SDFGI_LIGHT_SPOT;
-    if (d->type > SDFGI_LIGHT_SPOT)
-        return "unknown type";
-    if (!sdfgi_check_non_negative(d->intensity, 3) || !sdfgi_check_non_negative(&d->indirect_energy, 1) ||
-        !sdfgi_check_non_negative(&d->range_m, 1))
-        return "intensity, indirect_energy or range_m is negative or not finite";
-    if (!sdfgi_check_finite_doubles(d->position, 3))
-        return "position is not finite";
-    if (aims && (!sdfgi_check_finite_floats(d->direction, 3) ||
-                 (d->direction[0] == 0 && d->direction[1] == 0 && d->direction[2] == 0)))
-        return "direction is zero or not finite";
-    if (d->type == SDFGI_LIGHT_SPOT && !(d->inner_angle_rad >= 0 && d->inner_angle_rad < d->outer_angle_rad &&
-                                         d->outer_angle_rad <= 1.5708f))
-        return "angles do not satisfy 0 <= inner < outer <= pi/2";
-    return NULL;
+    struct sdfgi_light_desc light = *desc;
+    light.indirect_energy = desc->indirect_energy > 0 ? desc->indirect_energy : 1;
+    return light;
 }
 
 static void lights_changed(struct scene *scene)
@@ -31,14 +20,14 @@ static void lights_changed(struct scene *scene)
 enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
                                            sdfgi_light *out)
 {
-    const char *problem = light_problem(desc);
-    if (problem)
-        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_light_create: %s", problem);
+    const struct problem problem = sdfgi_check_light(desc);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_light_create");
     uint32_t id;
     struct light *light = sdfgi_pool_add(&scene->lights, &scene->backend->hooks, &id);
     if (!light)
         return sdfgi_check_out_of_slots(scene, "sdfgi_light_create", SDFGI_MAX_LIGHTS);
-    light->desc = *desc;
+    light->desc = resolved(desc);
     lights_changed(scene);
     out->id = id;
     return SDFGI_OK;
@@ -50,12 +39,14 @@ enum sdfgi_result sdfgi_scene_light_update(struct scene *scene, sdfgi_light hand
     struct light *light = sdfgi_pool_get(&scene->lights, handle.id);
     if (!light)
         return sdfgi_check_unknown_handle(scene, "sdfgi_light_update", handle.id);
-    const char *problem = light_problem(desc);
-    if (problem)
-        return sdfgi_message_invalid(&scene->backend->hooks, "sdfgi_light_update: %s", problem);
-    if (sdfgi_same_light(&light->desc, desc))
+    const struct problem problem = sdfgi_check_light(desc);
+    if (problem.text[0])
+        return sdfgi_problem_report_of(&problem, &scene->backend->hooks, "sdfgi_light_update", "light",
+                                       handle.id);
+    const struct sdfgi_light_desc new_desc = resolved(desc);
+    if (sdfgi_same_light(&light->desc, &new_desc))
         return SDFGI_OK;
-    light->desc = *desc;
+    light->desc = new_desc;
     lights_changed(scene);
     return SDFGI_OK;
 }
@@ -71,10 +62,9 @@ enum sdfgi_result sdfgi_scene_light_destroy(struct scene *scene, sdfgi_light han
 
 enum sdfgi_result sdfgi_scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky)
 {
-    if (!sdfgi_check_non_negative(sky->zenith, 3) || !sdfgi_check_non_negative(sky->horizon, 3) ||
-        !sdfgi_check_non_negative(sky->ground, 3))
-        return sdfgi_message_invalid(&scene->backend->hooks,
-                                     "sdfgi_set_sky: a radiance is negative or not finite");
+    const struct problem problem = sdfgi_check_sky(sky);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_set_sky");
     if (sdfgi_same_sky(&scene->sky, sky))
         return SDFGI_OK;
     scene->sky = *sky;

@@ -62,18 +62,21 @@ struct view *sdfgi_views_next(struct backend *backend, struct views *views, VkRe
 
 /* ---- Stage 8, diffuse, as a screen pass */
 
-const char *sdfgi_view_gather_problem(const struct sdfgi_gather_desc *d)
+struct problem sdfgi_view_gather_problem(const struct sdfgi_gather_desc *d)
 {
+    struct problem p = { "" };
     if (!d->depth || !d->normal || !d->output)
-        return "depth, normal or output is null";
+        sdfgi_problem_add(&p, "%s is null", !d->depth ? "depth" : !d->normal ? "normal" : "output");
     if (d->width == 0 || d->height == 0)
-        return "width or height is 0";
+        sdfgi_problem_add(&p, "%s is 0", d->width == 0 ? "width" : "height");
     if ((unsigned)d->resolution > SDFGI_GATHER_QUARTER)
-        return "resolution is none of enum sdfgi_gather_resolution";
-    for (int i = 0; i < 16; i++)
-        if (!isfinite(d->inverse_view_projection[i]))
-            return "inverse_view_projection is not finite";
-    return NULL;
+        sdfgi_problem_add(&p, "resolution is %d, must be one of enum sdfgi_gather_resolution",
+                          (int)d->resolution);
+    sdfgi_problem_floats(&p, "inverse_view_projection", d->inverse_view_projection, 16, -INFINITY, INFINITY);
+    static const float zero[16];
+    if (memcmp(zero, d->inverse_view_projection, sizeof zero) == 0)
+        sdfgi_problem_add(&p, "inverse_view_projection is 0");
+    return p;
 }
 
 void sdfgi_view_write_set(const struct backend *backend, const struct view *view,

@@ -4,6 +4,7 @@
 #ifndef SDFGI_VIEW_H
 #define SDFGI_VIEW_H
 
+#include "core/problem.h"
 #include "pass/pass_record.h"
 
 struct view {
@@ -22,8 +23,8 @@ void sdfgi_views_finish(struct backend *backend, struct views *views);
 /* The next view of this frame, or NULL and a reason. */
 struct view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result);
 
-/* NULL, or what is wrong with the description. */
-const char *sdfgi_view_gather_problem(const struct sdfgi_gather_desc *desc);
+/* What is wrong with the description. */
+struct problem sdfgi_view_gather_problem(const struct sdfgi_gather_desc *desc);
 /* Writes the pictures of a gather into the view's set of this frame. */
 void sdfgi_view_write_set(const struct backend *backend, const struct view *view,
                           const struct sdfgi_gather_desc *desc);

@@ -29,7 +29,8 @@
  *              since 0 means something there: start from sdfgi_settings_default.
  *   NULL       a destructor accepts NULL; no other pointer may be NULL unless its comment says so.
  *   Errors     a call that fails changes nothing, writes nothing to its outputs and reports why through the
- *              log callback. Nothing aborts. After SDFGI_ERROR_DEVICE_LOST only sdfgi_destroy is useful.
+ *              log callback, which names function, object, field, value and limit. Nothing aborts.
+ *              After SDFGI_ERROR_DEVICE_LOST only sdfgi_destroy is useful.
  *   Threading  one context may be used by one thread at a time; different contexts are independent.
  */
 #ifndef SDFGI_H
@@ -196,10 +197,10 @@ struct sdfgi_texture {
 };
 
 struct sdfgi_material_desc {
-    float albedo[3];            /* linear diffuse reflectance factor, [0, 1] */
-    float alpha;                /* [0, 1], multiplied by the texture's alpha; only used for alpha_cutoff */
-    float emission[3];          /* radiance, W/(m^2 sr), >= 0 */
-    float alpha_cutoff;         /* > 0: samples with alpha below it are holes */
+    float albedo[3];            /* linear diffuse reflectance factor, [0, 1]; 0: black, with a texture too */
+    float alpha;                /* [0, 1], 0 means 1; times the texture's alpha; only for alpha_cutoff */
+    float emission[3];          /* radiance, W/(m^2 sr), >= 0; 0: none, with a texture too */
+    float alpha_cutoff;         /* [0, 1]: samples with alpha below it are holes; 0: there are none */
     bool double_sided_emission; /* false: emits from the front (counter-clockwise) side only */
     struct sdfgi_texture albedo_texture;   /* RGB times albedo, A times alpha */
     struct sdfgi_texture emission_texture; /* RGB times emission */
@@ -226,15 +227,16 @@ struct sdfgi_mesh_desc {
     VkIndexType index_type;    /* VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 */
     uint32_t vertex_count;     /* > 0 */
     uint32_t triangle_count;   /* > 0 */
-    float bounds_min[3];       /* object space, containing every vertex; instances are culled by it */
-    float bounds_max[3];
+    float bounds_min[3];       /* object space, containing every vertex; instances are culled by it. */
+    float bounds_max[3];       /* Not all six may be 0 */
 };
 
 SDFGI_API enum sdfgi_result sdfgi_mesh_create(sdfgi *gi, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out);
 SDFGI_API enum sdfgi_result sdfgi_mesh_destroy(sdfgi *gi, sdfgi_mesh mesh); /* and its instances */
 
 /* Object to world: world = basis * object + translation. basis is column-major 3x3, any finite matrix
- * (mirrored and sheared too). */
+ * (mirrored, sheared and flat too) that is not 0: a basis that was forgotten is refused. Where an object has
+ * shrunk to nothing, destroy its instance. */
 struct sdfgi_transform {
     float basis[9];
     double translation[3];
@@ -266,11 +268,11 @@ struct sdfgi_light_desc {
     float direction[3];    /* directional, spot: the way the light travels; need not be unit length */
     float intensity[3];    /* W/sr (point, spot) or irradiance W/m^2 (directional), >= 0 */
     float range_m;         /* point, spot: no light beyond; 0: unlimited */
-    float inner_angle_rad; /* spot: half angles, 0 <= inner < outer <= pi/2; falloff */
+    float inner_angle_rad; /* spot: half angles, 0 <= inner < outer <= pi/2, outer never 0; falloff */
     float outer_angle_rad; /*   saturate((cos t - cos outer) / (cos inner - cos outer))^2 */
-    float indirect_energy; /* factor on what this light contributes to GI, >= 0: 1 is physical, 0 switches it
-                              off there */
-    bool casts_shadow;     /* false: reaches every surface that faces it */
+    float indirect_energy; /* factor on what this light contributes to GI, >= 0; 1 is physical, 0 means 1.
+                              For nothing at all set `intensity` to 0, or destroy the light */
+    bool casts_shadow;     /* false: reaches every surface that faces it, through walls too */
 };
 
 SDFGI_API enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_light_desc *desc,
@@ -358,11 +360,11 @@ enum sdfgi_gather_resolution {
  * than 65504 is written as 65504. */
 struct sdfgi_gather_desc {
     VkImageView depth, normal, output;
-    VkImageLayout input_layout; /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
-    uint32_t width, height;     /* pixels of all three: 1 to the device's maxImageDimension2D */
-    float
-        inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin */
-    float background_depth;          /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
+    VkImageLayout input_layout;        /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
+    uint32_t width, height;            /* pixels of all three: 1 to the device's maxImageDimension2D */
+    float inverse_view_projection[16]; /* column-major: clip to position relative to
+                                          sdfgi_frame_desc::origin; not 0 */
+    float background_depth;            /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
     enum sdfgi_gather_resolution resolution; /* 0: SDFGI_GATHER_FULL */
 };
 

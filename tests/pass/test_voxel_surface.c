@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: MIT
+ * What the voxeliser stores of a surface's colours: each block against the mean of what the host described
+ * there. A square of 4 m lies level in a cascade; a column of sub-voxels is a 64th of it, a block an 8th. */
+#include "pass_scene.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include <math.h>
+#include <sdfgi/inspect.h>
+#include <stdlib.h>
+
+enum { COLUMNS = 64, BLOCKS = 8, PER_BLOCK = COLUMNS / BLOCKS, CORNERS = 4 };
+
+static struct gi_test t;
+
+static int open_context(void **state)
+{
+    (void)state;
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 32; /* cells of 0.25 m: the square spans a half of the cascade */
+    gi_test_open(&t, &settings);
+    return 0;
+}
+
+static int close_context(void **state)
+{
+    (void)state;
+    gi_test_close(&t);
+    return 0;
+}
+
+/* ---- The square */
+
+static const float height = 0.3f;
+/* As parts of a side, along x and z. */
+static const float corners[CORNERS][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } };
+
+static VkBuffer upload(VkDeviceSize size, const void *data)
+{
+    t.buffers[t.buffer_count] =
+        gpu_test_buffer_device(&t.gpu, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
+    return t.buffers[t.buffer_count++].buffer;
+}
+
+/* `uvs` and `colors`, of the corners, may be NULL. */
+static sdfgi_mesh make_square(const float (*uvs)[2], const float (*colors)[4])
+{
+    float positions[CORNERS][3];
+    for (int i = 0; i < CORNERS; i++)
+        memcpy(positions[i], (float[3]){ 4 * corners[i][0] - 2, height, 4 * corners[i][1] - 2 },
+               sizeof positions[i]);
+    static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
+    const struct sdfgi_mesh_desc desc = { .position_buffer = upload(sizeof positions, positions),
+                                          .uv_buffer = uvs ? upload(CORNERS * sizeof *uvs, uvs) : NULL,
+                                          .color_buffer =
+                                              colors ? upload(CORNERS * sizeof *colors, colors) : NULL,
+                                          .index_buffer = upload(sizeof indices, indices),
+                                          .index_type = VK_INDEX_TYPE_UINT32,
+                                          .vertex_count = CORNERS,
+                                          .triangle_count = 2,
+                                          .bounds_min = { -2, height, -2 },
+                                          .bounds_max = { 2, height, 2 } };
+    sdfgi_mesh mesh;
+    REQUIRE_CMP(sdfgi_mesh_create(t.gi, &desc, &mesh), ==, SDFGI_OK);
+    return mesh;
+}
+
+/* What a square of a material became. */
+struct square {
+    struct oracle_bits bits;
+    double albedo[BLOCKS][BLOCKS][3]; /* by z, x */
+};
+
+static void read_albedo(struct square *s)
+{
+    struct sdfgi_inspect_cascade where;
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
+    uint32_t *words = gi_test_read(&t, RESOURCE_ALBEDO, NULL);
+    for (uint32_t z = 0; z < BLOCKS; z++)
+        for (uint32_t x = 0; x < BLOCKS; x++) {
+            const uint32_t cell[3] = { (uint32_t)((-2 - where.origin_m[0]) / where.cell_m[0]) + 2 * x,
+                                       (uint32_t)((height - where.origin_m[1]) / where.cell_m[1]),
+                                       (uint32_t)((-2 - where.origin_m[2]) / where.cell_m[2]) + 2 * z };
+            struct sdfgi_inspect_surface surface;
+            sdfgi_inspect_decode_block(words[sdfgi_inspect_block(&where, cell[0], cell[1], cell[2])],
+                                       (uint32_t[2]){ 0 }, 0, 1, &surface);
+            for (int k = 0; k < 3; k++)
+                s->albedo[z][x][k] = surface.albedo[k] / 1023.0;
+        }
+    free(words);
+}
+
+/* The mesh alone in the cascade; it goes with its material. */
+static struct square voxelize(sdfgi_mesh mesh, const struct sdfgi_material_desc *desc)
+{
+    struct square s;
+    struct sdfgi_instance_desc instance = { .mesh = mesh,
+                                            .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } } };
+    sdfgi_instance unused;
+    REQUIRE_CMP(sdfgi_material_create(t.gi, desc, &instance.material), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_instance_create(t.gi, &instance, &unused), ==, SDFGI_OK);
+    gi_test_update(&t, 1);
+    s.bits = gi_test_bits(&t, 0);
+    read_albedo(&s);
+    REQUIRE_CMP(sdfgi_mesh_destroy(t.gi, mesh), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_material_destroy(t.gi, instance.material), ==, SDFGI_OK);
+    return s;
+}
+
+/* Whether a column of the square sets its sub-voxel. */
+static bool column_is_set(const struct square *s, uint32_t x, uint32_t z)
+{
+    const uint32_t edge = (s->bits.size - COLUMNS) / 2;
+    bool set = false;
+    for (uint32_t y = 0; y < s->bits.size; y++)
+        set = set || oracle_bits_get(&s->bits, edge + x, y, edge + z);
+    return set;
+}
+
+static uint32_t columns_set(const struct square *s)
+{
+    uint32_t count = 0;
+    for (uint32_t z = 0; z < COLUMNS; z++)
+        for (uint32_t x = 0; x < COLUMNS; x++)
+            count += column_is_set(s, x, z);
+    return count;
+}
+
+static const struct sdfgi_material_desc grey = { .albedo = { 0.5f, 0.5f, 0.5f } };
+
+/* ---- Alpha and colours of vertices */
+
+static void masks_without_an_alpha_leave_all(void **state)
+{
+    (void)state;
+    struct sdfgi_material_desc desc = grey;
+    desc.alpha_cutoff = 0.5f;
+    struct square s = voxelize(make_square(NULL, NULL), &desc);
+    REQUIRE_CMP(columns_set(&s), ==, (uint32_t)(COLUMNS * COLUMNS));
+    oracle_bits_destroy(&s.bits);
+    desc.alpha = 0.4f;
+    s = voxelize(make_square(NULL, NULL), &desc);
+    REQUIRE_CMP(oracle_bits_count(&s.bits), ==, 0);
+    oracle_bits_destroy(&s.bits);
+}
+
+/* Linear along x and z: red rises along x, green along z, blue falls along both; alpha rises along x. */
+static void color_at(double x, double z, double color[static 4])
+{
+    color[0] = 0.2 + 0.6 * x;
+    color[1] = 0.1 + 0.9 * z;
+    color[2] = 1 - 0.4 * x - 0.5 * z;
+    color[3] = x;
+}
+
+static void colors_of_vertices_multiply_albedo_and_alpha(void **state)
+{
+    (void)state;
+    float colors[CORNERS][4];
+    for (int i = 0; i < CORNERS; i++) {
+        double color[4];
+        color_at((double)corners[i][0], (double)corners[i][1], color);
+        for (int k = 0; k < 4; k++)
+            colors[i][k] = (float)color[k];
+    }
+    const struct sdfgi_material_desc desc = { .albedo = { 0.9f, 0.5f, 0.7f },
+                                              .alpha = 0.8f,
+                                              .alpha_cutoff = 0.2f };
+    struct square s = voxelize(make_square(NULL, (const float(*)[4])colors), &desc);
+    for (uint32_t z = 0; z < BLOCKS; z++)
+        for (uint32_t x = 2; x < BLOCKS; x++) {
+            double color[4];
+            color_at((x + 0.5) / BLOCKS, (z + 0.5) / BLOCKS, color);
+            for (int k = 0; k < 3; k++)
+                REQUIRE_NEAR(s.albedo[z][x][k], (double)desc.albedo[k] * color[k], 0.002);
+        }
+    for (uint32_t z = 0; z < COLUMNS; z++)
+        for (uint32_t x = 0; x < COLUMNS; x++)
+            REQUIRE_CMP(column_is_set(&s, x, z), ==, 0.8 * (x + 0.5) / COLUMNS >= 0.2);
+    oracle_bits_destroy(&s.bits);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(masks_without_an_alpha_leave_all),
+        cmocka_unit_test(colors_of_vertices_multiply_albedo_and_alpha),
+    };
+    return cmocka_run_group_tests_name("voxel_surface", tests, open_context, close_context);
+}
