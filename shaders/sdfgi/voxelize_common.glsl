@@ -180,7 +180,7 @@ void triangle_setup(inout triangle t, vec3 v[3])
 
     /* Back to metric lengths, because cells may be flat, and to the mesh's front side. */
     const vec3 metric = normal / vec3(1.0, sdfgi_space_y_scale(), 1.0);
-    t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_MIRRORED) != 0u ? -1.0 : 1.0);
+    t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_REVERSED) != 0u ? -1.0 : 1.0);
     const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
     t.inset = sign(t.normal[t.axis]) * (TIE_BIAS + (emits ? 0.0 : INSET));
     t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));

@@ -28,7 +28,7 @@ SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
 #define SDFGI_MESH_INDEX_32   2u
 #define SDFGI_MESH_HAS_UV     4u
 #define SDFGI_MESH_HAS_COLOR  8u
-#define SDFGI_MESH_MIRRORED   16u /* the transform turns triangles inside out */
+#define SDFGI_MESH_REVERSED   16u /* once transformed, fronts are clockwise */
 
 /* voxelize, voxelize_raster: one instance. */
 struct sdfgi_voxelize_args {

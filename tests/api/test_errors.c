@@ -237,6 +237,7 @@ static void meshes_are_checked(void **state)
     REFUSE(d.index_offset = 2);
     REFUSE(d.position_offset = UINT64_C(1) << 40);
     REFUSE((d.index_buffer = d.position_buffer, d.index_type = VK_INDEX_TYPE_UINT8_EXT));
+    REFUSE(d.front_face = (VkFrontFace)2);
     REFUSE(d.bounds_min[0] = NAN);
     REFUSE(d.bounds_max[1] = INFINITY);
     REFUSE(d.bounds_min[2] = 1);

@@ -42,33 +42,43 @@ static VkBuffer upload(VkDeviceSize size, const void *data)
     return t.buffers[t.buffer_count++].buffer;
 }
 
-/* `uvs` and `colors`, of the corners, may be NULL. */
-static sdfgi_mesh make_square(const float (*uvs)[2], const float (*colors)[4])
+/* A square whose front is above. `uvs` and `colors`, of the corners, may be NULL. */
+static struct sdfgi_mesh_desc describe_square(const float (*uvs)[2], const float (*colors)[4])
 {
     float positions[CORNERS][3];
     for (int i = 0; i < CORNERS; i++)
         memcpy(positions[i], (float[3]){ 4 * corners[i][0] - 2, height, 4 * corners[i][1] - 2 },
                sizeof positions[i]);
     static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
-    const struct sdfgi_mesh_desc desc = { .position_buffer = upload(sizeof positions, positions),
-                                          .uv_buffer = uvs ? upload(CORNERS * sizeof *uvs, uvs) : NULL,
-                                          .color_buffer =
-                                              colors ? upload(CORNERS * sizeof *colors, colors) : NULL,
-                                          .index_buffer = upload(sizeof indices, indices),
-                                          .index_type = VK_INDEX_TYPE_UINT32,
-                                          .vertex_count = CORNERS,
-                                          .triangle_count = 2,
-                                          .bounds_min = { -2, height, -2 },
-                                          .bounds_max = { 2, height, 2 } };
+    return (struct sdfgi_mesh_desc){ .position_buffer = upload(sizeof positions, positions),
+                                     .uv_buffer = uvs ? upload(CORNERS * sizeof *uvs, uvs) : NULL,
+                                     .color_buffer = colors ? upload(CORNERS * sizeof *colors, colors) : NULL,
+                                     .index_buffer = upload(sizeof indices, indices),
+                                     .index_type = VK_INDEX_TYPE_UINT32,
+                                     .vertex_count = CORNERS,
+                                     .triangle_count = 2,
+                                     .bounds_min = { -2, height, -2 },
+                                     .bounds_max = { 2, height, 2 } };
+}
+
+static sdfgi_mesh make_mesh(const struct sdfgi_mesh_desc *desc)
+{
     sdfgi_mesh mesh;
-    REQUIRE_CMP(sdfgi_mesh_create(t.gi, &desc, &mesh), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_mesh_create(t.gi, desc, &mesh), ==, SDFGI_OK);
     return mesh;
+}
+
+static sdfgi_mesh make_square(const float (*uvs)[2], const float (*colors)[4])
+{
+    const struct sdfgi_mesh_desc desc = describe_square(uvs, colors);
+    return make_mesh(&desc);
 }
 
 /* What a square of a material became. */
 struct square {
     struct oracle_bits bits;
     double albedo[BLOCKS][BLOCKS][3]; /* by z, x */
+    double emission[2];               /* in the middle: up, down */
 };
 
 static void read_albedo(struct square *s)
@@ -90,21 +100,43 @@ static void read_albedo(struct square *s)
     free(words);
 }
 
-/* The mesh alone in the cascade; it goes with its material. */
-static struct square voxelize(sdfgi_mesh mesh, const struct sdfgi_material_desc *desc)
+static void read_emission(struct square *s)
+{
+    struct sdfgi_inspect_cascade where;
+    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
+    uint32_t *words = gi_test_read(&t, RESOURCE_EMISSION, NULL);
+    const uint32_t middle = where.resolution / 2,
+                   level = (uint32_t)(((double)height - where.origin_m[1]) / where.cell_m[1]);
+    struct sdfgi_inspect_surface surface;
+    sdfgi_inspect_decode_block(0, words + 2 * sdfgi_inspect_block(&where, middle, level, middle), 0,
+                               where.emission_unit, &surface);
+    for (int side = 0; side < 2; side++)
+        s->emission[side] = (double)surface.emission[1] * surface.emitting[2 + side] / 31;
+    free(words);
+}
+
+/* Makes the instance alone in the cascade. Its mesh and its material are destroyed. */
+static struct square voxelize_instance(struct sdfgi_instance_desc *instance,
+                                       const struct sdfgi_material_desc *desc)
 {
     struct square s;
-    struct sdfgi_instance_desc instance = { .mesh = mesh,
-                                            .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } } };
     sdfgi_instance unused;
-    REQUIRE_CMP(sdfgi_material_create(t.gi, desc, &instance.material), ==, SDFGI_OK);
-    REQUIRE_CMP(sdfgi_instance_create(t.gi, &instance, &unused), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_material_create(t.gi, desc, &instance->material), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_instance_create(t.gi, instance, &unused), ==, SDFGI_OK);
     gi_test_update(&t, 1);
     s.bits = gi_test_bits(&t, 0);
     read_albedo(&s);
-    REQUIRE_CMP(sdfgi_mesh_destroy(t.gi, mesh), ==, SDFGI_OK);
-    REQUIRE_CMP(sdfgi_material_destroy(t.gi, instance.material), ==, SDFGI_OK);
+    read_emission(&s);
+    REQUIRE_CMP(sdfgi_mesh_destroy(t.gi, instance->mesh), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_material_destroy(t.gi, instance->material), ==, SDFGI_OK);
     return s;
+}
+
+static struct square voxelize(sdfgi_mesh mesh, const struct sdfgi_material_desc *desc)
+{
+    struct sdfgi_instance_desc instance = { .mesh = mesh,
+                                            .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } } };
+    return voxelize_instance(&instance, desc);
 }
 
 /* Whether a column of the square sets its sub-voxel. */
@@ -127,6 +159,47 @@ static uint32_t columns_set(const struct square *s)
 }
 
 static const struct sdfgi_material_desc grey = { .albedo = { 0.5f, 0.5f, 0.5f } };
+
+/* ---- Fronts */
+
+static const float upright[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, mirrored[9] = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
+
+/* The level of sub-voxels in which a grey square lies. */
+static uint32_t grey_level(sdfgi_mesh mesh, const float basis[static 9])
+{
+    struct sdfgi_instance_desc instance = { .mesh = mesh };
+    memcpy(instance.transform.basis, basis, sizeof instance.transform.basis);
+    struct square s = voxelize_instance(&instance, &grey);
+    uint32_t level = 0;
+    while (!oracle_bits_get(&s.bits, s.bits.size / 2, level, s.bits.size / 2))
+        level++;
+    oracle_bits_destroy(&s.bits);
+    return level;
+}
+
+/* The surface lies 4.8 sub-voxels above the middle of the cascade, half a sub-voxel behind its front. */
+static void require_front(VkFrontFace front_face, const float basis[static 9], bool above)
+{
+    struct sdfgi_mesh_desc desc = describe_square(NULL, NULL);
+    desc.front_face = front_face;
+    REQUIRE_CMP(grey_level(make_mesh(&desc), basis), ==, 64 + (above ? 4u : 5u));
+    const struct sdfgi_material_desc lamp = { .emission = { 2, 2, 2 } };
+    struct sdfgi_instance_desc instance = { .mesh = make_mesh(&desc) };
+    memcpy(instance.transform.basis, basis, sizeof instance.transform.basis);
+    struct square s = voxelize_instance(&instance, &lamp);
+    REQUIRE_NEAR(s.emission[above ? 0 : 1], 2, 0.01);
+    REQUIRE_NEAR(s.emission[above ? 1 : 0], 0, 0);
+    oracle_bits_destroy(&s.bits);
+}
+
+static void fronts_are_where_the_host_says(void **state)
+{
+    (void)state;
+    require_front(VK_FRONT_FACE_COUNTER_CLOCKWISE, upright, true);
+    require_front(VK_FRONT_FACE_CLOCKWISE, upright, false);
+    require_front(VK_FRONT_FACE_COUNTER_CLOCKWISE, mirrored, true);
+    require_front(VK_FRONT_FACE_CLOCKWISE, mirrored, false);
+}
 
 /* ---- Alpha and colours of vertices */
 
@@ -185,6 +258,7 @@ int main(void)
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fronts_are_where_the_host_says),
         cmocka_unit_test(masks_without_an_alpha_leave_all),
         cmocka_unit_test(colors_of_vertices_multiply_albedo_and_alpha),
     };

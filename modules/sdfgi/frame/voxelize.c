@@ -102,8 +102,8 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
         .box_high = packed_corner(work->box.high),
     };
     fill_rows(cascade, &instance->desc.transform, &args);
-    if (determinant(instance->desc.transform.basis) < 0)
-        args.flags |= SDFGI_MESH_MIRRORED;
+    if ((determinant(instance->desc.transform.basis) < 0) != (d->front_face == VK_FRONT_FACE_CLOCKWISE))
+        args.flags |= SDFGI_MESH_REVERSED;
     return args;
 }
 

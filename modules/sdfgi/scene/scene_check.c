@@ -45,6 +45,8 @@ static void check_counts(struct problem *p, const struct sdfgi_mesh_desc *d)
     if (d->index_buffer && d->index_type != VK_INDEX_TYPE_UINT16 && d->index_type != VK_INDEX_TYPE_UINT32)
         sdfgi_problem_add(p, "index_type is %d, must be VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32",
                           (int)d->index_type);
+    if (d->front_face != VK_FRONT_FACE_COUNTER_CLOCKWISE && d->front_face != VK_FRONT_FACE_CLOCKWISE)
+        sdfgi_problem_add(p, "front_face is %d, must be one of VkFrontFace", (int)d->front_face);
 }
 
 /* Shaders count in words of 4 bytes, with 32 bits. */

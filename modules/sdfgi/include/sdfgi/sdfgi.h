@@ -201,7 +201,7 @@ struct sdfgi_material_desc {
     float alpha;                /* [0, 1], 0 means 1; times the texture's alpha; only for alpha_cutoff */
     float emission[3];          /* radiance, W/(m^2 sr), >= 0; 0: none, with a texture too */
     float alpha_cutoff;         /* [0, 1]: samples with alpha below it are holes; 0: there are none */
-    bool double_sided_emission; /* false: emits from the front (counter-clockwise) side only */
+    bool double_sided_emission; /* false: emits from the front side only; see front_face */
     struct sdfgi_texture albedo_texture;   /* RGB times albedo, A times alpha */
     struct sdfgi_texture emission_texture; /* RGB times emission */
 };
@@ -229,6 +229,9 @@ struct sdfgi_mesh_desc {
     uint32_t triangle_count;   /* > 0 */
     float bounds_min[3];       /* object space, containing every vertex; instances are culled by it. */
     float bounds_max[3];       /* Not all six may be 0 */
+    VkFrontFace front_face; /* winding of fronts as seen from before them: COUNTER_CLOCKWISE (0) or CLOCKWISE,
+                               for meshes baked with an axis flipped. Surfaces lie behind their fronts, and
+                               emit from there. The transform of an instance does not change the front */
 };
 
 SDFGI_API enum sdfgi_result sdfgi_mesh_create(sdfgi *gi, const struct sdfgi_mesh_desc *desc, sdfgi_mesh *out);
