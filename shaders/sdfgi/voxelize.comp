@@ -13,13 +13,19 @@ layout(local_size_x = SDFGI_GROUP_TRIANGLE) in;
 shared ivec4 ranges[SDFGI_GROUP_TRIANGLE]; /* low corner of its columns, their width, dominant axis */
 shared uint ends[SDFGI_GROUP_TRIANGLE];    /* number of its last column, plus 1 */
 
+/* Groups of triangles. */
+uint group_count()
+{
+    return (args.triangle_count - 1u) / uint(SDFGI_GROUP_TRIANGLE) + 1u;
+}
+
 /* The triangle of a thread. Thread i of all groups reads the i-th part of the mesh. From part to part the
  * order of the groups is shifted by about the golden ratio of their number, so that the rows of a grid of
  * triangles do not meet in one group. */
 uint triangle_of(uint group, uint thread)
 {
-    const uint shift = args.groups * 5u / 8u | 1u;
-    return thread * args.groups + (group + thread * shift) % args.groups;
+    const uint groups = group_count(), shift = groups * 5u / 8u | 1u;
+    return thread * groups + (group + thread * shift) % groups;
 }
 
 /* Number of columns of a thread's triangle that are to be tested; fills its range. */
@@ -29,12 +35,10 @@ uint triangle_cull(uint t_index, uint thread)
     triangle t;
     if (t_index >= args.triangle_count)
         return 0u;
-    if (!triangle_fetch(t_index, v, t.index)) {
-        if (gl_WorkGroupID.y == 0u)
-            counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
-        return 0u;
-    }
-    if (!triangle_place(t, v))
+    const bool valid = triangle_fetch(t_index, v, t.index);
+    if (gl_WorkGroupID.y == 0u)
+        triangle_count_faults(valid, v);
+    if (!valid || !triangle_place(t, v))
         return 0u;
     const ivec2 size = t.columns.zw - t.columns.xy + 1;
     ranges[thread] = ivec4(t.columns.xy, size.x, t.axis);
@@ -79,9 +83,9 @@ void store_columns(uint group, uint owner, uint first, uint last)
 
 void main()
 {
-    const uint group = gl_WorkGroupID.x + gl_WorkGroupID.z * args.group_width;
+    const uint group = gl_WorkGroupID.x + gl_WorkGroupID.z * uint(SDFGI_VOXELIZE_WIDTH);
     const uint thread = gl_LocalInvocationIndex;
-    if (group >= args.groups)
+    if (group >= group_count())
         return;
     sum_columns(thread, triangle_cull(triangle_of(group, thread), thread));
 

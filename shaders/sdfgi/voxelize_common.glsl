@@ -12,41 +12,7 @@
  * 2010, "Fast parallel surface and solid voxelization"; Huang et al. 1998). A path between the centres of two
  * face neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path
  * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. */
-#define SDFGI_WRITES_BITS
-#define SDFGI_WRITES_LIGHT
-#include "pass.glsl"
-
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_voxelize_args args;
-};
-
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_MATERIALS) readonly buffer sdfgi_materials_buffer
-{
-    sdfgi_material_params sdfgi_materials[];
-};
-layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions
-{
-    float positions[];
-};
-layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_UVS) readonly buffer mesh_uvs
-{
-    float uvs[];
-};
-layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_COLORS) readonly buffer mesh_colors
-{
-    float colors[];
-};
-layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) readonly buffer mesh_indices
-{
-    uint indices[];
-};
-
-#ifdef SDFGI_VOXELIZE_TEXTURED
-layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
-layout(set = SDFGI_SET_MATERIAL,
-       binding = SDFGI_BINDING_MATERIAL_EMISSION) uniform sampler2D emission_texture;
-#endif
+#include "voxelize_material.glsl"
 
 /* In sub-voxels. Points this far outside an edge count as inside, so that rounding cannot open a seam between
  * triangles that share the edge. */
@@ -61,9 +27,6 @@ const float TIE_BIAS = 1.0 / 2048.0;
 const float SEGMENT = 0.5 + EDGE_MARGIN;
 /* Triangles of smaller slopes are taken as parallel to the faces of sub-voxels: as flat. */
 const float FLAT_SLOPE = 1.0 / 64.0;
-/* In sub-voxels. Beyond this floats cannot place an edge to within a sub-voxel. */
-const float MAX_COORDINATE = 1e9;
-
 struct triangle {
     vec3 v[3];                   /* sub-voxels from the anchor; axes permuted so that z is the dominant one */
     vec2 slope;                  /* dz/dx, dz/dy */
@@ -91,44 +54,6 @@ ivec3 permute(ivec3 p, int axis)
 ivec3 unpermute(ivec3 p, int axis)
 {
     return axis == 0 ? p.zxy : (axis == 1 ? p.yzx : p.xyz);
-}
-
-/* Corner of the box to fill, in sub-voxels from the anchor. */
-ivec3 box_corner(uint packed)
-{
-    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor;
-}
-
-uint mesh_index(uint i)
-{
-    const uint kind = args.flags & 3u;
-    if (kind == SDFGI_MESH_INDEX_32)
-        return indices[args.index_offset + i];
-    if (kind == SDFGI_MESH_INDEX_16)
-        return indices[args.index_offset + (i >> 1u)] >> (16u * (i & 1u)) & 0xffffu;
-    return i;
-}
-
-vec3 mesh_position(uint vertex)
-{
-    const uint at = args.position_offset + vertex * args.position_stride;
-    const vec4 p = vec4(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
-    return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
-}
-
-/* False if a vertex is out of range or not finite. All vertices are read before any is tested, so that the
- * reads overlap. */
-bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
-{
-    bool valid = true;
-    for (int i = 0; i < 3; i++)
-        index[i] = mesh_index(3u * t + uint(i));
-    for (int i = 0; i < 3; i++) {
-        v[i] = mesh_position(min(index[i], args.vertex_count - 1u));
-        valid = valid && index[i] < args.vertex_count &&
-                max(abs(v[i].x), max(abs(v[i].y), abs(v[i].z))) < MAX_COORDINATE;
-    }
-    return valid;
 }
 
 /* Finds the dominant axis and the columns to test. False if the triangle has no area or misses the box. Only
@@ -275,74 +200,13 @@ column_levels triangle_levels(triangle t, ivec2 column)
     return levels;
 }
 
-struct surface_sample {
-    vec4 albedo;
-    vec3 emission;
-    uint flags;
-};
-
-vec2 mesh_uv(triangle t, vec3 bary)
-{
-    vec2 uv = vec2(0.0);
-    for (int i = 0; i < 3; i++) {
-        const uint at = args.uv_offset + t.index[i] * args.uv_stride;
-        uv += bary[i] * vec2(uvs[at], uvs[at + 1u]);
-    }
-    return uv;
-}
-
-vec4 mesh_color(triangle t, vec3 bary)
-{
-    vec4 color = vec4(0.0);
-    for (int i = 0; i < 3; i++) {
-        const uint at = args.color_offset + t.index[i] * args.color_stride;
-        color += bary[i] * vec4(colors[at], colors[at + 1u], colors[at + 2u], colors[at + 3u]);
-    }
-    return color;
-}
-
-#ifdef SDFGI_VOXELIZE_TEXTURED
-/* Level at which one texel covers about one sub-voxel. */
-float texture_level(triangle t, vec4 rows[2], vec2 size)
-{
-    const vec2 a = mesh_uv(t, vec3(1.0, 0.0, 0.0));
-    const vec2 b = mesh_uv(t, vec3(0.0, 1.0, 0.0)) - a, c = mesh_uv(t, vec3(0.0, 0.0, 1.0)) - a;
-    const float scale = abs(rows[0].x * rows[1].y - rows[0].y * rows[1].x);
-    const float texels = abs(b.x * c.y - b.y * c.x) * scale * size.x * size.y;
-    return 0.5 * log2(max(texels / max(t.area2, 1e-6), 1.0));
-}
-
-vec2 texture_uv(vec4 rows[2], vec2 uv)
-{
-    return vec2(dot(rows[0].xyz, vec3(uv, 1.0)), dot(rows[1].xyz, vec3(uv, 1.0)));
-}
-#endif
-
 /* The surface at the centre of a column. */
 surface_sample triangle_sample(triangle t, ivec2 column)
 {
-    const sdfgi_material_params m = sdfgi_materials[args.material];
     const vec2 p = vec2(column) + 0.5;
     vec3 bary = clamp(t.bary_0 + p.x * t.bary_x + p.y * t.bary_y, 0.0, 1.0);
     bary /= max(bary.x + bary.y + bary.z, 1e-20);
-    surface_sample s = surface_sample(vec4(m.albedo, m.alpha), m.emission, m.flags);
-    if ((args.flags & SDFGI_MESH_HAS_COLOR) != 0u)
-        s.albedo *= mesh_color(t, bary);
-#ifdef SDFGI_VOXELIZE_TEXTURED
-    const vec2 uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u ? mesh_uv(t, bary) : vec2(0.0);
-    const bool has_uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u;
-    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
-        const float level =
-            has_uv ? texture_level(t, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;
-        s.albedo *= textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level);
-    }
-    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
-        const float level =
-            has_uv ? texture_level(t, m.emission_uv, vec2(textureSize(emission_texture, 0))) : 0.0;
-        s.emission *= textureLod(emission_texture, texture_uv(m.emission_uv, uv), level).rgb;
-    }
-#endif
-    return s;
+    return material_sample(t.index, bary, t.area2);
 }
 
 void accumulate(uint plane, uint block, uint value)

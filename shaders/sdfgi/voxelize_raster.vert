@@ -45,12 +45,10 @@ void main()
     gl_Position = vec4(-2.0, -2.0, 0.5, 1.0);
     vec3 v[3];
     triangle t;
-    if (!triangle_fetch(t_index, v, t.index)) {
-        if (corner == 0)
-            counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
-        return;
-    }
-    if (!triangle_place(t, v))
+    const bool valid = triangle_fetch(t_index, v, t.index);
+    if (corner == 0)
+        triangle_count_faults(valid, v);
+    if (!valid || !triangle_place(t, v))
         return;
     triangle_setup(t, v);
     const float size = float(sdfgi_space_resolution() * SDFGI_SUBVOXELS);

@@ -37,7 +37,6 @@ struct sdfgi_voxelize_args {
     uint box_low; /* low corner of the box of cells to fill, 10 bits per axis */
     uint cascade;
     uint triangle_count;
-    uint groups; /* groups of SDFGI_GROUP_TRIANGLE triangles */
     uint slices; /* workgroups that share the columns of a group of triangles */
     uint material;
     uint flags;                            /* SDFGI_MESH_* */
@@ -46,8 +45,9 @@ struct sdfgi_voxelize_args {
     uint color_offset, color_stride;
     uint index_offset;
     uint vertex_count;
-    uint group_width; /* workgroups along x */
-    uint box_high;    /* high corner of the box, packed as box_low */
+    uint box_high;   /* high corner of the box, packed as box_low */
+    uint bounds_low; /* the instance's bounds, widened and cut to the cascade, packed as box_low */
+    uint bounds_high;
 };
 SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 128);
 

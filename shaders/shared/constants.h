@@ -88,6 +88,8 @@
 
 /* Every device accepts so many workgroups along an axis. */
 #define SDFGI_MAX_GROUPS 65535
+/* Workgroups along x that voxelise an instance at most: few, so that meshes in use have some along z, too. */
+#define SDFGI_VOXELIZE_WIDTH 1024
 /* Workgroup sizes. */
 #define SDFGI_GROUP_CELLS       4  /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR      64 /* one thread per element of a list */

@@ -15,6 +15,7 @@
 #define SDFGI_COUNTER_DEAD_PROBES       7
 #define SDFGI_COUNTER_VOXELS            8  /* sub-voxel samples that the voxeliser accepted */
 #define SDFGI_COUNTER_DISTANCE_CELLS    9  /* cells whose distances the exact search made again */
+#define SDFGI_COUNTER_OUT_OF_BOUNDS     10 /* triangles outside their mesh's bounds by more than a cell */
 #define SDFGI_COUNTER_SINGLE_COUNT      16 /* room for counters that are not per cascade */
 /* Per cascade: light cells, and those in dirty blocks when they were listed. Neither is clamped to the room
  * in the list. */
@@ -44,7 +45,8 @@
     X(MAX_CHANGE, CYCLE, NONE)                                                                               \
     X(DEAD_PROBES, CHANGE, NONE)                                                                             \
     X(VOXELS, CHANGE, NONE)                                                                                  \
-    X(DISTANCE_CELLS, CHANGE, NONE)
+    X(DISTANCE_CELLS, CHANGE, NONE)                                                                          \
+    X(OUT_OF_BOUNDS, CHANGE, BOUNDS_MISS_VERTICES)
 
 /* Records of four words: the three workgroup counts of an indirect dispatch, and a number of items. Passes
  * that run beside passes that write COUNTERS must read the number here.

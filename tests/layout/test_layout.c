@@ -102,7 +102,6 @@
     X(sdfgi_voxelize_args, box_low)                                                                          \
     X(sdfgi_voxelize_args, cascade)                                                                          \
     X(sdfgi_voxelize_args, triangle_count)                                                                   \
-    X(sdfgi_voxelize_args, groups)                                                                           \
     X(sdfgi_voxelize_args, slices)                                                                           \
     X(sdfgi_voxelize_args, material)                                                                         \
     X(sdfgi_voxelize_args, flags)                                                                            \
@@ -114,8 +113,9 @@
     X(sdfgi_voxelize_args, color_stride)                                                                     \
     X(sdfgi_voxelize_args, index_offset)                                                                     \
     X(sdfgi_voxelize_args, vertex_count)                                                                     \
-    X(sdfgi_voxelize_args, group_width)                                                                      \
     X(sdfgi_voxelize_args, box_high)                                                                         \
+    X(sdfgi_voxelize_args, bounds_low)                                                                       \
+    X(sdfgi_voxelize_args, bounds_high)                                                                      \
     X(sdfgi_distance_prepare_args, cascade)                                                                  \
     X(sdfgi_distance_prepare_args, first_block)                                                              \
     X(sdfgi_distance_prepare_args, box_count)                                                                \

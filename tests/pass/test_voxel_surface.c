@@ -201,6 +201,37 @@ static void fronts_are_where_the_host_says(void **state)
     require_front(VK_FRONT_FACE_CLOCKWISE, mirrored, false);
 }
 
+/* ---- Bounds */
+
+/* Triangles that the report counts outside a square's bounds, which end at `bounds_max_x` instead of 2. */
+static uint64_t outside_bounds(float bounds_max_x)
+{
+    struct sdfgi_mesh_desc desc = describe_square(NULL, NULL);
+    desc.bounds_max[0] = bounds_max_x;
+    const sdfgi_mesh mesh = make_mesh(&desc);
+    pass_scene_place(&t, mesh, upright, (double[3]){ 0 });
+    gi_test_update(&t, 3);
+    const uint64_t count = pass_health_count(&t, SDFGI_MESSAGE_BOUNDS_MISS_VERTICES);
+    REQUIRE_CMP(sdfgi_mesh_destroy(t.gi, mesh), ==, SDFGI_OK);
+    return count;
+}
+
+static void triangles_outside_their_bounds_are_counted(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(outside_bounds(1.9f), ==, 0ul); /* by less than a cell */
+    REQUIRE_CMP(outside_bounds(1), ==, 2ul);
+    struct sdfgi_settings settings;
+    sdfgi_get_settings(t.gi, &settings);
+    settings.voxelizer = SDFGI_VOXELIZER_RASTER;
+    if (sdfgi_set_settings(t.gi, &settings) != SDFGI_OK)
+        return;
+    REQUIRE_CMP(outside_bounds(1.9f), ==, 0ul);
+    REQUIRE_CMP(outside_bounds(1), ==, 2ul);
+    settings.voxelizer = SDFGI_VOXELIZER_COMPUTE;
+    REQUIRE_CMP(sdfgi_set_settings(t.gi, &settings), ==, SDFGI_OK);
+}
+
 /* ---- Alpha and colours of vertices */
 
 static void masks_without_an_alpha_leave_all(void **state)
@@ -259,6 +290,7 @@ int main(void)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fronts_are_where_the_host_says),
+        cmocka_unit_test(triangles_outside_their_bounds_are_counted),
         cmocka_unit_test(masks_without_an_alpha_leave_all),
         cmocka_unit_test(colors_of_vertices_multiply_albedo_and_alpha),
     };

@@ -5,9 +5,8 @@
 #include <assert.h>
 #include <math.h>
 
-/* Workgroups along x, of 65535 that Vulkan guarantees: few, so that meshes in use have some along z too.
- * MAX_SLICES: each slice culls its triangles again. */
-enum { GROUP_WIDTH = 1024, MAX_SLICES = 256 };
+/* Each slice culls its triangles again. */
+enum { MAX_SLICES = 256 };
 /* Columns that one thread walks before another one is worth its share of culling and set-up. On a CPU, where
  * each goes through all code whether it has columns or not, many: 16 instead of 2 take 31 instead of 63 ms
  * for a step of 64^3. */
@@ -74,17 +73,45 @@ static uint32_t mesh_flags(const struct sdfgi_mesh_desc *d)
     return flags;
 }
 
+/* Cells by which a bound is widened that lies so many cells from the anchor. Shaders know vertices as floats
+ * in sub-voxels from there: the further away, the coarser. */
+static double slack(double distance)
+{
+    return 1 + ldexp(fabs(distance), -20);
+}
+
+/* Bounds of the instance as cells of the cascade, rounded outwards. */
+static void fill_bounds(const struct cascade *cascade, const struct instance *instance, uint32_t resolution,
+                        struct sdfgi_voxelize_args *args)
+{
+    struct cell_box cells;
+    for (int i = 0; i < 3; i++) {
+        const double size = cascade->cell_size[i], origin = (double)cascade->origin[i],
+                     anchor = instance->desc.transform.translation[i] / size - origin,
+                     low = instance->bounds.min[i] / size - origin,
+                     high = instance->bounds.max[i] / size - origin;
+        cells.low[i] = (int32_t)fmin(fmax(floor(low - slack(low - anchor)), 0), resolution);
+        cells.high[i] = (int32_t)fmin(fmax(ceil(high + slack(high - anchor)), 0), resolution);
+    }
+    args->bounds_low = packed_corner(cells.low);
+    args->bounds_high = packed_corner(cells.high);
+}
+
+static uint32_t group_count(uint32_t triangles)
+{
+    return (triangles - 1) / SDFGI_GROUP_TRIANGLE + 1;
+}
+
 static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const struct work *work,
                                                 const struct instance *instance, const struct mesh *mesh)
 {
     const struct sdfgi_mesh_desc *d = &mesh->desc;
     const struct cascade *cascade = &v->cascades->at[work->cascade];
-    const uint32_t groups = (d->triangle_count - 1) / SDFGI_GROUP_TRIANGLE + 1;
+    const uint32_t groups = group_count(d->triangle_count);
     const double columns = v->rec->backend->device.is_cpu ? COLUMNS_PER_THREAD_CPU : COLUMNS_PER_THREAD;
     struct sdfgi_voxelize_args args = {
         .cascade = work->cascade,
         .triangle_count = d->triangle_count,
-        .groups = groups,
         .slices = slice_count(cascade, &work->box, &instance->bounds, (double)groups * SDFGI_GROUP_TRIANGLE,
                               columns),
         .material = sdfgi_pool_index(&v->scene->materials, instance->desc.material.id),
@@ -97,11 +124,11 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
         .color_stride = d->color_stride / 4,
         .index_offset = (uint32_t)(d->index_offset / 4),
         .vertex_count = d->vertex_count,
-        .group_width = GROUP_WIDTH,
         .box_low = packed_corner(work->box.low),
         .box_high = packed_corner(work->box.high),
     };
     fill_rows(cascade, &instance->desc.transform, &args);
+    fill_bounds(cascade, instance, v->cascades->resolution, &args);
     if ((determinant(instance->desc.transform.basis) < 0) != (d->front_face == VK_FRONT_FACE_CLOCKWISE))
         args.flags |= SDFGI_MESH_REVERSED;
     return args;
@@ -153,8 +180,9 @@ static void draw_instance(struct binder *b, const struct instance *instance)
     if (b->point == VK_PIPELINE_BIND_POINT_GRAPHICS) {
         gpu_draw(&rec->gpu, 3 * args.triangle_count);
     } else {
-        const uint32_t width = args.groups < GROUP_WIDTH ? args.groups : GROUP_WIDTH;
-        gpu_dispatch(&rec->gpu, width, args.slices, (args.groups - 1) / GROUP_WIDTH + 1);
+        const uint32_t groups = group_count(args.triangle_count),
+                       width = groups < SDFGI_VOXELIZE_WIDTH ? groups : SDFGI_VOXELIZE_WIDTH;
+        gpu_dispatch(&rec->gpu, width, args.slices, (groups - 1) / SDFGI_VOXELIZE_WIDTH + 1);
     }
     rec->tally[b->work->pass].dispatches++;
     rec->tally[b->work->pass].units += args.triangle_count;

@@ -24,7 +24,9 @@
     X(BOUNCE_CLAMPED, WARNING, "albedo times feedback reached 0.99 and was clamped to stay contractive")     \
     X(TRACE_CAP_REACHED, WARNING, "rays ran out of steps and were counted as hits")                          \
     X(UNLIT_HITS, WARNING, "rays hit surfaces with no light cell nearby")                                    \
-    X(UPDATE_LOST, WARNING, "a recorded update never ran; see sdfgi_cancel_update")
+    X(UPDATE_LOST, WARNING, "a recorded update never ran; see sdfgi_cancel_update")                          \
+    X(BOUNDS_MISS_VERTICES, WARNING,                                                                         \
+      "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")
 
 enum sdfgi_message {
 #define SDFGI_MESSAGE_ENUM(id, level, hint) SDFGI_MESSAGE_##id,

@@ -211,7 +211,8 @@ SDFGI_API enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_
 SDFGI_API enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material material);
 
 /* Triangles in buffers of the host's, which must have VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Offsets and strides
- * are multiples of 4 bytes. Triangles with a non-finite or out-of-range vertex are skipped and counted. */
+ * are multiples of 4 bytes. Triangles with a non-finite or out-of-range vertex are skipped and counted. Those
+ * that leave the bounds by more than a cell are counted, too: they may be missing, wholly or in part. */
 struct sdfgi_mesh_desc {
     VkBuffer position_buffer; /* 3 floats per vertex */
     VkDeviceSize position_offset;
@@ -227,7 +228,7 @@ struct sdfgi_mesh_desc {
     VkIndexType index_type;    /* VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 */
     uint32_t vertex_count;     /* > 0 */
     uint32_t triangle_count;   /* > 0 */
-    float bounds_min[3];       /* object space, containing every vertex; instances are culled by it. */
+    float bounds_min[3];       /* object space, containing every vertex; instances are culled by them. */
     float bounds_max[3];       /* Not all six may be 0 */
     VkFrontFace front_face; /* winding of fronts as seen from before them: COUNTER_CLOCKWISE (0) or CLOCKWISE,
                                for meshes baked with an axis flipped. Surfaces lie behind their fronts, and

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT
+ * What the voxeliser reads of a mesh: its triangles, and whether they are as the host said. */
+#ifndef SDFGI_VOXELIZE_MESH_GLSL
+#define SDFGI_VOXELIZE_MESH_GLSL
+
+#define SDFGI_WRITES_BITS
+#define SDFGI_WRITES_LIGHT
+#include "pass.glsl"
+
+layout(push_constant) uniform sdfgi_push
+{
+    sdfgi_voxelize_args args;
+};
+
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions
+{
+    float positions[];
+};
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_UVS) readonly buffer mesh_uvs
+{
+    float uvs[];
+};
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_COLORS) readonly buffer mesh_colors
+{
+    float colors[];
+};
+layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) readonly buffer mesh_indices
+{
+    uint indices[];
+};
+
+/* In sub-voxels. Beyond this floats cannot place an edge to within a sub-voxel. */
+const float MAX_COORDINATE = 1e9;
+
+/* A corner of a box of cells, in sub-voxels from the anchor. */
+ivec3 box_corner(uint packed)
+{
+    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor;
+}
+
+uint mesh_index(uint i)
+{
+    const uint kind = args.flags & 3u;
+    if (kind == SDFGI_MESH_INDEX_32)
+        return indices[args.index_offset + i];
+    if (kind == SDFGI_MESH_INDEX_16)
+        return indices[args.index_offset + (i >> 1u)] >> (16u * (i & 1u)) & 0xffffu;
+    return i;
+}
+
+vec3 mesh_position(uint vertex)
+{
+    const uint at = args.position_offset + vertex * args.position_stride;
+    const vec4 p = vec4(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
+    return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
+}
+
+/* False if a vertex is out of range or not finite. All vertices are read before any is tested, so that the
+ * reads overlap. */
+bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
+{
+    bool valid = true;
+    for (int i = 0; i < 3; i++)
+        index[i] = mesh_index(3u * t + uint(i));
+    for (int i = 0; i < 3; i++) {
+        v[i] = mesh_position(min(index[i], args.vertex_count - 1u));
+        valid = valid && index[i] < args.vertex_count &&
+                max(abs(v[i].x), max(abs(v[i].y), abs(v[i].z))) < MAX_COORDINATE;
+    }
+    return valid;
+}
+
+/* True if a vertex lies outside the instance's bounds, within the cascade or beyond a side of it that the
+ * bounds do not reach. */
+bool triangle_leaves_bounds(vec3 v[3])
+{
+    const ivec3 size = ivec3(sdfgi_space_resolution() * SDFGI_SUBVOXELS);
+    const vec3 first = vec3(-args.anchor), last = vec3(size - args.anchor);
+    const vec3 low = clamp(min(v[0], min(v[1], v[2])), first, last),
+               high = clamp(max(v[0], max(v[1], v[2])), first, last);
+    return any(lessThan(low, vec3(box_corner(args.bounds_low)))) ||
+           any(greaterThan(high, vec3(box_corner(args.bounds_high))));
+}
+
+/* Counts a triangle that is skipped, or that the host's bounds miss. */
+void triangle_count_faults(bool valid, vec3 v[3])
+{
+    if (!valid)
+        counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
+    else if (triangle_leaves_bounds(v))
+        counter_add(SDFGI_COUNTER_OUT_OF_BOUNDS, 1u);
+}
+
+vec2 mesh_uv(uint index[3], vec3 bary)
+{
+    vec2 uv = vec2(0.0);
+    for (int i = 0; i < 3; i++) {
+        const uint at = args.uv_offset + index[i] * args.uv_stride;
+        uv += bary[i] * vec2(uvs[at], uvs[at + 1u]);
+    }
+    return uv;
+}
+
+vec4 mesh_color(uint index[3], vec3 bary)
+{
+    vec4 color = vec4(0.0);
+    for (int i = 0; i < 3; i++) {
+        const uint at = args.color_offset + index[i] * args.color_stride;
+        color += bary[i] * vec4(colors[at], colors[at + 1u], colors[at + 2u], colors[at + 3u]);
+    }
+    return color;
+}
+
+#endif
