@@ -166,6 +166,7 @@ const struct host_material *host_instance_material(const struct host_scene *scen
 /* Single-sided faces are invisible from behind; a mirrored instance turns its triangles round. */
 enum host_cull host_instance_cull(const struct host_scene *scene, uint32_t instance);
 
+VkSamplerAddressMode host_address_mode(enum gltf_wrap wrap);
 /* Makes image and sampler of a texture reference; `view` gets a white texel where there is none. */
 bool host_textures_get(struct host_device *device, struct host_textures *textures,
                        const struct gltf_scene *gltf, const struct gltf_texture_ref *ref, bool srgb,

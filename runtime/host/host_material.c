@@ -74,16 +74,20 @@ static void data_fill(const struct gltf_material *m, uint32_t flags, float emiss
     uv_fill(&m->emissive_texture, out->uv + 6);
 }
 
-static struct sdfgi_texture gi_texture(const VkDescriptorImageInfo *info, const struct gltf_texture_ref *ref)
+static struct sdfgi_texture gi_texture(const VkDescriptorImageInfo *info, const struct gltf_scene *gltf,
+                                       const struct gltf_texture_ref *ref)
 {
+    const struct gltf_texture *from = &gltf->textures[ref->texture];
     struct sdfgi_texture texture = { .view = info->imageView,
-                                     .sampler = info->sampler,
-                                     .layout = info->imageLayout };
+                                     .layout = info->imageLayout,
+                                     .address_u = host_address_mode(from->wrap_u),
+                                     .address_v = host_address_mode(from->wrap_v) };
     memcpy(texture.uv_transform, ref->uv_transform, sizeof(texture.uv_transform));
     return texture;
 }
 
-static void gi_fill(const struct gltf_material *m, const struct host_material_data *data,
+static void gi_fill(const struct gltf_scene *gltf, const struct gltf_material *m,
+                    const struct host_material_data *data,
                     const VkDescriptorImageInfo images[HOST_TEXTURE_COUNT], struct host_material *out)
 {
     for (int i = 0; i < 3; i++) {
@@ -96,9 +100,9 @@ static void gi_fill(const struct gltf_material *m, const struct host_material_da
     if (out->shadow_test)
         out->gi.alpha_cutoff = m->alpha_mode == GLTF_ALPHA_BLEND ? 0.5f : fminf(m->alpha_cutoff, 1.0f);
     if (out->flags & HOST_MATERIAL_BASE_MAP)
-        out->gi.albedo_texture = gi_texture(&images[0], &m->base_color_texture);
+        out->gi.albedo_texture = gi_texture(&images[0], gltf, &m->base_color_texture);
     if (out->flags & HOST_MATERIAL_EMISSIVE_MAP)
-        out->gi.emission_texture = gi_texture(&images[3], &m->emissive_texture);
+        out->gi.emission_texture = gi_texture(&images[3], gltf, &m->emissive_texture);
     /* The library reads one UV set per mesh; a second set for emission alone is honoured when it is the only
      * one. */
     const bool base = out->flags & HOST_MATERIAL_BASE_MAP;
@@ -196,7 +200,7 @@ static bool material_init(struct host_scene *scene, const struct gltf_scene *glt
         !host_textures_get(scene->device, textures, gltf, &m.normal_texture, false, &images[2]) ||
         !host_textures_get(scene->device, textures, gltf, &m.emissive_texture, true, &images[3]))
         return false;
-    gi_fill(&m, &data, images, out);
+    gi_fill(gltf, &m, &data, images, out);
     return host_buffer_upload(scene->device, &scene->material_data, index * stride, &data, sizeof(data)) &&
            set_create(scene, index * stride, images, &out->set);
 }

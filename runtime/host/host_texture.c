@@ -99,7 +99,7 @@ static bool texture_create(struct host_device *device, const struct gltf_image *
     return host_image_create(device, &desc, out) && upload_texels(device, out, source->texels);
 }
 
-static VkSamplerAddressMode address_mode(enum gltf_wrap wrap)
+VkSamplerAddressMode host_address_mode(enum gltf_wrap wrap)
 {
     switch (wrap) {
     case GLTF_WRAP_MIRROR:
@@ -125,8 +125,8 @@ static bool sampler_get(struct host_device *device, struct host_textures *textur
         .magFilter = mag_nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
         .minFilter = min_nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
         .mipmapMode = min_nearest ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR,
-        .addressModeU = address_mode(texture->wrap_u),
-        .addressModeV = address_mode(texture->wrap_v),
+        .addressModeU = host_address_mode(texture->wrap_u),
+        .addressModeV = host_address_mode(texture->wrap_v),
         .anisotropyEnable = anisotropy,
         .maxAnisotropy = anisotropy ? fminf(8.0f, device->limits.maxSamplerAnisotropy) : 1.0f,
         .maxLod = VK_LOD_CLAMP_NONE,

@@ -76,14 +76,13 @@ static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
 static void ask_for_late_pipelines(sdfgi *gi)
 {
     const VkImageView view = (VkImageView)(uintptr_t)1; /* refused before anything uses it */
-    const VkSampler sampler = (VkSampler)(uintptr_t)1;
     const struct sdfgi_gather_desc gather = { .depth = view,
                                               .normal = view,
                                               .output = view,
                                               .width = 1,
                                               .height = 1,
                                               .inverse_view_projection = { 1 } };
-    const struct sdfgi_material_desc textured = { .albedo_texture = { .view = view, .sampler = sampler } };
+    const struct sdfgi_material_desc textured = { .albedo_texture = { .view = view } };
     const uint32_t before = seen.compute;
     sdfgi_material material;
     seen.refuse = true;

@@ -24,8 +24,6 @@ static void make_picture(struct journey_poster *poster, struct gi_test *t)
                                               .texels = texels,
                                               .texel_size = 4 };
     poster->picture = gpu_test_image_create(&t->gpu, &desc);
-    const VkSamplerCreateInfo sampler = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO };
-    GPU_CHECK(vkCreateSampler(t->gpu.device, &sampler, NULL, &poster->sampler));
 }
 
 static sdfgi_mesh make_wall(struct journey_poster *poster, struct gi_test *t)
@@ -56,7 +54,7 @@ static sdfgi_mesh make_wall(struct journey_poster *poster, struct gi_test *t)
 void journey_poster_add(struct journey_poster *poster, struct gi_test *t)
 {
     make_picture(poster, t);
-    const struct sdfgi_texture texture = { .view = poster->picture.view, .sampler = poster->sampler };
+    const struct sdfgi_texture texture = { .view = poster->picture.view };
     const struct sdfgi_material_desc desc = { .albedo = { 0.9f, 0.9f, 0.9f },
                                               .alpha = 1,
                                               .emission = { 0.3f, 0.2f, 0.1f },
@@ -71,7 +69,6 @@ void journey_poster_add(struct journey_poster *poster, struct gi_test *t)
 
 void journey_poster_destroy(struct journey_poster *poster, struct gi_test *t)
 {
-    vkDestroySampler(t->gpu.device, poster->sampler, NULL);
     gpu_test_image_destroy(&t->gpu, &poster->picture);
     gpu_test_buffer_destroy(&t->gpu, &poster->positions);
     gpu_test_buffer_destroy(&t->gpu, &poster->uvs);

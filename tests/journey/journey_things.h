@@ -8,7 +8,6 @@
 /* A picture with holes on an upright wall whose vertices have colours and texture coordinates. */
 struct journey_poster {
     struct gpu_test_image picture;
-    VkSampler sampler;
     struct gpu_test_buffer positions, uvs, colors;
 };
 

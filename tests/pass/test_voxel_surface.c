@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <sdfgi/inspect.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { COLUMNS = 64, BLOCKS = 8, PER_BLOCK = COLUMNS / BLOCKS, CORNERS = 4 };
@@ -284,6 +285,198 @@ static void colors_of_vertices_multiply_albedo_and_alpha(void **state)
     oracle_bits_destroy(&s.bits);
 }
 
+/* ---- Textures */
+
+/* A texture of `size` texels a side with all its mip levels, each texel the mean of those below. */
+struct picture {
+    uint32_t size;
+    uint8_t (*texels)[4];
+    struct gpu_test_image image;
+};
+
+static struct picture picture_create(uint32_t size, uint32_t levels,
+                                     void (*texel_at)(uint32_t x, uint32_t y, uint8_t texel[static 4]))
+{
+    struct picture p = { size, test_array_alloc(2 * (size_t)size * size, sizeof *p.texels), { 0 } };
+    for (uint32_t i = 0; i < size * size; i++)
+        texel_at(i % size, i / size, p.texels[i]);
+    uint8_t(*from)[4] = p.texels;
+    for (uint32_t level = 1, n = size / 2; level < levels; level++, n /= 2) {
+        uint8_t(*to)[4] = from + 4 * (size_t)n * n;
+        for (uint32_t i = 0; i < 4 * n * n; i++) {
+            const uint32_t x = i / 4 % n, y = i / 4 / n, k = i % 4;
+            const uint8_t(*at)[4] = (const uint8_t(*)[4])from + 4 * (size_t)n * y + 2 * x;
+            to[i / 4][k] = (uint8_t)((at[0][k] + at[1][k] + at[2 * n][k] + at[2 * n + 1][k] + 2) / 4);
+        }
+        from = to;
+    }
+    const struct gpu_test_image_desc desc = { .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                              .extent = { size, size, 1 },
+                                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                              .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                              .texels = p.texels,
+                                              .texel_size = 4,
+                                              .levels = levels };
+    p.image = gpu_test_image_create(&t.gpu, &desc);
+    return p;
+}
+
+/* No frame may be in flight. */
+static void picture_destroy(struct picture *p)
+{
+    gpu_test_image_destroy(&t.gpu, &p->image);
+    free(p->texels);
+}
+
+/* Colours without a pattern; a third of the texels are transparent. */
+static void noise_at(uint32_t x, uint32_t y, uint8_t texel[static 4])
+{
+    const uint32_t hash = (x * 73856093u ^ y * 19349663u) * 2654435761u;
+    for (int k = 0; k < 3; k++)
+        texel[k] = (uint8_t)(hash >> 8 * k);
+    texel[3] = hash >> 24 < 85 ? 0 : 255;
+}
+
+static void opaque_noise_at(uint32_t x, uint32_t y, uint8_t texel[static 4])
+{
+    noise_at(x, y, texel);
+    texel[3] = 255;
+}
+
+static void checkerboard_at(uint32_t x, uint32_t y, uint8_t texel[static 4])
+{
+    static const uint8_t colors[2][4] = { { 255, 30, 0, 255 }, { 55, 230, 0, 255 } };
+    memcpy(texel, colors[(x + y) % 2], 4);
+}
+
+/* The corners' coordinates go from 0 to `repeats`. */
+static sdfgi_mesh make_mapped_square(float repeats)
+{
+    float uvs[CORNERS][2];
+    for (int i = 0; i < CORNERS; i++)
+        for (int k = 0; k < 2; k++)
+            uvs[i][k] = repeats * corners[i][k];
+    return make_square((const float(*)[2])uvs, NULL);
+}
+
+/* The texel that lies at x texels from the side of a texture of COLUMNS texels. */
+static uint32_t addressed(uint32_t x, VkSamplerAddressMode mode)
+{
+    if (x < COLUMNS || mode == VK_SAMPLER_ADDRESS_MODE_REPEAT)
+        return x % COLUMNS;
+    return mode == VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE ? COLUMNS - 1 : 2 * COLUMNS - 1 - x;
+}
+
+/* The mean of the texels that a block shows, `shift` texels from the sides of the texture. */
+static double texel_mean(const struct picture *p, VkSamplerAddressMode mode, uint32_t shift,
+                         const uint32_t block[static 2], int channel)
+{
+    double mean = 0;
+    for (uint32_t c = 0; c < PER_BLOCK * PER_BLOCK; c++) {
+        const uint32_t x = addressed(block[0] * PER_BLOCK + c % PER_BLOCK + shift, mode),
+                       z = addressed(block[1] * PER_BLOCK + c / PER_BLOCK + shift, mode);
+        mean += p->texels[z * COLUMNS + x][channel] / (255.0 * PER_BLOCK * PER_BLOCK);
+    }
+    return mean;
+}
+
+/* A texel is as large as a column, and `shift` columns of the square lie outside the texture. Blocks along
+ * the seam of both triangles are left out: columns whose centre lies on it count twice. */
+static void require_area_means(const struct picture *p, VkSamplerAddressMode mode, uint32_t shift)
+{
+    const float part = (float)shift / COLUMNS;
+    const struct sdfgi_material_desc desc = { .albedo = { 1, 0.5f, 0.75f },
+                                              .albedo_texture = { .view = p->image.view,
+                                                                  .uv_transform = { 1, 0, part, 0, 1, part },
+                                                                  .address_u = mode,
+                                                                  .address_v = mode } };
+    struct square s = voxelize(make_mapped_square(1), &desc);
+    for (uint32_t z = 0; z < BLOCKS; z++)
+        for (uint32_t x = 0; x < BLOCKS; x++)
+            for (int k = 0; k < 3 && x != z; k++)
+                REQUIRE_NEAR(s.albedo[z][x][k],
+                             (double)desc.albedo[k] * texel_mean(p, mode, shift, (uint32_t[2]){ x, z }, k),
+                             0.002);
+    oracle_bits_destroy(&s.bits);
+}
+
+static void blocks_hold_area_means_of_textures(void **state)
+{
+    (void)state;
+    struct picture p = picture_create(COLUMNS, 1, opaque_noise_at);
+    require_area_means(&p, VK_SAMPLER_ADDRESS_MODE_REPEAT, 0);
+    require_area_means(&p, VK_SAMPLER_ADDRESS_MODE_REPEAT, 20);
+    require_area_means(&p, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT, 20);
+    require_area_means(&p, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 20);
+    picture_destroy(&p);
+}
+
+/* 13 texels a column: each block is the mean of both colours. */
+static void textures_finer_than_a_sub_voxel_come_out_as_their_mean(void **state)
+{
+    (void)state;
+    struct picture p = picture_create(64, 7, checkerboard_at);
+    const struct sdfgi_material_desc desc = { .albedo = { 1, 1, 1 },
+                                              .emission = { 2, 2, 2 },
+                                              .albedo_texture = { .view = p.image.view },
+                                              .emission_texture = { .view = p.image.view } };
+    struct square s = voxelize(make_mapped_square(13), &desc);
+    for (uint32_t i = 0; i < BLOCKS * BLOCKS; i++) {
+        REQUIRE_NEAR(s.albedo[i / BLOCKS][i % BLOCKS][0], 155 / 255.0, 0.003);
+        REQUIRE_NEAR(s.albedo[i / BLOCKS][i % BLOCKS][1], 130 / 255.0, 0.003);
+        REQUIRE_NEAR(s.albedo[i / BLOCKS][i % BLOCKS][2], 0, 0);
+    }
+    REQUIRE_NEAR(s.emission[0], 2 * 130 / 255.0, 0.02);
+    oracle_bits_destroy(&s.bits);
+    picture_destroy(&p);
+}
+
+static void masks_leave_holes_where_alpha_is_below_the_cutoff(void **state)
+{
+    (void)state;
+    struct picture p = picture_create(COLUMNS, 1, noise_at);
+    struct sdfgi_material_desc desc = grey;
+    desc.alpha_cutoff = 0.5f;
+    desc.albedo_texture.view = p.image.view;
+    struct square s = voxelize(make_mapped_square(1), &desc);
+    for (uint32_t z = 0; z < COLUMNS; z++)
+        for (uint32_t x = 0; x < COLUMNS; x++)
+            REQUIRE_CMP(column_is_set(&s, x, z), ==, p.texels[z * COLUMNS + x][3] == 255);
+    oracle_bits_destroy(&s.bits);
+    picture_destroy(&p);
+}
+
+/* Nanoseconds that the device takes at best for the square of a material; 0: it has no clock. */
+static uint64_t voxelize_ns(const struct sdfgi_material_desc *desc)
+{
+    static struct sdfgi_report report;
+    uint64_t best = UINT64_MAX;
+    for (int run = 0; run < 3; run++) {
+        struct square s = voxelize(make_mapped_square(13), desc);
+        oracle_bits_destroy(&s.bits);
+        gi_test_update(&t, 2);
+        sdfgi_get_report(t.gi, &report);
+        const uint64_t ns = report.passes[PASS_VOXELIZE].gpu_ns;
+        best = ns < best ? ns : best;
+    }
+    return best;
+}
+
+/* With filters along the slope of surfaces a software driver takes 2,000 times as long. */
+static void textures_cost_little(void **state)
+{
+    (void)state;
+    struct picture p = picture_create(64, 7, checkerboard_at);
+    struct sdfgi_material_desc desc = grey;
+    const uint64_t plain = voxelize_ns(&desc);
+    desc.albedo_texture.view = p.image.view;
+    const uint64_t textured = voxelize_ns(&desc);
+    printf("a square: %llu ns plain, %llu ns with a texture\n", (unsigned long long)plain,
+           (unsigned long long)textured);
+    REQUIRE_CMP(textured, <=, 20 * plain);
+    picture_destroy(&p);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -293,6 +486,10 @@ int main(void)
         cmocka_unit_test(triangles_outside_their_bounds_are_counted),
         cmocka_unit_test(masks_without_an_alpha_leave_all),
         cmocka_unit_test(colors_of_vertices_multiply_albedo_and_alpha),
+        cmocka_unit_test(blocks_hold_area_means_of_textures),
+        cmocka_unit_test(textures_finer_than_a_sub_voxel_come_out_as_their_mean),
+        cmocka_unit_test(textures_cost_little),
+        cmocka_unit_test(masks_leave_holes_where_alpha_is_below_the_cutoff),
     };
     return cmocka_run_group_tests_name("voxel_surface", tests, open_context, close_context);
 }

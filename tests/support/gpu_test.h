@@ -112,7 +112,7 @@ void gpu_test_buffer_read(struct gpu_test *gpu, VkBuffer buffer, VkDeviceSize of
 void gpu_test_buffer_write(struct gpu_test *gpu, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size,
                            const void *data);
 
-/* ---- Images: one mip level, one layer; 3D if depth > 1 ---- */
+/* ---- Images: one layer; 3D if depth > 1 ---- */
 
 struct gpu_test_image {
     VkImage image;
@@ -121,6 +121,7 @@ struct gpu_test_image {
     VkFormat format;
     VkImageAspectFlags aspect;
     VkExtent3D extent;
+    uint32_t levels;
     VkImageLayout layout; /* after creation; update it if your commands change it */
 };
 
@@ -129,14 +130,15 @@ struct gpu_test_image_desc {
     VkExtent3D extent;
     VkImageUsageFlags usage; /* transfer usage is added */
     VkImageLayout layout;    /* wanted after creation */
-    const void *texels;      /* tightly packed; NULL: zero bytes */
+    const void *texels;      /* tightly packed, level after level; NULL: zero bytes */
     uint32_t texel_size;     /* bytes */
+    uint32_t levels;         /* of mips, each half as large as the one before; 0: 1 */
 };
 
 struct gpu_test_image gpu_test_image_create(struct gpu_test *gpu, const struct gpu_test_image_desc *desc);
 void gpu_test_image_destroy(struct gpu_test *gpu, struct gpu_test_image *image);
 
-/* Reads all texels, tightly packed, from an image that is in `layout` and stays in it. */
+/* Reads all texels of level 0, tightly packed, from an image that is in `layout` and stays in it. */
 void gpu_test_image_read(struct gpu_test *gpu, VkImage image, VkImageLayout layout, VkImageAspectFlags aspect,
                          VkExtent3D extent, uint32_t texel_size, void *texels);
 

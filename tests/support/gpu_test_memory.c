@@ -111,6 +111,26 @@ static VkDeviceSize texels_size(VkExtent3D extent, uint32_t texel_size)
     return (VkDeviceSize)extent.width * extent.height * extent.depth * texel_size;
 }
 
+static uint32_t half_of(uint32_t size)
+{
+    return size > 1 ? size / 2 : 1;
+}
+
+static VkExtent3D level_extent(VkExtent3D extent, uint32_t level)
+{
+    for (uint32_t i = 0; i < level; i++)
+        extent = (VkExtent3D){ half_of(extent.width), half_of(extent.height), half_of(extent.depth) };
+    return extent;
+}
+
+static VkDeviceSize levels_size(VkExtent3D extent, uint32_t texel_size, uint32_t levels)
+{
+    VkDeviceSize size = 0;
+    for (uint32_t i = 0; i < levels; i++)
+        size += texels_size(level_extent(extent, i), texel_size);
+    return size;
+}
+
 static bool format_has_depth(VkFormat format)
 {
     return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT &&
@@ -124,7 +144,7 @@ static void image_allocate(struct gpu_test *gpu, struct gpu_test_image *image, V
         .imageType = image->extent.depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D,
         .format = image->format,
         .extent = image->extent,
-        .mipLevels = 1,
+        .mipLevels = image->levels,
         .arrayLayers = 1,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .usage = usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
@@ -144,7 +164,7 @@ static void image_view_create(struct gpu_test *gpu, struct gpu_test_image *image
         .image = image->image,
         .viewType = image->extent.depth > 1 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D,
         .format = image->format,
-        .subresourceRange = { image->aspect, 0, 1, 0, 1 },
+        .subresourceRange = { image->aspect, 0, image->levels, 0, 1 },
     };
     if (usage & ~(VkImageUsageFlags)(VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT))
         GPU_CHECK(vkCreateImageView(gpu->device, &info, NULL, &image->view));
@@ -156,13 +176,15 @@ struct image_copy {
     VkExtent3D extent;
     VkBuffer buffer;
     VkImageLayout before, after; /* read: both the image's own */
+    uint32_t levels, texel_size; /* write */
 };
 
-static VkBufferImageCopy image_copy_region(const struct image_copy *copy)
+static VkBufferImageCopy image_copy_region(const struct image_copy *copy, uint32_t level)
 {
     return (VkBufferImageCopy){
-        .imageSubresource = { copy->aspect, 0, 0, 1 },
-        .imageExtent = copy->extent,
+        .bufferOffset = levels_size(copy->extent, copy->texel_size, level),
+        .imageSubresource = { copy->aspect, level, 0, 1 },
+        .imageExtent = level_extent(copy->extent, level),
     };
 }
 
@@ -179,7 +201,7 @@ static void image_transition(VkCommandBuffer cmd, const struct image_copy *copy,
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = copy->image,
-        .subresourceRange = { copy->aspect, 0, 1, 0, 1 },
+        .subresourceRange = { copy->aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1 },
     };
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
                          NULL, 0, NULL, 1, &barrier);
@@ -188,17 +210,20 @@ static void image_transition(VkCommandBuffer cmd, const struct image_copy *copy,
 static void image_upload_record(VkCommandBuffer cmd, uint32_t index, void *user)
 {
     const struct image_copy *copy = user;
-    const VkBufferImageCopy region = image_copy_region(copy);
     (void)index;
     image_transition(cmd, copy, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(cmd, copy->buffer, copy->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    for (uint32_t i = 0; i < copy->levels; i++) {
+        const VkBufferImageCopy region = image_copy_region(copy, i);
+        vkCmdCopyBufferToImage(cmd, copy->buffer, copy->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                               &region);
+    }
     image_transition(cmd, copy, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, copy->after);
 }
 
 static void image_download_record(VkCommandBuffer cmd, uint32_t index, void *user)
 {
     const struct image_copy *copy = user;
-    const VkBufferImageCopy region = image_copy_region(copy);
+    const VkBufferImageCopy region = image_copy_region(copy, 0);
     (void)index;
     image_transition(cmd, copy, copy->before, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     vkCmdCopyImageToBuffer(cmd, copy->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, copy->buffer, 1, &region);
@@ -211,15 +236,17 @@ struct gpu_test_image gpu_test_image_create(struct gpu_test *gpu, const struct g
         .format = desc->format,
         .aspect = format_has_depth(desc->format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT,
         .extent = desc->extent,
+        .levels = desc->levels ? desc->levels : 1,
         .layout = desc->layout,
     };
     image_allocate(gpu, &image, desc->usage);
     image_view_create(gpu, &image, desc->usage);
-    const VkDeviceSize size = texels_size(desc->extent, desc->texel_size);
+    const VkDeviceSize size = levels_size(image.extent, desc->texel_size, image.levels);
     struct gpu_test_buffer staging = gpu_test_buffer_host(gpu, size, 0, desc->texels);
     if (!desc->texels)
         memset(staging.mapped, 0, size);
-    struct image_copy copy = { image.image, image.aspect, image.extent, staging.buffer, 0, desc->layout };
+    struct image_copy copy = { image.image, image.aspect, image.extent, staging.buffer,
+                               0,           desc->layout, image.levels, desc->texel_size };
     gpu_test_submit(gpu, image_upload_record, &copy);
     gpu_test_buffer_destroy(gpu, &staging);
     return image;
@@ -238,7 +265,7 @@ void gpu_test_image_read(struct gpu_test *gpu, VkImage image, VkImageLayout layo
 {
     const VkDeviceSize size = texels_size(extent, texel_size);
     struct gpu_test_buffer staging = gpu_test_buffer_host(gpu, size, 0, NULL);
-    struct image_copy copy = { image, aspect, extent, staging.buffer, layout, layout };
+    struct image_copy copy = { image, aspect, extent, staging.buffer, layout, layout, 1, texel_size };
     gpu_test_submit(gpu, image_download_record, &copy);
     memcpy(texels, staging.mapped, size);
     gpu_test_buffer_destroy(gpu, &staging);

@@ -41,10 +41,13 @@ struct set_pool {
     struct set_pool *next;
 };
 
+enum { ADDRESS_MODES = 3 }; /* REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE: the first ones of Vulkan */
+
 struct scene {
     struct backend *backend;
     struct pool meshes, materials, instances, lights;
     struct set_pool *set_pools;
+    VkSampler samplers[ADDRESS_MODES][ADDRESS_MODES]; /* by mode of u, v; null until a texture needs it */
     struct sdfgi_sky sky;
     uint32_t emissive;   /* materials that emit */
     float most_emission; /* of any material so far */

@@ -2,6 +2,7 @@
 #include "scene_check.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static bool all_zero(const float *v, int count)
 {
@@ -11,6 +12,24 @@ static bool all_zero(const float *v, int count)
     return true;
 }
 
+static void check_address(struct problem *p, const char *texture, const char *field,
+                          VkSamplerAddressMode mode)
+{
+    if (mode != VK_SAMPLER_ADDRESS_MODE_REPEAT && mode != VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT &&
+        mode != VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)
+        sdfgi_problem_add(p, "%s.%s is %d, must be REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE", texture, field,
+                          (int)mode);
+}
+
+static void check_texture(struct problem *p, const char *name, const struct sdfgi_texture *texture)
+{
+    char field[64];
+    snprintf(field, sizeof field, "%s.uv_transform", name);
+    sdfgi_problem_floats(p, field, texture->uv_transform, 6, -INFINITY, INFINITY);
+    check_address(p, name, "address_u", texture->address_u);
+    check_address(p, name, "address_v", texture->address_v);
+}
+
 struct problem sdfgi_check_material(const struct sdfgi_material_desc *d)
 {
     struct problem p = { "" };
@@ -18,14 +37,8 @@ struct problem sdfgi_check_material(const struct sdfgi_material_desc *d)
     sdfgi_problem_floats(&p, "emission", d->emission, 3, 0, INFINITY);
     sdfgi_problem_floats(&p, "alpha", &d->alpha, 1, 0, 1);
     sdfgi_problem_floats(&p, "alpha_cutoff", &d->alpha_cutoff, 1, 0, 1);
-    sdfgi_problem_floats(&p, "albedo_texture.uv_transform", d->albedo_texture.uv_transform, 6, -INFINITY,
-                         INFINITY);
-    sdfgi_problem_floats(&p, "emission_texture.uv_transform", d->emission_texture.uv_transform, 6, -INFINITY,
-                         INFINITY);
-    if (d->albedo_texture.view && !d->albedo_texture.sampler)
-        sdfgi_problem_add(&p, "albedo_texture has a view, but its sampler is null");
-    if (d->emission_texture.view && !d->emission_texture.sampler)
-        sdfgi_problem_add(&p, "emission_texture has a view, but its sampler is null");
+    check_texture(&p, "albedo_texture", &d->albedo_texture);
+    check_texture(&p, "emission_texture", &d->emission_texture);
     return p;
 }
 

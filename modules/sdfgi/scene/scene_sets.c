@@ -4,6 +4,7 @@
 #include "shaders/shared/bindings.h"
 
 #include <assert.h>
+#include <string.h>
 
 enum { SETS_PER_POOL = 128 };
 
@@ -94,20 +95,53 @@ VkResult sdfgi_scene_sets_mesh(struct scene *scene, struct mesh *mesh)
     return VK_SUCCESS;
 }
 
-static VkDescriptorImageInfo image_info(const struct sdfgi_texture *texture)
+/* ---- Textures */
+
+/* Shaders choose the level. Filters along the slope of a surface, which hosts' samplers may have, would add
+ * nothing to it, and a software driver takes a thousand times as long with them. */
+static VkResult require_sampler(struct scene *scene, const struct sdfgi_texture *texture)
 {
-    const VkImageLayout layout = texture->layout ? texture->layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    return (VkDescriptorImageInfo){ texture->sampler, texture->view, layout };
+    const struct gpu_device *device = &scene->backend->device;
+    VkSampler *sampler = &scene->samplers[texture->address_u][texture->address_v];
+    if (*sampler || !texture->view)
+        return VK_SUCCESS;
+    return device->fn.CreateSampler(device->handle,
+                                    &(VkSamplerCreateInfo){ .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                                            .magFilter = VK_FILTER_LINEAR,
+                                                            .minFilter = VK_FILTER_LINEAR,
+                                                            .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                                            .addressModeU = texture->address_u,
+                                                            .addressModeV = texture->address_v,
+                                                            .maxLod = VK_LOD_CLAMP_NONE },
+                                    device->callbacks, sampler);
 }
 
-static void write_textures(const struct gpu_device *device, const struct material *material)
+static void destroy_samplers(struct scene *scene)
 {
+    const struct gpu_device *device = &scene->backend->device;
+    for (int u = 0; u < ADDRESS_MODES; u++)
+        for (int v = 0; v < ADDRESS_MODES; v++)
+            if (scene->samplers[u][v])
+                device->fn.DestroySampler(device->handle, scene->samplers[u][v], device->callbacks);
+    memset(scene->samplers, 0, sizeof scene->samplers);
+}
+
+static VkDescriptorImageInfo image_info(const struct scene *scene, const struct sdfgi_texture *texture)
+{
+    const VkImageLayout layout = texture->layout ? texture->layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    return (VkDescriptorImageInfo){ scene->samplers[texture->address_u][texture->address_v], texture->view,
+                                    layout };
+}
+
+static void write_textures(const struct scene *scene, const struct material *material)
+{
+    const struct gpu_device *device = &scene->backend->device;
     const struct sdfgi_texture *albedo = &material->desc.albedo_texture,
                                *emission = &material->desc.emission_texture;
     /* Where only one texture exists it stands in for the other, which shaders then do not read. */
     const VkDescriptorImageInfo infos[2] = {
-        image_info(albedo->view ? albedo : emission),
-        image_info(emission->view ? emission : albedo),
+        image_info(scene, albedo->view ? albedo : emission),
+        image_info(scene, emission->view ? emission : albedo),
     };
     VkWriteDescriptorSet writes[2];
     for (uint32_t i = 0; i < 2; i++)
@@ -126,10 +160,14 @@ VkResult sdfgi_scene_sets_material(struct scene *scene, struct material *materia
         return VK_SUCCESS;
     VkResult result = sdfgi_pipelines_require(scene->backend, PASS_VOXELIZE, 1);
     if (result == VK_SUCCESS)
+        result = require_sampler(scene, &material->desc.albedo_texture);
+    if (result == VK_SUCCESS)
+        result = require_sampler(scene, &material->desc.emission_texture);
+    if (result == VK_SUCCESS)
         result = create(scene, scene->backend->pipelines.material, &material->set);
     if (result != VK_SUCCESS)
         return result;
-    write_textures(&scene->backend->device, material);
+    write_textures(scene, material);
     return VK_SUCCESS;
 }
 
@@ -161,4 +199,5 @@ void sdfgi_scene_sets_finish(struct scene *scene)
         sdfgi_hooks_free(&scene->backend->hooks, pool);
     }
     scene->set_pools = NULL;
+    destroy_samplers(scene);
 }

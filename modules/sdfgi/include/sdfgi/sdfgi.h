@@ -187,13 +187,16 @@ typedef struct {
     uint32_t id;
 } sdfgi_light;
 
-/* A texture as the voxeliser samples it. view == VK_NULL_HANDLE: none, the factor alone counts.
- * The image must be in `layout` whenever a command buffer from sdfgi_update executes. */
+/* A texture of a material. view == VK_NULL_HANDLE: none, the factor alone counts. The image must be in
+ * `layout` whenever a command buffer from sdfgi_update executes. The library samples it linearly, with a
+ * sampler of its own, at the mip level whose texels are as large as sub-voxels: give the view all levels. A
+ * texture without them is sampled at points, and details finer than a sub-voxel may be missed. */
 struct sdfgi_texture {
-    VkImageView view; /* 2D; an sRGB format where the content is sRGB */
-    VkSampler sampler;
+    VkImageView view;      /* 2D, of a format that can be filtered; sRGB where the content is sRGB */
     VkImageLayout layout;  /* VK_IMAGE_LAYOUT_UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
     float uv_transform[6]; /* row-major 2x3, uv' = M * (u, v, 1); all zero: identity */
+    /* What lies outside [0, 1]: VK_SAMPLER_ADDRESS_MODE_REPEAT (0), _MIRRORED_REPEAT or _CLAMP_TO_EDGE. */
+    VkSamplerAddressMode address_u, address_v;
 };
 
 struct sdfgi_material_desc {
