@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const float white[3] = { 1, 1, 1 }, half_white[3] = { 0.5f, 0.5f, 0.5f }, black[3] = { 0, 0, 0 };
 
@@ -236,6 +237,54 @@ static void lamp_follows_the_inverse_square(void **state)
     REQUIRE_NEAR(found[1] / found[0] / (exact[1] / exact[0]), 1, 0.05);
 }
 
+/* Irradiance of a spot light on a level surface at `at`, by the formula of sdfgi.h. */
+static double spot_irradiance(const struct sdfgi_light_desc *spot, const double at[static 3])
+{
+    double offset[3], along = 0, d2 = 0, aim2 = 0;
+    for (int i = 0; i < 3; i++) {
+        const double aim = (double)spot->direction[i];
+        offset[i] = at[i] - spot->position[i];
+        d2 += offset[i] * offset[i];
+        along += offset[i] * aim;
+        aim2 += aim * aim;
+    }
+    if (spot->range_m > 0 && sqrt(d2) > (double)spot->range_m)
+        return 0;
+    const double inner = cos((double)spot->inner_angle_rad), outer = cos((double)spot->outer_angle_rad),
+                 share = fmin(fmax((along / sqrt(d2 * aim2) - outer) / (inner - outer), 0), 1);
+    return (double)spot->intensity[1] * share * share * -offset[1] / (d2 * sqrt(d2));
+}
+
+/* Within the inner angle, between both angles, outside, and beyond the range. Light is computed above the
+ * centres of cells, in the middle of the sub-voxel that the plane sets. */
+static void spot_light_on_a_plane_follows_its_formula(void **state)
+{
+    (void)state;
+    static const float range_m[2] = { 0, 3.6f };
+    const double level = -1.5 * 0.0625;
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_open(&t, &settings);
+    light_add_box(&t, (double[]){ -3.5, -1, -3.5 }, (double[]){ 3.5, -0.05, 3.5 }, white, 0);
+    struct sdfgi_light_desc spot = light_point(-1.6, 3, 0.2, 100);
+    spot.type = SDFGI_LIGHT_SPOT;
+    memcpy(spot.direction, (float[3]){ 0.5f, -2, 0 }, sizeof spot.direction);
+    spot.inner_angle_rad = 0.3f;
+    spot.outer_angle_rad = 0.8f;
+    const sdfgi_light light = light_create(&t, &spot);
+    for (int r = 0; r < 2; r++) {
+        spot.range_m = range_m[r];
+        REQUIRE_CMP(sdfgi_light_update(t.gi, light, &spot), ==, SDFGI_OK);
+        gi_test_converge(&t, 80);
+        for (int i = -13; i < 13; i++) {
+            const double x = 0.25 * i + 0.125, found = PI * stored_radiance_up(&t, (double[]){ x, 0.1, 0.3 }),
+                         exact = spot_irradiance(&spot, (double[]){ x, level, 0.375 });
+            REQUIRE_NEAR(found, exact, 0.01 * exact + 0.003);
+        }
+    }
+    gi_test_close(&t);
+}
+
 static double far_room_with_lamp(bool casts_shadow)
 {
     struct gi_test t;
@@ -289,6 +338,7 @@ int main(void)
         cmocka_unit_test(sun_reaches_every_cascade),
         cmocka_unit_test(lamps_reach_every_cascade),
         cmocka_unit_test(lamp_follows_the_inverse_square),
+        cmocka_unit_test(spot_light_on_a_plane_follows_its_formula),
         cmocka_unit_test(shadowless_lamp_lights_the_far_side_of_a_wall),
         cmocka_unit_test(hard_48_lamp_inside_a_solid_lights_nothing),
     };
