@@ -88,9 +88,10 @@ void picture_mark(picture_surface s, uint lane)
     }
 }
 
+/* As the output holds it. */
 vec3 picture_irradiance(picture_surface s)
 {
-    return min(sdfgi_irradiance(s.pos, s.normal, s.to_eye), vec3(PICTURE_BRIGHTEST));
+    return min(sdfgi_irradiance(s.pos, s.normal, s.to_eye) * args.scale, vec3(PICTURE_BRIGHTEST));
 }
 
 #endif

@@ -124,8 +124,9 @@ struct sdfgi_gather_args {
     vec4 inverse_view_projection[4]; /* columns */
     uint width, height;
     float background_depth;
-    uint step; /* gather_sparse: pixels from one sample to the next, a power of two */
+    uint step;   /* gather_sparse: pixels from one sample to the next, a power of two */
+    float scale; /* factor on the output */
 };
-SDFGI_ASSERT_SIZE(sdfgi_gather_args, 80);
+SDFGI_ASSERT_SIZE(sdfgi_gather_args, 84);
 
 #endif

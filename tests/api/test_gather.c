@@ -257,8 +257,8 @@ static void gather_refuses_bad_descriptors(void **state)
                                             .height = HEIGHT,
                                             .inverse_view_projection = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
                                                                          0, 0, 0, 1 } };
-    struct sdfgi_gather_desc bad[10];
-    for (int i = 0; i < 10; i++)
+    struct sdfgi_gather_desc bad[12];
+    for (int i = 0; i < 12; i++)
         bad[i] = good;
     bad[0].depth = VK_NULL_HANDLE;
     bad[1].normal = VK_NULL_HANDLE;
@@ -271,7 +271,9 @@ static void gather_refuses_bad_descriptors(void **state)
     bad[8].height = t.gi->backend.device.limits.maxImageDimension2D + 1;
     bad[9].width = UINT32_MAX;
     bad[9].resolution = SDFGI_GATHER_QUARTER;
-    for (int i = 0; i < 10; i++)
+    bad[10].scale = -1;
+    bad[11].scale = INFINITY;
+    for (int i = 0; i < 12; i++)
         require_refused(&t, &bad[i]);
     REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &good), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
     t.gi->backend.device.limits.maxComputeWorkGroupCount[1] = 1;

@@ -144,7 +144,8 @@
     X(sdfgi_gather_args, width)                                                                              \
     X(sdfgi_gather_args, height)                                                                             \
     X(sdfgi_gather_args, background_depth)                                                                   \
-    X(sdfgi_gather_args, step)
+    X(sdfgi_gather_args, step)                                                                               \
+    X(sdfgi_gather_args, scale)
 
 struct place {
     const char *type, *name;

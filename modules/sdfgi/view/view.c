@@ -73,6 +73,7 @@ struct problem sdfgi_view_gather_problem(const struct sdfgi_gather_desc *d)
         sdfgi_problem_add(&p, "resolution is %d, must be one of enum sdfgi_gather_resolution",
                           (int)d->resolution);
     sdfgi_problem_floats(&p, "inverse_view_projection", d->inverse_view_projection, 16, -INFINITY, INFINITY);
+    sdfgi_problem_floats(&p, "scale", &d->scale, 1, 0, INFINITY);
     static const float zero[16];
     if (memcmp(zero, d->inverse_view_projection, sizeof zero) == 0)
         sdfgi_problem_add(&p, "inverse_view_projection is 0");
@@ -114,7 +115,8 @@ struct work sdfgi_view_gather_work(const struct sdfgi_gather_desc *d)
         .args.gather = { .width = d->width,
                          .height = d->height,
                          .background_depth = d->background_depth,
-                         .step = steps[d->resolution] },
+                         .step = steps[d->resolution],
+                         .scale = d->scale > 0 ? d->scale : 1 },
     };
     memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,
            sizeof work.args.gather.inverse_view_projection);

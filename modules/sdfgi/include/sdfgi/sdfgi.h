@@ -356,15 +356,16 @@ enum sdfgi_gather_resolution {
     SDFGI_GATHER_QUARTER,
 };
 
-/* Indirect diffuse light for a whole screen: irradiance E (W/m^2, not times albedo) per pixel.
+/* Indirect diffuse light for a whole screen: irradiance E (W/m^2, not times albedo) per pixel, times `scale`.
  *
  *   image    format                          layout on entry and exit       usage
  *   depth    any sampled depth/float, 0..1   SHADER_READ_ONLY or GENERAL    SAMPLED
  *   normal   any sampled float, xyz unit     SHADER_READ_ONLY or GENERAL    SAMPLED
  *   output   R16G16B16A16_SFLOAT             GENERAL                        STORAGE
  *
- * A pixel whose position or normal is not finite, or whose normal is 0, counts as background. Light of more
- * than 65504 is written as 65504. */
+ * A pixel whose position or normal is not finite, or whose normal is 0, counts as background. Half floats
+ * end at 65504: more is written as that. Give bright scenes a scale: the exposure of the picture that the
+ * light is added to, or one that the host divides by again. */
 struct sdfgi_gather_desc {
     VkImageView depth, normal, output;
     VkImageLayout input_layout;        /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
@@ -373,6 +374,7 @@ struct sdfgi_gather_desc {
                                           sdfgi_frame_desc::origin; not 0 */
     float background_depth;            /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
     enum sdfgi_gather_resolution resolution; /* 0: SDFGI_GATHER_FULL */
+    float scale;                             /* factor on the output, >= 0 and finite; 0 means 1 */
 };
 
 /* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must
