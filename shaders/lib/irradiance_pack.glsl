@@ -30,7 +30,8 @@ vec4 sdfgi_irradiance_pack_gain(vec3 light, float gain)
 sdfgi_irradiance_texel sdfgi_irradiance_unpack(vec4 packed)
 {
     const bool has_gain = packed.a > 0.0;
-    return sdfgi_irradiance_texel(packed.rgb, has_gain ? 1.0 : -packed.a, has_gain ? packed.a : 1.0);
+    return sdfgi_irradiance_texel(max(packed.rgb, vec3(0.0)), has_gain ? 1.0 : -packed.a,
+                                  has_gain ? packed.a : 1.0);
 }
 
 /* The nearest values towards zero that half floats hold, so that packHalf2x16 has nothing to round. Its
@@ -58,9 +59,12 @@ uvec2 sdfgi_half4_encode(vec4 v)
     return uvec2(packHalf2x16(v.rg), packHalf2x16(v.ba));
 }
 
+/* Infinity and NaN, which nobody stores, are 0: whatever memory holds, no light is made of them. */
 vec4 sdfgi_half4_decode(uvec2 halves)
 {
-    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+    const uvec4 exponents = uvec4(halves.x, halves.x >> 16u, halves.y, halves.y >> 16u) & 0x7c00u;
+    return mix(vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)), vec4(0.0),
+               equal(exponents, uvec4(0x7c00u)));
 }
 
 #endif

@@ -15,6 +15,13 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SUMS) buffer sdfgi_
     vec4 sdfgi_sums[];
 };
 
+/* 0 for numbers that are not finite. */
+vec4 probe_finite(vec4 v)
+{
+    const uvec4 exponents = floatBitsToUint(v) & 0x7f800000u;
+    return any(equal(exponents, uvec4(0x7f800000u))) ? vec4(0.0) : v;
+}
+
 uint probe_sums(uint slot)
 {
     return slot * uint(SDFGI_SUMS_STRIDE);
@@ -76,7 +83,7 @@ probe_history probe_history_unpack(vec4 packed)
 
 probe_history probe_history_load(uint slot)
 {
-    return probe_history_unpack(sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)]);
+    return probe_history_unpack(probe_finite(sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)]));
 }
 
 void probe_history_store(uint slot, probe_history h)

@@ -30,7 +30,7 @@ void probe_store_previous(uint slot, uint texel, vec3 mean, float weight)
 vec4 probe_load_previous(uint slot, uint texel)
 {
     const uvec2 packed = sdfgi_previous[probe_texel(slot, texel)];
-    return sdfgi_half4_decode(packed);
+    return max(sdfgi_half4_decode(packed), vec4(0.0));
 }
 
 /* How far a texel of this weight counts beside those of probes with a longer history. */

@@ -216,10 +216,13 @@ void accumulate(uint plane, uint block, uint value)
 }
 
 /* False if sums of a block are so large that they might wrap: thousands of surfaces lie in it one on the
- * other. Their mean is known well enough then. */
+ * other. Their mean is known well enough then. What is left out is counted. */
 bool has_room(uint plane, uint block, uint limit)
 {
-    return sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] < limit;
+    const bool room = sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] < limit;
+    if (!room)
+        counter_add(SDFGI_COUNTER_SAMPLES_CUT, 1u);
+    return room;
 }
 
 /* Sums are integers, so that they do not depend on the order of additions. */

@@ -16,6 +16,7 @@
 #define SDFGI_COUNTER_VOXELS            8  /* sub-voxel samples that the voxeliser accepted */
 #define SDFGI_COUNTER_DISTANCE_CELLS    9  /* cells whose distances the exact search made again */
 #define SDFGI_COUNTER_OUT_OF_BOUNDS     10 /* triangles outside their mesh's bounds by more than a cell */
+#define SDFGI_COUNTER_SAMPLES_CUT       11 /* samples that a block had no room for */
 #define SDFGI_COUNTER_SINGLE_COUNT      16 /* room for counters that are not per cascade */
 /* Per cascade: light cells, and those in dirty blocks when they were listed. Neither is clamped to the room
  * in the list. */
@@ -46,7 +47,8 @@
     X(DEAD_PROBES, CHANGE, NONE)                                                                             \
     X(VOXELS, CHANGE, NONE)                                                                                  \
     X(DISTANCE_CELLS, CHANGE, NONE)                                                                          \
-    X(OUT_OF_BOUNDS, CHANGE, BOUNDS_MISS_VERTICES)
+    X(OUT_OF_BOUNDS, CHANGE, BOUNDS_MISS_VERTICES)                                                           \
+    X(SAMPLES_CUT, CHANGE, SURFACES_CROWDED)
 
 /* Records of four words: the three workgroup counts of an indirect dispatch, and a number of items. Passes
  * that run beside passes that write COUNTERS must read the number here.

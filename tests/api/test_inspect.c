@@ -259,6 +259,8 @@ static void coincident_emitters_keep_their_colour(void **state)
     gi_test_add(&t, &mesh, material);
     test_mesh_destroy(&mesh);
     gi_test_update(&t, 1);
+    gi_test_update(&t, 2);
+    REQUIRE_CMP(t.gi->volume.feedback.counters[SDFGI_COUNTER_SAMPLES_CUT], >, 0u);
     struct surface_volumes v = read_surfaces(&t);
     const uint32_t middle = v.where.resolution / 2;
     const struct sdfgi_inspect_surface s = surface_at(&v, (uint32_t[]){ middle, middle, middle });

@@ -26,7 +26,8 @@
     X(UNLIT_HITS, WARNING, "rays hit surfaces with no light cell nearby")                                    \
     X(UPDATE_LOST, WARNING, "a recorded update never ran; see sdfgi_cancel_update")                          \
     X(BOUNDS_MISS_VERTICES, WARNING,                                                                         \
-      "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")
+      "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")            \
+    X(SURFACES_CROWDED, WARNING, "hundreds of surfaces lie in one another: their mean leaves some out")
 
 enum sdfgi_message {
 #define SDFGI_MESSAGE_ENUM(id, level, hint) SDFGI_MESSAGE_##id,
