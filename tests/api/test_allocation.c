@@ -378,6 +378,18 @@ static void no_failure_while_the_light_list_grows_is_fatal(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
+static const VkImageView unused_view = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
+
+static struct sdfgi_gather_desc unused_gather(void)
+{
+    return (struct sdfgi_gather_desc){ .depth = unused_view,
+                                       .normal = unused_view,
+                                       .output = unused_view,
+                                       .width = 1,
+                                       .height = 1,
+                                       .inverse_view_projection = { 1 } };
+}
+
 /* Those for sdfgi_gather and for textures, which are made when they are asked for. */
 static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
 {
@@ -386,14 +398,9 @@ static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
     sdfgi *gi = create_on(&counting);
     add_a_triangle(gi);
     update_twice(gi);
-    const VkImageView view = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
-    const struct sdfgi_gather_desc gather = { .depth = view,
-                                              .normal = view,
-                                              .output = view,
-                                              .width = 1,
-                                              .height = 1,
-                                              .inverse_view_projection = { 1 } };
-    const struct sdfgi_material_desc material = { .albedo = { 1, 1, 1 }, .albedo_texture = { .view = view } };
+    const struct sdfgi_gather_desc gather = unused_gather();
+    const struct sdfgi_material_desc material = { .albedo = { 1, 1, 1 },
+                                                  .albedo_texture = { .view = unused_view } };
     for (uint32_t k = 1; k <= 2; k++) { /* its shader module, itself */
         sdfgi_material handle = { 77 };
         memset(messages, 0, sizeof messages);
@@ -418,13 +425,7 @@ static void no_failure_to_make_a_view_is_fatal(void **state)
     struct counting counting = { 0 };
     sdfgi *gi = create_on(&counting);
     record_first_frame(gi);
-    const VkImageView image = (VkImageView)(uintptr_t)1; /* nothing gets as far as to use it */
-    const struct sdfgi_gather_desc gather = { .depth = image,
-                                              .normal = image,
-                                              .output = image,
-                                              .width = 1,
-                                              .height = 1,
-                                              .inverse_view_projection = { 1 } };
+    const struct sdfgi_gather_desc gather = unused_gather();
     const int64_t live = counting.live;
     REQUIRE_CMP((int)sdfgi_pipelines_require(&gi->backend, PASS_GATHER, 0), ==, (int)VK_SUCCESS);
     for (uint32_t k = 1; k <= 3; k++) {

@@ -118,6 +118,12 @@ static const enum resource kept[] = { RESOURCE_BITS,   RESOURCE_DISTANCE,   RESO
                                       RESOURCE_PROBES, RESOURCE_IRRADIANCE, RESOURCE_FRAME };
 enum { KEPT = sizeof kept / sizeof *kept, EXACT = 4 };
 
+static void take_hashes(struct gi_test *t, uint64_t hashes[static KEPT])
+{
+    for (int i = 0; i < KEPT; i++)
+        hashes[i] = hash(t, kept[i]);
+}
+
 /* Where `drops`, the frames of events are recorded twice, and dropped and cancelled the first time. */
 static void run(struct gi_test *t, bool drops, uint64_t hashes[static KEPT])
 {
@@ -136,8 +142,7 @@ static void run(struct gi_test *t, bool drops, uint64_t hashes[static KEPT])
         }
         gi_test_update(t, 1);
     }
-    for (int i = 0; i < KEPT; i++)
-        hashes[i] = hash(t, kept[i]);
+    take_hashes(t, hashes);
 }
 
 static void cancelled_updates_leave_no_trace(void **state)
@@ -165,8 +170,7 @@ static double settled_light(struct gi_test *t, uint64_t hashes[static KEPT])
     float light[1][3];
     gi_test_converge(t, 400);
     gi_test_irradiance(t, &floor_point, 1, light);
-    for (int i = 0; i < KEPT; i++)
-        hashes[i] = hash(t, kept[i]);
+    take_hashes(t, hashes);
     return (double)light[0][1];
 }
 
@@ -221,8 +225,7 @@ static void a_reset_is_a_fresh_start_in_the_same_memory(void **state)
     start(&t, 1);
     add_lamp(&t);
     gi_test_update(&t, 8);
-    for (int i = 0; i < KEPT; i++)
-        fresh[i] = hash(&t, kept[i]);
+    take_hashes(&t, fresh);
     const uint64_t bytes = t.gi->backend.held.total_bytes;
     walk_on(&t);
     gi_test_update(&t, 8);
@@ -230,8 +233,7 @@ static void a_reset_is_a_fresh_start_in_the_same_memory(void **state)
     sdfgi_reset(t.gi);
     REQUIRE_TRUE(!sdfgi_is_active(t.gi));
     gi_test_update(&t, 8);
-    for (int i = 0; i < KEPT; i++)
-        found[i] = hash(&t, kept[i]);
+    take_hashes(&t, found);
     REQUIRE_CMP(memcmp(fresh, found, sizeof fresh), ==, 0);
     REQUIRE_CMP(t.gi->backend.held.total_bytes, ==, bytes);
     gi_test_close(&t);

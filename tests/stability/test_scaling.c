@@ -90,15 +90,21 @@ static void exposure_does_not_change_light(void **state)
     }
 }
 
+static void open_floor(struct gi_test *t, float albedo)
+{
+    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    gi_test_open(t, &settings);
+    light_add_box(t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ albedo, albedo, albedo },
+                  0);
+}
+
 /* Exposure may change in every frame, and settings may be given again with other bytes between their fields:
  * light stays what it is, to the bit, and nothing begins anew. */
 static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.4f);
-    gi_test_open(&t, &settings);
-    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    open_floor(&t, 0.7f);
     light_set_uniform_sky(&t, 0.3f);
     gi_test_converge(&t, 120);
     float before[POINT_COUNT][3], found[POINT_COUNT][3];
@@ -106,7 +112,7 @@ static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
     static const float exposures[] = { 1, 16, 1 / 16.0f, 1.1f, 200, 0.005f };
     for (size_t i = 0; i < sizeof exposures / sizeof *exposures; i++) {
         t.frame.exposure = exposures[i];
-        struct sdfgi_settings again = settings;
+        struct sdfgi_settings again = t.gi->settings;
         ((unsigned char *)&again)[offsetof(struct sdfgi_settings, bounce_feedback) - 1] ^= 0xff;
         REQUIRE_CMP(sdfgi_set_settings(t.gi, &again), ==, SDFGI_OK);
         gi_test_update(&t, 1);
@@ -123,9 +129,7 @@ static void exposures_of_any_sequence_show_the_same_light(void **state)
     (void)state;
     static struct sdfgi_report report;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.4f);
-    gi_test_open(&t, &settings);
-    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    open_floor(&t, 0.7f);
     light_add_box(&t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f }, 0.1f);
     light_set_uniform_sky(&t, 0.3f);
     gi_test_converge(&t, 160);
@@ -152,9 +156,7 @@ static void blinding_skies_need_no_exposure(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.4f);
-    gi_test_open(&t, &settings);
-    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 1, 1, 1 }, 0);
+    open_floor(&t, 1);
     for (int i = 0; i < 3; i++) {
         const float sky = (float[]){ 1, 1e6f, 1 }[i];
         float found[1][3];
@@ -173,13 +175,12 @@ static void extreme_exposures_leave_light_finite(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.4f);
-    gi_test_open(&t, &settings);
-    light_add_box(&t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ 0.7f, 0.7f, 0.7f }, 0);
+    open_floor(&t, 0.7f);
     light_add_box(&t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f }, 50);
     light_set_uniform_sky(&t, 100);
-    const struct sdfgi_light_desc lamp = light_point(0.3, 1, 0.5, 5e4f);
+    const struct sdfgi_light_desc lamp = light_point(0.3, 1, 0.5, 5e4f), star = light_point(9, 9, 9, 3e38f);
     light_create(&t, &lamp);
+    light_create(&t, &star); /* from near by it is brighter than floats can tell */
     static const float exposures[] = { 1e38f, 1e-38f, 1e38f };
     for (int i = 0; i < 3; i++) {
         float found[POINT_COUNT][3];

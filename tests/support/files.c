@@ -80,6 +80,18 @@ void files_write_text(const char *name, const char *text)
     files_write(name, text, strlen(text));
 }
 
+void files_write_triangle(const char *name)
+{
+    files_write_text(
+        name, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+              "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+              "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+              "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+              "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+              "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+              "\"min\":[0,0,0],\"max\":[1,1,0]}]}");
+}
+
 void files_take_text(const char *name, char *text, size_t size)
 {
     FILE *const file = fopen(files_path(name), "rb");

@@ -16,6 +16,8 @@ const char *files_path(const char *name);
 /* Failures end the test. */
 void files_write(const char *name, const void *data, size_t size);
 void files_write_text(const char *name, const char *text);
+/* A scene of one triangle, as .gltf. */
+void files_write_triangle(const char *name);
 /* At most `size` - 1 bytes of the file, which is removed then. */
 void files_take_text(const char *name, char *text, size_t size);
 

@@ -51,87 +51,89 @@ static int make_files(void **state)
     return mkfifo(files_path("pipe"), 0600);
 }
 
+/* Arguments, and what the line names. */
+static const char *const bad_input[][2] = {
+    { "nonsense", "nonsense" },
+    { "render --out a.png", "SCENE" },
+    { "render none.glb", "--out" },
+    { "render none.glb --out a.png", "none.glb" },
+    { "render broken.glb --out a.png", "broken.glb" },
+    { "render none.glb --out none/a.png", "none/a.png" },
+    { "render none.glb --out a.txt", "a.txt" },
+    { "render none.glb --out .", "\".\"" },
+    { "render none.glb --out a.png --report none/r.json", "none/r.json" },
+    { "render none.glb --out a.png --aov direct=none/d.exr", "none/d.exr" },
+    { "render none.glb --out a.png --aov direct=d.png", "d.png" },
+    { "render none.glb --out a.png --aov shadows=d.exr", "shadows" },
+    { "render none.glb --out a.png --report ./a.png", "--out and --report" },
+    { "render none.glb --out a.exr --aov direct=b.exr --aov normal=$PWD/a.exr", "--out and --aov normal=" },
+    { "render none.glb --out a.png --view none.json", "none.json" },
+    { "render none.glb --out a.png --view broken.json", "broken.json: broken JSON in line 2" },
+    { "render none.glb --out a.png --view unknown.json", "unknown.json: skies: unknown key" },
+    { "render none.glb --out a.png --view range.json", "range.json: camera.yfov_deg" },
+    { "render none.glb --out a.png --view pipe", "pipe: not a plain file" },
+    { "render none.glb --out a.png --view .", ".: not a plain file" },
+    { "render none.glb --out a.png --view /dev/zero", "/dev/zero: not a plain file" },
+    { "render none.glb --out a.png --set sdfgi_energy=1000", "sdfgi_energy" },
+    { "render none.glb --out a.png --set sdfgi_none=1", "sdfgi_none" },
+    { "render none.glb --out a.png --set energy", "key=value" },
+    { "render none.glb --out a.png --frames 1x", "1x" },
+    { "render none.glb --out a.png --lookup eighth", "--lookup is \"eighth\"" },
+    { "render none.glb --out a.png --size 10000x10000 --ssaa 4", "--ssaa" },
+    { "walk --out w", "out/world.glb" },
+    { "walk none.glb --out w", "views/walk.json" },
+    { "walk none.glb --path none.json --out w", "none.json" },
+    { "walk none.glb --path broken.json --out w", "broken.json: broken JSON in line 2" },
+    { "walk none.glb --path pipe --out w", "pipe: not a plain file" },
+    { "walk none.glb --path same.json --out w --frames 3", "same.json: points[1]" },
+    { "walk none.glb --path short.json --out w", "short.json: points" },
+    { "walk none.glb --path path.json", "--out" },
+    { "walk none.glb --path path.json --out none/w", "none/w" },
+    { "walk none.glb --path path.json --out broken.json", "broken.json" },
+    { "walk none.glb --path path.json --out . --report none/r.json", "none/r.json" },
+    { "walk none.glb --path path.json --out .", "none.glb" },
+    { "walk none.glb --path path.json --out w", "none.glb" },
+    { "walk none.glb --path path.json --out w --report none/r.json", "none/r.json" },
+    { "walk none.glb --path path.json --out . --report ./walk.svg", "the plot and --report" },
+    { "walk none.glb --path path.json --out . --start 11", "--start" },
+    { "walk none.glb --path path.json --out . --speed 0", "--speed" },
+    { "walk none.glb --path path.json --out . --fps 10000 --speed 0.001", "frames" },
+    { "walk none.glb --path path.json --out . --every 0", "--every" },
+    { "walk none.glb --path path.json --out . --sample 1,2,3", "--sample" },
+    { "walk none.glb --path path.json --out . --sample 1,2,3,0,0,0", "--sample" },
+    { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0,5", "--sample" },
+    { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0 --window", "--sample" },
+    { "walk none.glb --path path.json --out . --lookup eighth", "--lookup is \"eighth\"" },
+    { "walk none.glb --path path.json --out . --view none.json", "none.json" },
+    { "walk none.glb --path path.json --out . --set energy=-1", "sdfgi_energy" },
+    { "info --set cascades=9", "sdfgi_cascades" },
+    { "properties --xml --json", "--xml" },
+#ifdef SDFGI_WITH_RAYCAST
+    { "reference none.glb --out a.exr --aov normal=./a.exr", "--out and --aov normal=./a.exr" },
+    { "reference none.glb --out a.exr --aov normal=b.exr --aov normal=c.exr", "normal is given twice" },
+    { "reference none.glb --out a.exr --geometry cubes", "cubes" },
+    { "reference none.glb --out a.exr --set cascades=2", "--set" },
+    { "reference none.glb --out a.exr --device 0", "--device" },
+    { "reference none.glb --out a.exr --geometry voxels --set cascades=9", "sdfgi_cascades" },
+#endif
+    { "compare one.pfm", "REFERENCE" },
+    { "compare one.pfm none.pfm", "none.pfm" },
+    { "compare one.pfm two.pfm", "expected equal sizes" },
+    { "compare one.pfm cut.pfm", "cut.pfm" },
+    { "compare one.pfm one.pfm --error-map none/e.png", "none/e.png" },
+    { "compare one.pfm one.pfm --error-map e.png --strip e.png", "--error-map and --strip" },
+};
+
 static void bad_input_gives_one_line_and_no_file(void **state)
 {
     (void)state;
-    static const char *const cases[][2] = {
-        { "nonsense", "nonsense" },
-        { "render --out a.png", "SCENE" },
-        { "render none.glb", "--out" },
-        { "render none.glb --out a.png", "none.glb" },
-        { "render broken.glb --out a.png", "broken.glb" },
-        { "render none.glb --out none/a.png", "none/a.png" },
-        { "render none.glb --out a.txt", "a.txt" },
-        { "render none.glb --out .", "\".\"" },
-        { "render none.glb --out a.png --report none/r.json", "none/r.json" },
-        { "render none.glb --out a.png --aov direct=none/d.exr", "none/d.exr" },
-        { "render none.glb --out a.png --aov direct=d.png", "d.png" },
-        { "render none.glb --out a.png --aov shadows=d.exr", "shadows" },
-        { "render none.glb --out a.png --report ./a.png", "--out and --report" },
-        { "render none.glb --out a.exr --aov direct=b.exr --aov normal=$PWD/a.exr",
-          "--out and --aov normal=" },
-        { "render none.glb --out a.png --view none.json", "none.json" },
-        { "render none.glb --out a.png --view broken.json", "broken.json: broken JSON in line 2" },
-        { "render none.glb --out a.png --view unknown.json", "unknown.json: skies: unknown key" },
-        { "render none.glb --out a.png --view range.json", "range.json: camera.yfov_deg" },
-        { "render none.glb --out a.png --view pipe", "pipe: not a plain file" },
-        { "render none.glb --out a.png --view .", ".: not a plain file" },
-        { "render none.glb --out a.png --view /dev/zero", "/dev/zero: not a plain file" },
-        { "render none.glb --out a.png --set sdfgi_energy=1000", "sdfgi_energy" },
-        { "render none.glb --out a.png --set sdfgi_none=1", "sdfgi_none" },
-        { "render none.glb --out a.png --set energy", "key=value" },
-        { "render none.glb --out a.png --frames 1x", "1x" },
-        { "render none.glb --out a.png --lookup eighth", "--lookup is \"eighth\"" },
-        { "render none.glb --out a.png --size 10000x10000 --ssaa 4", "--ssaa" },
-        { "walk --out w", "out/world.glb" },
-        { "walk none.glb --out w", "views/walk.json" },
-        { "walk none.glb --path none.json --out w", "none.json" },
-        { "walk none.glb --path broken.json --out w", "broken.json: broken JSON in line 2" },
-        { "walk none.glb --path pipe --out w", "pipe: not a plain file" },
-        { "walk none.glb --path same.json --out w --frames 3", "same.json: points[1]" },
-        { "walk none.glb --path short.json --out w", "short.json: points" },
-        { "walk none.glb --path path.json", "--out" },
-        { "walk none.glb --path path.json --out none/w", "none/w" },
-        { "walk none.glb --path path.json --out broken.json", "broken.json" },
-        { "walk none.glb --path path.json --out . --report none/r.json", "none/r.json" },
-        { "walk none.glb --path path.json --out .", "none.glb" },
-        { "walk none.glb --path path.json --out w", "none.glb" },
-        { "walk none.glb --path path.json --out w --report none/r.json", "none/r.json" },
-        { "walk none.glb --path path.json --out . --report ./walk.svg", "the plot and --report" },
-        { "walk none.glb --path path.json --out . --start 11", "--start" },
-        { "walk none.glb --path path.json --out . --speed 0", "--speed" },
-        { "walk none.glb --path path.json --out . --fps 10000 --speed 0.001", "frames" },
-        { "walk none.glb --path path.json --out . --every 0", "--every" },
-        { "walk none.glb --path path.json --out . --sample 1,2,3", "--sample" },
-        { "walk none.glb --path path.json --out . --sample 1,2,3,0,0,0", "--sample" },
-        { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0,5", "--sample" },
-        { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0 --window", "--sample" },
-        { "walk none.glb --path path.json --out . --lookup eighth", "--lookup is \"eighth\"" },
-        { "walk none.glb --path path.json --out . --view none.json", "none.json" },
-        { "walk none.glb --path path.json --out . --set energy=-1", "sdfgi_energy" },
-        { "info --set cascades=9", "sdfgi_cascades" },
-        { "properties --xml --json", "--xml" },
-#ifdef SDFGI_WITH_RAYCAST
-        { "reference none.glb --out a.exr --aov normal=./a.exr", "--out and --aov normal=./a.exr" },
-        { "reference none.glb --out a.exr --aov normal=b.exr --aov normal=c.exr", "normal is given twice" },
-        { "reference none.glb --out a.exr --geometry cubes", "cubes" },
-        { "reference none.glb --out a.exr --set cascades=2", "--set" },
-        { "reference none.glb --out a.exr --device 0", "--device" },
-        { "reference none.glb --out a.exr --geometry voxels --set cascades=9", "sdfgi_cascades" },
-#endif
-        { "compare one.pfm", "REFERENCE" },
-        { "compare one.pfm none.pfm", "none.pfm" },
-        { "compare one.pfm two.pfm", "expected equal sizes" },
-        { "compare one.pfm cut.pfm", "cut.pfm" },
-        { "compare one.pfm one.pfm --error-map none/e.png", "none/e.png" },
-        { "compare one.pfm one.pfm --error-map e.png --strip e.png", "--error-map and --strip" },
-    };
     const int before = files_count();
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const struct run run = run_program("", cases[i][0]);
-        if (run.code == 0 || !strstr(run.err, cases[i][1]) || strncmp(run.err, "sdfgi: ", 7) != 0 ||
+    for (size_t i = 0; i < sizeof bad_input / sizeof bad_input[0]; i++) {
+        const struct run run = run_program("", bad_input[i][0]);
+        if (run.code == 0 || !strstr(run.err, bad_input[i][1]) || strncmp(run.err, "sdfgi: ", 7) != 0 ||
             strchr(run.err, '\n') != run.err + strlen(run.err) - 1 || run.out[0])
-            fail_msg("%s: code %d, stderr \"%s\", stdout \"%s\"", cases[i][0], run.code, run.err, run.out);
+            fail_msg("%s: code %d, stderr \"%s\", stdout \"%s\"", bad_input[i][0], run.code, run.err,
+                     run.out);
         assert_int_equal(files_count(), before);
     }
 }
@@ -210,15 +212,7 @@ static void a_picture_needs_no_cache_and_a_damaged_one_is_no_harm(void **state)
     (void)state;
     if (run_program("", "info").code != 0)
         skip();
-    files_write_text(
-        "tiny.gltf",
-        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
-        "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
-        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
-        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
-        "\"min\":[0,0,0],\"max\":[1,1,0]}]}");
+    files_write_triangle("tiny.gltf");
     assert_renders("XDG_CACHE_HOME=$PWD/cache", "first.png");
     run_in_folder("test $(ls cache/sdfgi | wc -l) = 1");
     run_in_folder("echo rubbish >$(ls -d cache/sdfgi/*)");

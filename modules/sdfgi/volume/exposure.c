@@ -21,7 +21,7 @@ static int clamp(int value, int low, int high)
 /* The power of two above a light; 0 for none. */
 static int power_above(float light)
 {
-    return light > 0 ? clamp(ilogbf(light) + 1, -FARTHEST, FARTHEST) : 0;
+    return light > 0 ? clamp(ilogbf(light), -FARTHEST, FARTHEST) + 1 : 0;
 }
 
 struct exposure sdfgi_exposure_next(const struct exposure *before, float hint, float brightest)
