@@ -35,11 +35,11 @@
       R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS) | R(EMITTERS))                                      \
     X(DISTANCE_PREPARE, COMPUTE, distance_prepare, CELLS, EXACT, DISTANCES, CREATED,                         \
       DISTANCE_ROWS, distance_prepare, SDFGI_GROUP_COLUMNS, NONE, R(BITS) | R(DISTANCE) | R(BOUNDS),         \
-      R(SCRATCH) | R(COUNTERS))                                                                              \
+      R(SEARCH) | R(COUNTERS))                                                                               \
     X(DISTANCE_PLANE, COMPUTE, distance_plane, CELLS, EXACT, DISTANCES, CREATED,                             \
-      DISTANCE_LAYERS, distance_search, SDFGI_LINES, NONE, R(BITS) | R(SCRATCH), R(SCRATCH))                 \
+      DISTANCE_LAYERS, distance_search, SDFGI_LINES, NONE, R(BITS) | R(SEARCH), R(SCRATCH))                  \
     X(DISTANCE_EXACT, COMPUTE, distance_exact, CELLS, EXACT, DISTANCES, CREATED,                             \
-      DISTANCE_COLUMNS, distance_search, SDFGI_LINES, NONE, R(SCRATCH), R(DISTANCE))                         \
+      DISTANCE_COLUMNS, distance_search, SDFGI_LINES, NONE, R(SCRATCH) | R(SEARCH), R(DISTANCE))             \
     X(FLOOD_SEED, COMPUTE, flood_seed, CELLS, FLOOD, OWN, CREATED,                                           \
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(BITS), R(SCRATCH))                                            \
     X(FLOOD_STEP, COMPUTE, flood_step, CELLS, FLOOD, OWN, CREATED,                                           \

@@ -21,6 +21,7 @@
  * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
  * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits
  * SEEN                      which light cells gathers of pictures have read of late
+ * SEARCH                    where the distance search finds set bits, and which blocks it makes again
  * GATHERED                  what light cells gathered with rays of their own, in the order of the list
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes
  * SUMS                      of this sample cycle; and each probe's history
@@ -71,7 +72,8 @@
     X(OCCLUSION,   STORAGE, U32,             PROBES,  VOLUME, WORK,   e->occlusion,                 DERIVED) \
     X(GATHERED,    STORAGE, U32,             LISTS,   VOLUME, WORK,   GATHERED_COUNT(e),            SAVED)   \
     X(EMITTERS,    STORAGE, U32,             VOLUMES, VOLUME, WORK,   EMITTER_COUNT(e),             DERIVED) \
-    X(SEEN,        STORAGE, U32,             LISTS,   VOLUME, WORK,   SEEN_COUNT(e),                DERIVED)
+    X(SEEN,        STORAGE, U32,             LISTS,   VOLUME, WORK,   SEEN_COUNT(e),                DERIVED) \
+    X(SEARCH,      STORAGE, U32,             SCRATCH, VOLUME, WORK,   e->search,                    SCRATCH)
 /* clang-format on */
 
 #define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)

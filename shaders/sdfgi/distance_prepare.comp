@@ -77,9 +77,9 @@ void find_rows(uint group)
     }
     barrier();
     for (uint i = lane; i < 4u * words; i += SDFGI_GROUP_LINES)
-        sdfgi_scratch[runs_slot(runs_bit(4u * y + i / words, 4u * first_z)) + i % words] = runs[i];
+        sdfgi_search[runs_slot(runs_bit(4u * y + i / words, 4u * first_z)) + i % words] = runs[i];
     if (lane == 0u)
-        sdfgi_scratch[layers_slot(y, first_z / CELLS_Z)] =
+        sdfgi_search[layers_slot(y, first_z / CELLS_Z)] =
             (layers & 1u) | (layers >> 3u & 2u) | (layers >> 6u & 4u) | (layers >> 9u & 8u);
 }
 
@@ -194,7 +194,7 @@ void find_blocks(uint group)
     }
     barrier();
     if (lane < 2u)
-        sdfgi_scratch[dirty_blocks_slot(x, z) + lane] = dirty[lane];
+        sdfgi_search[dirty_blocks_slot(x, z) + lane] = dirty[lane];
     if (lane == 0u && (dirty[0] | dirty[1]) != 0u)
         counter_add(SDFGI_COUNTER_DISTANCE_CELLS, 64u * uint(bitCount(dirty[0]) + bitCount(dirty[1])));
 }

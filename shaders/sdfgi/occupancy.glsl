@@ -11,6 +11,9 @@
  *
  *     planes         2 N^3   per layer and cell in x and z the distance within the layer, 16 bits each;
  *                            any distance out of reach stands for all of them
+ *
+ * and the search buffer
+ *
  *     runs           N^3/16  per row a bit for each run in which it holds a bit
  *     layers         N^2/32  per y of cells, a word for every 32 cells along z; its low four bits tell which
  *                            of the four layers hold bits there
@@ -22,6 +25,11 @@
 #define SDFGI_OCCUPANCY_GLSL
 
 #include "pass.glsl"
+
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SEARCH) buffer sdfgi_search_buffer
+{
+    uint sdfgi_search[];
+};
 
 uint occupancy_side_bits()
 {
@@ -52,14 +60,14 @@ uint runs_bit(uint layer, uint position_z)
 
 uint runs_slot(uint bit)
 {
-    return sdfgi_scratch_runs(occupancy_side_bits()) + (bit >> 5u);
+    return bit >> 5u;
 }
 
 /* A bit for each run in which a row holds a bit. */
 uint runs_of_row(uint layer, uint position_z)
 {
     const uint bit = runs_bit(layer, position_z);
-    return bitfieldExtract(sdfgi_scratch[runs_slot(bit)], int(bit & 31u),
+    return bitfieldExtract(sdfgi_search[runs_slot(bit)], int(bit & 31u),
                            int(sdfgi_frame.resolution >> RUN_BITS));
 }
 
@@ -73,7 +81,7 @@ uint layers_words()
 
 uint layers_slot(uint y, uint word)
 {
-    return sdfgi_scratch_layers(occupancy_side_bits()) + y * layers_words() + word;
+    return sdfgi_search_layers(occupancy_side_bits()) + y * layers_words() + word;
 }
 
 /* A bit for each of the four layers at a y of cells that holds a bit. Reads a constant number of words, some
@@ -83,7 +91,7 @@ uint layers_at(uint y)
     uint four = 0u;
     [[unroll]] for (uint word = 0u; word < 256u / SDFGI_GROUP_COLUMNS; word++)
     {
-        four |= sdfgi_scratch[layers_slot(y, min(word, layers_words() - 1u))];
+        four |= sdfgi_search[layers_slot(y, min(word, layers_words() - 1u))];
     }
     return four;
 }
@@ -92,7 +100,7 @@ uint layers_at(uint y)
 
 uint dirty_blocks_slot(uint block_x, uint block_z)
 {
-    return sdfgi_scratch_dirty_blocks(occupancy_side_bits()) +
+    return sdfgi_search_dirty_blocks(occupancy_side_bits()) +
            2u * (block_z << (occupancy_side_bits() - 2u) | block_x);
 }
 
@@ -100,7 +108,7 @@ uint dirty_blocks_slot(uint block_x, uint block_z)
 uvec2 dirty_blocks(uint block_x, uint block_z)
 {
     const uint slot = dirty_blocks_slot(block_x, block_z);
-    return uvec2(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u]);
+    return uvec2(sdfgi_search[slot], sdfgi_search[slot + 1u]);
 }
 
 /* The bits of all blocks of a column from `first` on. */

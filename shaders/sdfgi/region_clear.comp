@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
+#include "accumulators.glsl"
 #include "dirty_bounds.glsl"
 #include "workgroup.glsl"
 
@@ -17,15 +18,14 @@ layout(push_constant) uniform sdfgi_push
 
 void clear_accumulators(ivec3 cell)
 {
-    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
+    const uint block = part_block(voxel_part(args.low, args.high), cell);
     for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
-        sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] = 0u;
+        sdfgi_scratch[accumulator(plane, block)] = 0u;
 }
 
 void clear_emissive_bits(ivec3 cell)
 {
-    const uint word = sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) +
-                      2u * sdfgi_texel_index(sdfgi_cell_texel(args.cascade, cell));
+    const uint word = emissive_word(voxel_part(args.low, args.high), cell);
     sdfgi_scratch[word] = sdfgi_scratch[word + 1u] = 0u;
 }
 

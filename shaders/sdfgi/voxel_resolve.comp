@@ -6,6 +6,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_SURFACE
 #define SDFGI_WRITES_EMITTERS
+#include "accumulators.glsl"
 #include "block_slices.glsl"
 #include "dirty_bounds.glsl"
 #include "emitters.glsl"
@@ -20,7 +21,7 @@ layout(push_constant) uniform sdfgi_push
 
 uint accumulated(uint plane, uint block)
 {
-    return sdfgi_scratch[plane * sdfgi_albedo_block_count() + block];
+    return sdfgi_scratch[accumulator(plane, block)];
 }
 
 vec3 accumulated3(uint plane, uint block)
@@ -97,22 +98,19 @@ float covered_fraction(float covered, int bits, uint facing)
 {
     const bool corner = bitCount((facing | facing >> 1u) & 0x15u) > 1;
     const int most_of_small_lamp = 8;
-    return corner && bits > most_of_small_lamp
-               ? 1.0
-               : min(covered / (float(max(bits, 1)) * SDFGI_AREA_STEPS), 1.0);
+    return corner && bits > most_of_small_lamp ? 1.0
+                                               : min(covered / (float(max(bits, 1)) * SDFGI_AREA_STEPS), 1.0);
 }
 
-/* Loads a block's bits and emissive bits. Returns the number of the latter. */
-int load_block(uvec3 block_texel)
+/* Loads the bits and emissive bits of the block that begins at a cell. Returns the number of the latter. */
+int load_block(ivec3 first)
 {
     int count = 0;
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
-        const uvec3 texel = 2u * block_texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
-        const uint index = sdfgi_texel_index(texel) | args.cascade << (3u * sdfgi_frame.resolution_log2);
-        block_bits[i] = sdfgi_bits[index];
-        const uint word =
-            sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) + 2u * sdfgi_texel_index(texel);
+        const ivec3 cell = first + ivec3(i & 1u, i >> 1u & 1u, i >> 2u);
+        block_bits[i] = sdfgi_cell_bits(args.cascade, cell);
+        const uint word = emissive_word(voxel_part(args.low, args.high), cell);
         block_emissive[i] = uvec2(sdfgi_scratch[word], sdfgi_scratch[word + 1u]);
         count += bitCount(block_emissive[i].x) + bitCount(block_emissive[i].y);
     }
@@ -142,7 +140,7 @@ bool is_hollow(emitter_view view, uvec3 low, uvec3 high)
 }
 
 /* Where the block's emissive sub-voxels are, and the emitters' own area over what the sides show. */
-void store_emitter_shape(uint block, emitter_view view)
+void store_emitter_shape(uint block, ivec3 first, emitter_view view)
 {
     if (sdfgi_frame.lists_emitters == 0u)
         return;
@@ -155,17 +153,18 @@ void store_emitter_shape(uint block, emitter_view view)
     }
     const float area = float(accumulated(SDFGI_ACCUM_EMISSION_AREA, block)) / SDFGI_AREA_STEPS;
     const float fill = is_hollow(view, low, high) ? 0.0 : area / max(view.projected, 1e-6);
-    sdfgi_emitters[emitter_shape_word(args.cascade, block)] = emitter_shape_pack(low, high, fill);
+    sdfgi_emitters[emitter_shape_word(args.cascade, sdfgi_albedo_block_index(args.cascade, first))] =
+        emitter_shape_pack(low, high, fill);
 }
 
 /* Emission of the brightest side, and the six sides relative to it, 5 bits each. */
-uvec2 resolve_emission(uint block, uvec3 block_texel)
+uvec2 resolve_emission(uint block, ivec3 first)
 {
     const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
     const uint facing = accumulated(SDFGI_ACCUM_EMISSION_FACING, block);
     if (covered == 0.0 && facing == 0u)
         return uvec2(0u);
-    const int bits = load_block(block_texel);
+    const int bits = load_block(first);
     if (covered == 0.0)
         return uvec2(0u);
     const float of_emissive = covered_fraction(covered, bits, facing);
@@ -183,7 +182,7 @@ uvec2 resolve_emission(uint block, uvec3 block_texel)
         view.depths[side] = shown.depth;
         view.projected += of_emissive * float(shown.emits) * slices_column_area(int(side >> 1u));
     }
-    store_emitter_shape(block, view);
+    store_emitter_shape(block, first, view);
     /* Relative to the largest, because that of a lamp in a thousandth of its block would round to 0. */
     uint packed = 0u;
     for (uint side = 0u; side < 6u && largest > 0.0; side++)
@@ -199,15 +198,15 @@ shared uint voxels;
 
 void resolve(ivec3 cell)
 {
-    const uvec3 block_texel = sdfgi_cell_texel(args.cascade, cell) / 2u;
-    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
+    const uint block = part_block(voxel_part(args.low, args.high), cell);
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
-    const uint out_index = block + args.cascade * sdfgi_albedo_block_count();
+    const uint out_index =
+        sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
     const vec3 albedo =
         accumulated3(SDFGI_ACCUM_ALBEDO, block) / (float(max(count, 1u)) * SDFGI_ALBEDO_STEPS);
     sdfgi_albedo[out_index] = surface_pack_albedo(albedo);
-    sdfgi_emission[out_index] = resolve_emission(block, block_texel);
+    sdfgi_emission[out_index] = resolve_emission(block, cell);
     sdfgi_normals[out_index] = resolve_normals(block);
     if (count == 0u)
         return;

@@ -13,6 +13,7 @@
  * face neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path
  * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. */
 #include "voxelize_material.glsl"
+#include "accumulators.glsl" /* what voxelize_material.glsl includes says what is written */
 
 /* In sub-voxels. Points this far outside an edge count as inside, so that rounding cannot open a seam between
  * triangles that share the edge. */
@@ -209,17 +210,22 @@ surface_sample triangle_sample(triangle t, ivec2 column)
     return material_sample(t.index, bary, t.area2);
 }
 
+voxel_part drawn_part()
+{
+    return voxel_part(unpacked_corner(args.box_low), unpacked_corner(args.box_high));
+}
+
 void accumulate(uint plane, uint block, uint value)
 {
     if (value != 0u)
-        atomicAdd(sdfgi_scratch[plane * sdfgi_albedo_block_count() + block], value);
+        atomicAdd(sdfgi_scratch[accumulator(plane, block)], value);
 }
 
 /* False if sums of a block are so large that they might wrap: thousands of surfaces lie in it one on the
  * other. Their mean is known well enough then. What is left out is counted. */
 bool has_room(uint plane, uint block, uint limit)
 {
-    const bool room = sdfgi_scratch[plane * sdfgi_albedo_block_count() + block] < limit;
+    const bool room = sdfgi_scratch[accumulator(plane, block)] < limit;
     if (!room)
         counter_add(SDFGI_COUNTER_SAMPLES_CUT, 1u);
     return room;
@@ -296,8 +302,7 @@ void accumulate_wide(uint plane, uint block, float value)
 {
     const float upper = floor(value / SDFGI_EMISSION_UPPER);
     const uint lower = uint((value - upper * SDFGI_EMISSION_UPPER) / SDFGI_EMISSION_STEP + 0.5);
-    const uint word = plane * sdfgi_albedo_block_count() + block;
-    const uint before = lower != 0u ? atomicAdd(sdfgi_scratch[word], lower) : 0u;
+    const uint before = lower != 0u ? atomicAdd(sdfgi_scratch[accumulator(plane, block)], lower) : 0u;
     accumulate(plane + 1u, block, uint(upper) + uint(before + lower < before));
 }
 
@@ -316,9 +321,8 @@ void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
                uint(covered * SDFGI_AREA_STEPS * emitting_area(t, s.flags) + 0.5));
 }
 
-/* Sets an emissive bit, and notes which sides the emission is seen from. `cell` is an index within the
- * cascade. */
-void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s)
+/* Sets an emissive bit, and notes which sides the emission is seen from. */
+void store_emitter(triangle t, uint block, ivec3 cell, uint bit, surface_sample s)
 {
     uint facing = 0u;
     for (uint axis = 0u; axis < 6u; axis++) {
@@ -326,9 +330,8 @@ void store_emitter(triangle t, uint block, uint cell, uint bit, surface_sample s
         if (height > 0.2 || (height < -0.2 && (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u))
             facing |= 1u << axis;
     }
-    atomicOr(sdfgi_scratch[SDFGI_ACCUM_EMISSION_FACING * sdfgi_albedo_block_count() + block], facing);
-    const uint word = sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) + 2u * cell + (bit >> 5u);
-    atomicOr(sdfgi_scratch[word], 1u << (bit & 31u));
+    atomicOr(sdfgi_scratch[accumulator(SDFGI_ACCUM_EMISSION_FACING, block)], facing);
+    atomicOr(sdfgi_scratch[emissive_word(drawn_part(), cell) + (bit >> 5u)], 1u << (bit & 31u));
 }
 
 /* The test spares an atomic, because many triangles may share a sub-voxel and their atomics would wait for
@@ -348,12 +351,12 @@ void store_bit(uint cell, uint bit)
 void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
 {
     const ivec3 sub = from_anchor + args.anchor, cell = sub >> 2, inner = sub & 3;
-    const uint block = sdfgi_albedo_block_index(args.cascade, cell);
+    const uint block = part_block(drawn_part(), cell);
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
     accumulate_surface(t, block, s);
     if (s.emission != vec3(0.0))
-        store_emitter(t, block, sdfgi_texel_index(sdfgi_cell_texel(args.cascade, cell)), bit, s);
+        store_emitter(t, block, cell, bit, s);
 }
 
 /* Tests one column of those that lie in the box, and stores the sample that the triangle has there. */
@@ -373,7 +376,7 @@ void triangle_store_column(triangle t, ivec2 column)
         return;
     if (emits_here) {
         const ivec3 sub = unpermute(ivec3(column, level), t.axis) + args.anchor;
-        accumulate_emission(t, column, sdfgi_albedo_block_index(args.cascade, sub >> 2), s);
+        accumulate_emission(t, column, part_block(drawn_part(), sub >> 2), s);
     }
     for (int i = first; i <= last; i++)
         store_sub_voxel(t, unpermute(ivec3(column, i), t.axis), s);

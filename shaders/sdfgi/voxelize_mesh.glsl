@@ -32,10 +32,16 @@ layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) reado
 /* In sub-voxels. Beyond this floats cannot place an edge to within a sub-voxel. */
 const float MAX_COORDINATE = 1e9;
 
-/* A corner of a box of cells, in sub-voxels from the anchor. */
+/* A corner of a box of cells. */
+ivec3 unpacked_corner(uint packed)
+{
+    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u);
+}
+
+/* The same in sub-voxels from the anchor. */
 ivec3 box_corner(uint packed)
 {
-    return ivec3(uvec3(packed, packed >> 10u, packed >> 20u) & 1023u) * SDFGI_SUBVOXELS - args.anchor;
+    return unpacked_corner(packed) * SDFGI_SUBVOXELS - args.anchor;
 }
 
 uint mesh_index(uint i)
@@ -85,6 +91,8 @@ bool triangle_leaves_bounds(vec3 v[3])
 /* Counts a triangle that is skipped, or that the host's bounds miss. */
 void triangle_count_faults(bool valid, vec3 v[3])
 {
+    if ((args.flags & SDFGI_MESH_CHECKED) != 0u)
+        return;
     if (!valid)
         counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
     else if (triangle_leaves_bounds(v))

@@ -29,6 +29,7 @@ SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
 #define SDFGI_MESH_HAS_UV     4u
 #define SDFGI_MESH_HAS_COLOR  8u
 #define SDFGI_MESH_REVERSED   16u /* once transformed, fronts are clockwise */
+#define SDFGI_MESH_CHECKED    32u /* its triangles have been checked in this frame */
 
 /* voxelize, voxelize_raster: one instance. */
 struct sdfgi_voxelize_args {

@@ -111,6 +111,11 @@
 #define SDFGI_SAMPLES_Y       8
 #define SDFGI_SAMPLE_STEP_MAX 4
 
+/* A cascade is voxelised in parts, one after another, which share the accumulators: in SDFGI_VOXEL_PARTS, or
+ * fewer if they have less than SDFGI_VOXEL_PART_CELLS. Two parts instead of one save 18 MiB with 128^3. */
+#define SDFGI_VOXEL_PARTS      4
+#define SDFGI_VOXEL_PART_CELLS (1u << 20)
+
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h). */
 #define SDFGI_ACCUM_ALBEDO           0 /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
 #define SDFGI_ACCUM_EMISSION         3 /* per channel 2 planes: sum of radiance times area, 64 bits */

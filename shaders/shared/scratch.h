@@ -2,10 +2,9 @@
  * The scratch buffer. Its tenants use it in turn within a frame. Each begins at word 0, and none keeps
  * anything for a later one. Offsets are in words (4 bytes); `bits` is the logarithm of the resolution N.
  *
- * - Accumulators (region_clear, voxelize, voxel_resolve): SDFGI_ACCUM_PLANES words per albedo block, and the
- *   emissive bits of each cell.
- * - Distance search (distance_prepare, _plane, _exact): planes, runs, layers and dirty blocks, see
- *   occupancy.glsl.
+ * - Accumulators (region_clear, voxelize, voxel_resolve): SDFGI_ACCUM_PLANES words per albedo block of the
+ *   part that is voxelised, and the emissive bits of each of its cells: see accumulators.glsl.
+ * - Distance search (distance_plane, _exact): planes, see occupancy.glsl.
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
  * - Light list (light_mark, _list, _direct, _bounce, cell_mask): light blocks, rows and entries, see
  *   light_blocks.glsl.
@@ -18,40 +17,29 @@
 #include "types.h"
 #include "constants.h"
 
-/* Accumulators of albedo blocks (2^3 cells). */
-SDFGI_FUNCTION uint sdfgi_scratch_emissive_bits(uint bits)
+/* Cells of the largest part that is voxelised at once. */
+SDFGI_FUNCTION uint sdfgi_scratch_part_cells(uint bits)
 {
-    return SDFGI_ACCUM_PLANES << (3u * bits - 3u);
+    const uint cells = 1u << (3u * bits), least = SDFGI_VOXEL_PART_CELLS,
+               part = cells / SDFGI_VOXEL_PARTS;
+    return cells < least ? cells : part > least ? part : least;
 }
 
-/* Emissive bits: two words per cell. */
+/* Accumulators of albedo blocks (2^3 cells) from word 0, then two words of emissive bits per cell. */
+SDFGI_FUNCTION uint sdfgi_scratch_emissive_bits(uint bits)
+{
+    return SDFGI_ACCUM_PLANES * (sdfgi_scratch_part_cells(bits) / 8u);
+}
+
 SDFGI_FUNCTION uint sdfgi_scratch_accumulators_end(uint bits)
 {
-    return sdfgi_scratch_emissive_bits(bits) + (2u << (3u * bits));
+    return sdfgi_scratch_emissive_bits(bits) + 2u * sdfgi_scratch_part_cells(bits);
 }
 
 /* Distance search: planes from word 0. Two cells share a word, four layers of sub-voxels per cell. */
-SDFGI_FUNCTION uint sdfgi_scratch_runs(uint bits)
-{
-    return 2u << (3u * bits);
-}
-
-/* A bit per run of eight cells and row of sub-voxels. */
-SDFGI_FUNCTION uint sdfgi_scratch_layers(uint bits)
-{
-    return sdfgi_scratch_runs(bits) + (1u << (3u * bits - 4u));
-}
-
-/* A word per layer of cells and SDFGI_GROUP_COLUMNS columns. */
-SDFGI_FUNCTION uint sdfgi_scratch_dirty_blocks(uint bits)
-{
-    return sdfgi_scratch_layers(bits) + (1u << (2u * bits)) / SDFGI_GROUP_COLUMNS;
-}
-
-/* Two words per column of light blocks (4^3 cells). */
 SDFGI_FUNCTION uint sdfgi_scratch_distance_end(uint bits)
 {
-    return sdfgi_scratch_dirty_blocks(bits) + (2u << (2u * bits - 4u));
+    return 2u << (3u * bits);
 }
 
 SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
@@ -60,6 +48,24 @@ SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
 }
 
 #define SDFGI_SCRATCH_EMITTERS 4
+
+/* The search buffer, beside the planes: a bit per run of eight cells and row of sub-voxels from word 0, then
+ * a word per layer of cells and SDFGI_GROUP_COLUMNS columns, */
+SDFGI_FUNCTION uint sdfgi_search_layers(uint bits)
+{
+    return 1u << (3u * bits - 4u);
+}
+
+/* then two words per column of light blocks (4^3 cells). */
+SDFGI_FUNCTION uint sdfgi_search_dirty_blocks(uint bits)
+{
+    return sdfgi_search_layers(bits) + (1u << (2u * bits)) / SDFGI_GROUP_COLUMNS;
+}
+
+SDFGI_FUNCTION uint sdfgi_search_end(uint bits)
+{
+    return sdfgi_search_dirty_blocks(bits) + (2u << (2u * bits - 4u));
+}
 
 /* Light list: eight words per light block (4^3 cells) from word 0, then two per row of SDFGI_GROUP_LINEAR
  * blocks. */

@@ -101,6 +101,7 @@ struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
         .cascades = settings->cascades,
         .cycle_samples = sdfgi_settings_cycle_samples(settings),
         .rays_per_frame = settings->ray_count,
+        .search = sdfgi_search_end(sdfgi_log2(n)),
         .occlusion = 1,
         .gathers = sdfgi_settings_cycle_visits(settings) > 0,
     };

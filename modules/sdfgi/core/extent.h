@@ -12,7 +12,7 @@
 /* Elements of one cascade, and what else the sizes in the resource table depend on. */
 struct extent {
     uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, rays_per_frame, scratch,
-        occlusion;
+        search, occlusion;
     uint64_t light_cells,
         light_cells_max; /* room in the light list of a cascade, and how much it may become */
     bool gathers;        /* light cells gather with rays of their own */

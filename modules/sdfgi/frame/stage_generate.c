@@ -4,6 +4,8 @@
 
 #include "volume/change.h"
 
+#include "shaders/shared/scratch.h"
+
 /* ---- A jump flood cannot be cut: it makes all distances of a cascade at once */
 
 static void add_flood_pass(const struct plan_stage *stage, enum pass pass,
@@ -36,13 +38,33 @@ static void add_flood(const struct plan_stage *stage, uint32_t c)
 
 /* ---- Pieces */
 
+/* The accumulators have room for a part of a cascade: a piece is made in parts, cut across its longest side.
+ */
+static void add_parts(const struct plan_stage *stage, const struct scroll_piece *piece)
+{
+    const uint32_t bits = sdfgi_log2(stage->frame->next.cascades.resolution);
+    const int axis = sdfgi_cell_box_longest_axis(&piece->box);
+    const uint64_t layer =
+        sdfgi_cell_box_cells(&piece->box) / (uint64_t)(piece->box.high[axis] - piece->box.low[axis]);
+    const uint64_t room = sdfgi_scratch_part_cells(bits) / layer;
+    const int32_t thickness = (int32_t)(room - room % SDFGI_PROBE_SPACING);
+    struct scroll_piece part = *piece;
+    for (; part.box.low[axis] < piece->box.high[axis]; part.box.low[axis] = part.box.high[axis]) {
+        const int32_t left = piece->box.high[axis] - part.box.low[axis];
+        part.box.high[axis] = part.box.low[axis] + (left < thickness ? left : thickness);
+        part.made = piece->box;
+        part.made.high[axis] = part.box.low[axis];
+        sdfgi_stage_add_phase(stage, PHASE_VOXELS, &(struct plan_target){ piece->cascade, &part });
+    }
+}
+
 static void add_voxels(const struct plan_stage *stage, const struct scroll_piece *piece)
 {
     const struct change *change = &stage->frame->next.cascades.at[piece->cascade].change;
     if (piece->begins && sdfgi_change_bounds_axis(change) >= 0)
         sdfgi_work_add_clear(&stage->frame->work, RESOURCE_BOUNDS,
                              (uint64_t)piece->cascade * SDFGI_BOUNDS_BYTES, SDFGI_BOUNDS_BYTES);
-    sdfgi_stage_add_phase(stage, PHASE_VOXELS, &(struct plan_target){ piece->cascade, piece });
+    add_parts(stage, piece);
 }
 
 static void add_distances(const struct plan_stage *stage, const struct scroll_piece *piece)

@@ -53,6 +53,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
     const uint32_t n = stage->frame->next.cascades.resolution;
     if (target->piece) {
         work->box = target->piece->box;
+        work->made = target->piece->made;
         work->first = target->piece->first;
         work->count = target->piece->count;
     }

@@ -102,6 +102,16 @@ static uint32_t group_count(uint32_t triangles)
     return (triangles - 1) / SDFGI_GROUP_TRIANGLE + 1;
 }
 
+/* True if an earlier part of the piece drew the instance, and counted the faults of its triangles. */
+static bool is_checked(const struct cascade *cascade, const struct work *work,
+                       const struct instance *instance)
+{
+    if (sdfgi_cell_box_empty(&work->made))
+        return false;
+    const struct box made = sdfgi_cascade_world_box(cascade, &work->made);
+    return sdfgi_instance_touches(instance, &made);
+}
+
 static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const struct work *work,
                                                 const struct instance *instance, const struct mesh *mesh)
 {
@@ -131,6 +141,8 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
     fill_bounds(cascade, instance, v->cascades->resolution, &args);
     if ((determinant(instance->desc.transform.basis) < 0) != (d->front_face == VK_FRONT_FACE_CLOCKWISE))
         args.flags |= SDFGI_MESH_REVERSED;
+    if (is_checked(cascade, work, instance))
+        args.flags |= SDFGI_MESH_CHECKED;
     return args;
 }
 

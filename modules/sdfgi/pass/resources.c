@@ -141,24 +141,51 @@ static void destroy(struct gpu_retired *item, void *user)
 _Static_assert(offsetof(struct resources, retired) == 0,
                "destroy() finds the resources by their first member");
 
+/* A resource that is larger than the device's buffers; RESOURCE_COUNT: none. */
+static enum resource too_large(const struct backend *backend, const struct extent *extent)
+{
+    int i = 0;
+    while (i < RESOURCE_COUNT &&
+           sdfgi_resource_size((enum resource)i, extent) <= backend->device.limits.maxStorageBufferRange)
+        i++;
+    return (enum resource)i;
+}
+
 static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent)
 {
-    for (int i = 0; i < RESOURCE_COUNT; i++)
-        if (sdfgi_resource_size((enum resource)i, extent) > backend->device.limits.maxStorageBufferRange)
-            return sdfgi_message_invalid(
-                &backend->hooks,
-                "%s exceeds the device's maxStorageBufferRange: lower sdfgi_resolution or sdfgi_cascades",
-                sdfgi_resource_row((enum resource)i)->name);
-    return SDFGI_OK;
+    const enum resource resource = too_large(backend, extent);
+    if (resource == RESOURCE_COUNT)
+        return SDFGI_OK;
+    return sdfgi_message_invalid(
+        &backend->hooks,
+        "%s exceeds the device's maxStorageBufferRange: lower sdfgi_resolution or sdfgi_cascades",
+        sdfgi_resource_row(resource)->name);
+}
+
+/* Light lists may grow as far as all that grows with them fits the device's buffers. */
+static void limit_light_cells(const struct backend *backend, struct extent *extent)
+{
+    uint64_t fits = extent->light_cells, most = extent->light_cells_max;
+    while (fits < most) {
+        const uint64_t tried = most - (most - fits) / 2;
+        struct extent grown = *extent;
+        sdfgi_extent_set_light_cells(&grown, tried);
+        if (too_large(backend, &grown) == RESOURCE_COUNT)
+            fits = tried;
+        else
+            most = tried - 1;
+    }
+    extent->light_cells_max = fits;
 }
 
 enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
                                          struct resources **out)
 {
-    const struct extent extent = sdfgi_extent_from_settings(settings);
+    struct extent extent = sdfgi_extent_from_settings(settings);
     const enum sdfgi_result fits = check_sizes(backend, &extent);
     if (fits != SDFGI_OK)
         return fits;
+    limit_light_cells(backend, &extent);
     struct resources *r = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *r);
     if (!r)
         return sdfgi_message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, "switching on");

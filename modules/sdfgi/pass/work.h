@@ -17,7 +17,7 @@ enum {
     SDFGI_MAX_MATERIALS = 4096,
     SDFGI_MAX_FRAMES_IN_FLIGHT = 8,
     SDFGI_READBACK_WORDS = SDFGI_COUNTER_COUNT + 1, /* counters, and the number of the frame */
-    SDFGI_MAX_WORK = 512,                           /* the plan of a frame never has more: asserted */
+    SDFGI_MAX_WORK = 1024,                          /* the plan of a frame never has more: asserted */
 };
 
 /* What a pass runs over; sdfgi_work_groups() tells how many workgroups that takes. */
@@ -70,6 +70,7 @@ struct work {
     const char *reason; /* static: why the pass runs */
     uint32_t cascade;
     struct cell_box box;   /* DOMAIN_BOX, DOMAIN_INSTANCES */
+    struct cell_box made;  /* DOMAIN_INSTANCES: triangles of what touches this have been checked; or empty */
     uint32_t first, count; /* a range of the domain */
     uint32_t rows;         /* DOMAIN_ALL_LIGHT_CELLS: ranges of `count` entries; 0: one for each cascade */
     uint32_t indirect;     /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */

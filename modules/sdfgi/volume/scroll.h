@@ -37,6 +37,7 @@ struct scroll_piece {
     uint32_t cascade;
     bool begins;           /* voxels: the first of its change */
     struct cell_box box;   /* voxels */
+    struct cell_box made;  /* voxels: what earlier parts of the same piece made */
     uint32_t first, count; /* distances: layers of light blocks along x */
 };
 

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ * Where the sums of the part of a cascade that is voxelised are (shared/scratch.h). A part is a box of cells
+ * that begins and ends at multiples of 8 cells. */
+#ifndef SDFGI_ACCUMULATORS_GLSL
+#define SDFGI_ACCUMULATORS_GLSL
+
+#include "pass.glsl"
+
+struct voxel_part {
+    ivec3 low, high; /* cells [low, high) */
+};
+
+/* Number of a cell's albedo block in the part. */
+uint part_block(voxel_part part, ivec3 cell)
+{
+    const uvec3 at = uvec3(cell - part.low) >> 1u, size = uvec3(part.high - part.low) >> 1u;
+    return at.x + size.x * (at.y + size.y * at.z);
+}
+
+/* The word of a block in a plane, SDFGI_ACCUM_*. */
+uint accumulator(uint plane, uint block)
+{
+    return plane * (sdfgi_scratch_part_cells(sdfgi_frame.resolution_log2) / 8u) + block;
+}
+
+/* The first of two words with the emissive bits of a cell. */
+uint emissive_word(voxel_part part, ivec3 cell)
+{
+    const uvec3 at = uvec3(cell - part.low), size = uvec3(part.high - part.low);
+    return sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) +
+           2u * (at.x + size.x * (at.y + size.y * at.z));
+}
+
+#endif
