@@ -120,19 +120,10 @@ float missing_weight(float sum_weight, float previous_weight, bool is_new)
     return missing;
 }
 
-/* The sum of a texel; 0 if it is none that rays can have made. NEW probes count PROBE_NEW_FRAMES times. */
-vec4 load_sum(uint slot)
-{
-    const vec4 sum = probe_finite(sdfgi_sums[probe_sums(slot) + gl_LocalInvocationIndex]);
-    const bool possible = all(greaterThanEqual(sum, vec4(0.0))) &&
-                          sum.a <= 2.0 * float(PROBE_NEW_FRAMES) * probe_cycle_weight();
-    return possible ? sum : vec4(0.0);
-}
-
 texel texel_load(uint slot, bool is_new)
 {
     texel t;
-    t.sum = load_sum(slot);
+    t.sum = probe_load_sum(slot, gl_LocalInvocationIndex);
     t.previous = probe_load_previous(slot, gl_LocalInvocationIndex);
     const float missing = missing_weight(t.sum.w, t.previous.w, is_new);
     const float weight = t.sum.w + missing;

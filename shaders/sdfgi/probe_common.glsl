@@ -15,11 +15,12 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SUMS) buffer sdfgi_
     vec4 sdfgi_sums[];
 };
 
-/* 0 for numbers that are not finite. */
-vec4 probe_finite(vec4 v)
+/* True if all four are finite and within the bounds. Comparisons of NaN are not relied on. */
+bool probe_within(vec4 v, vec4 low, vec4 high)
 {
     const uvec4 exponents = floatBitsToUint(v) & 0x7f800000u;
-    return any(equal(exponents, uvec4(0x7f800000u))) ? vec4(0.0) : v;
+    return !any(equal(exponents, uvec4(0x7f800000u))) && all(greaterThanEqual(v, low)) &&
+           all(lessThanEqual(v, high));
 }
 
 uint probe_sums(uint slot)
@@ -81,9 +82,13 @@ probe_history probe_history_unpack(vec4 packed)
     return probe_history(packed.x, packed.y, packed.z + PROBE_NEW_CYCLES);
 }
 
+/* Memory that holds no history of a probe makes the probe NEW. */
 probe_history probe_history_load(uint slot)
 {
-    return probe_history_unpack(probe_finite(sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)]));
+    const vec4 packed = sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)];
+    const vec4 least = vec4(0.0, 0.0, -PROBE_NEW_CYCLES, 0.0),
+               most = vec4(1.0, 1.0, PROBE_STEADY_CYCLES - PROBE_NEW_CYCLES, 0.0);
+    return probe_within(packed, least, most) ? probe_history_unpack(packed) : probe_history(0.0, 0.0, 0.0);
 }
 
 void probe_history_store(uint slot, probe_history h)
@@ -118,6 +123,15 @@ vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_a
 float probe_cycle_weight()
 {
     return 0.9 * 0.25 * 3.14159265 * float(sdfgi_frame.cycle_samples);
+}
+
+/* The sum of a texel; 0 if it is none that rays can have made. NEW probes count PROBE_NEW_FRAMES times. Light
+ * has no upper bound: its mean is cut when it is stored. */
+vec4 probe_load_sum(uint slot, uint texel)
+{
+    const vec4 sum = sdfgi_sums[probe_sums(slot) + texel];
+    const float most_weight = 2.0 * float(PROBE_NEW_FRAMES) * probe_cycle_weight();
+    return probe_within(sum, vec4(0.0), vec4(vec3(3e38), most_weight)) ? sum : vec4(0.0);
 }
 
 /* Directions of the stored texels. They span the octahedral map from edge to edge, so that all six axes are

@@ -121,5 +121,6 @@ void main()
     barrier();
 
     if (lane < uint(SDFGI_IRRADIANCE_COUNT))
-        sdfgi_sums[probe_sums(slot) + lane] += sum_rays(rays, probe_texel_direction(lane));
+        sdfgi_sums[probe_sums(slot) + lane] =
+            probe_load_sum(slot, lane) + sum_rays(rays, probe_texel_direction(lane));
 }
