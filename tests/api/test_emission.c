@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const float levels[] = { 1e-4f, 3e-3f, 0.5f, 40, 2e3f, 1e6f };
 enum { LEVELS = sizeof levels / sizeof *levels };
@@ -60,6 +61,103 @@ static void emission_keeps_its_digits(void **state)
     gi_test_close(&t);
 }
 
+/* ---- Textures */
+
+/* A level square of 4 m: texels are as large as its columns of sub-voxels, and all texels of a block agree.
+ */
+enum { BLOCKS = 8, TEXELS = 64 };
+static const float square_height = 0.3f, factor = 16;
+
+/* Half floats from 6.3e-6 to 6.3e4, evenly spread over the powers of two. */
+static uint16_t half_of_block(uint32_t x, uint32_t z)
+{
+    return (uint16_t)(0x0069 + (0x7ba0 - 0x0069) / (BLOCKS * BLOCKS - 1) * (BLOCKS * z + x));
+}
+
+static struct gpu_test_image create_texture(struct gi_test *t)
+{
+    static uint16_t texels[TEXELS][TEXELS][4];
+    for (uint32_t z = 0; z < TEXELS; z++)
+        for (uint32_t x = 0; x < TEXELS; x++)
+            for (int k = 0; k < 4; k++)
+                texels[z][x][k] = half_of_block(x / (TEXELS / BLOCKS), z / (TEXELS / BLOCKS));
+    return gpu_test_image_create(
+        &t->gpu, &(struct gpu_test_image_desc){ .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                                .extent = { TEXELS, TEXELS, 1 },
+                                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                                .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                                .texels = texels,
+                                                .texel_size = sizeof texels[0][0],
+                                                .levels = 1 });
+}
+
+static VkBuffer upload(struct gi_test *t, VkDeviceSize size, const void *data)
+{
+    t->buffers[t->buffer_count] =
+        gpu_test_buffer_device(&t->gpu, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
+    return t->buffers[t->buffer_count++].buffer;
+}
+
+static void add_square(struct gi_test *t, VkImageView view)
+{
+    static const float uvs[4][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } };
+    static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
+    float positions[4][3];
+    for (int i = 0; i < 4; i++)
+        memcpy(positions[i], (float[3]){ 4 * uvs[i][0] - 2, square_height, 4 * uvs[i][1] - 2 },
+               sizeof positions[i]);
+    const struct sdfgi_mesh_desc mesh = { .position_buffer = upload(t, sizeof positions, positions),
+                                          .uv_buffer = upload(t, sizeof uvs, uvs),
+                                          .index_buffer = upload(t, sizeof indices, indices),
+                                          .index_type = VK_INDEX_TYPE_UINT32,
+                                          .vertex_count = 4,
+                                          .triangle_count = 2,
+                                          .bounds_min = { -2, square_height, -2 },
+                                          .bounds_max = { 2, square_height, 2 } };
+    const struct sdfgi_material_desc lamp = { .emission = { factor, factor, factor },
+                                              .emission_texture = { .view = view } };
+    struct sdfgi_instance_desc instance = { .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } } };
+    sdfgi_instance unused;
+    REQUIRE_CMP((int)sdfgi_mesh_create(t->gi, &mesh, &instance.mesh), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &lamp, &instance.material), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_instance_create(t->gi, &instance, &unused), ==, (int)SDFGI_OK);
+}
+
+/* Over ten powers of ten in one texture, beside a material that is brighter still. Both triangles cover
+ * columns along their common edge, in the blocks where x = z: a mean all the same. */
+static void emission_textures_keep_their_digits(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = gi_test_settings();
+    gi_test_open(&t, &settings);
+    gi_test_material(&t, (float[]){ 0, 0, 0 }, (float[]){ 6e7f, 6e7f, 6e7f });
+    struct gpu_test_image texture = create_texture(&t);
+    add_square(&t, texture.view);
+    gi_test_update(&t, 1);
+    struct sdfgi_inspect_cascade where;
+    REQUIRE_CMP((int)sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, (int)SDFGI_OK);
+    uint32_t *emission = gi_test_read(&t, RESOURCE_EMISSION, NULL);
+    double worst = 0;
+    for (uint32_t i = 0; i < BLOCKS * BLOCKS; i++) {
+        const uint32_t x = i % BLOCKS, z = i / BLOCKS;
+        const uint64_t block =
+            sdfgi_inspect_block(&where, (uint32_t)((-2 - where.origin_m[0]) / where.cell_m[0]) + 2 * x,
+                                (uint32_t)(((double)square_height - where.origin_m[1]) / where.cell_m[1]),
+                                (uint32_t)((-2 - where.origin_m[2]) / where.cell_m[2]) + 2 * z);
+        struct sdfgi_inspect_surface s;
+        sdfgi_inspect_decode_block(0, emission + 2 * block, 0, where.emission_unit, &s);
+        const double expected = (double)(factor * gi_test_half(half_of_block(x, z)));
+        for (int k = 0; k < 3; k++)
+            worst = fmax(worst, fabs((double)s.emission[k] / expected - 1));
+    }
+    printf("emission of a texture from 1e-4 to 1e6 is off by %.2g at most\n", worst);
+    REQUIRE_CMP(worst, <=, 1 / 512.0 + 1e-6); /* RGB9E5: half a step */
+    free(emission);
+    gpu_test_image_destroy(&t.gpu, &texture);
+    gi_test_close(&t);
+}
+
 /* Settled light stays, and nothing is recorded. */
 static void brighter_materials_leave_settled_light_alone(void **state)
 {
@@ -91,6 +189,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(emission_keeps_its_digits),
+        cmocka_unit_test(emission_textures_keep_their_digits),
         cmocka_unit_test(brighter_materials_leave_settled_light_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
