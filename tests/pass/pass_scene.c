@@ -9,6 +9,16 @@
 
 #include <stdlib.h>
 
+struct gi_test pass_context;
+
+int pass_context_close(void **state)
+{
+    (void)state;
+    if (pass_context.gi)
+        gi_test_close(&pass_context);
+    return 0;
+}
+
 static sdfgi_material grey_material(struct gi_test *t)
 {
     const float grey[3] = { 0.5f, 0.5f, 0.5f }, black[3] = { 0, 0, 0 };
@@ -17,7 +27,7 @@ static sdfgi_material grey_material(struct gi_test *t)
 
 void pass_scene_open(struct gi_test *t, const struct sdfgi_settings *settings, const struct test_mesh *mesh)
 {
-    gi_test_open(t, settings);
+    gi_test_renew(t, settings);
     if (mesh)
         gi_test_add(t, mesh, grey_material(t));
     gi_test_update(t, 1);

@@ -6,7 +6,11 @@
 #include "gi_test.h"
 #include "oracle_voxel.h"
 
-/* Opens a context with `mesh` (NULL: nothing) in grey and updates once. */
+/* What the tests of a program share, and a teardown of their group. */
+extern struct gi_test pass_context;
+int pass_context_close(void **state);
+
+/* Renews a context with `mesh` (NULL: nothing) in grey and updates once. */
 void pass_scene_open(struct gi_test *t, const struct sdfgi_settings *settings, const struct test_mesh *mesh);
 
 /* A mesh in object space, placed by a column-major basis and a translation in metres. */

@@ -46,21 +46,19 @@ static const struct lookup *look_up(struct gi_test *t)
 static void hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky(void **state)
 {
     (void)state;
-    static struct gi_test t;
     const struct sdfgi_settings settings = gi_test_settings();
     const struct sdfgi_sky sky = { { 0.25f, 0.5f, 2 }, { 0.25f, 0.5f, 2 }, { 0.25f, 0.5f, 2 } };
-    gi_test_open(&t, &settings);
-    REQUIRE_CMP(sdfgi_set_sky(t.gi, &sky), ==, SDFGI_OK);
-    gi_test_converge(&t, 64);
-    float *distances = gi_test_distances(&t, 0);
+    gi_test_renew(&pass_context, &settings);
+    REQUIRE_CMP(sdfgi_set_sky(pass_context.gi, &sky), ==, SDFGI_OK);
+    gi_test_converge(&pass_context, 64);
+    float *distances = gi_test_distances(&pass_context, 0);
     for (uint32_t i = 0; i < 64 * 64 * 64; i++)
         REQUIRE_CMP(distances[i], ==, (float)SDFGI_DISTANCE_REACH);
     free(distances);
-    const struct lookup *lookups = look_up(&t);
+    const struct lookup *lookups = look_up(&pass_context);
     for (uint32_t i = 0; i < LOOKUPS; i++)
         for (int k = 0; k < 3; k++) /* half floats keep 11 bits */
             REQUIRE_NEAR(lookups[i].irradiance[k] / (3.14159265f * sky.zenith[k]), 1, 1e-3);
-    gi_test_close(&t);
 }
 
 /* Planes whose insets go through the middle of every layer of sub-voxels. */
@@ -80,29 +78,27 @@ static struct test_mesh all_layers(double half_extent, uint32_t layers)
 static void hard_06_a_full_cascade_has_no_light_cells(void **state)
 {
     (void)state;
-    static struct gi_test t;
     struct sdfgi_settings settings = gi_test_settings();
     settings.resolution = 32;
     struct test_mesh mesh = all_layers(4, 128);
-    pass_scene_open(&t, &settings, &mesh);
-    gi_test_update(&t, 5);
-    struct oracle_bits bits = gi_test_bits(&t, 0);
+    pass_scene_open(&pass_context, &settings, &mesh);
+    gi_test_update(&pass_context, 5);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
     REQUIRE_CMP(oracle_bits_count(&bits), ==, 128 * 128 * 128);
     oracle_bits_destroy(&bits);
-    const struct pass_distance_error e = pass_distance_error(&t, 1);
+    const struct pass_distance_error e = pass_distance_error(&pass_context, 1);
     REQUIRE_CMP(e.max, <=, 0);
     REQUIRE_CMP(e.min, >=, -32 / 32768.0 - 1e-6);
-    uint32_t *counters = gi_test_read(&t, RESOURCE_COUNTERS, NULL);
+    uint32_t *counters = gi_test_read(&pass_context, RESOURCE_COUNTERS, NULL);
     REQUIRE_CMP(counters[SDFGI_COUNTER_LIGHT_CELLS], ==, 0);
     free(counters);
-    uint32_t *groups = gi_test_read(&t, RESOURCE_INDIRECT, NULL);
+    uint32_t *groups = gi_test_read(&pass_context, RESOURCE_INDIRECT, NULL);
     REQUIRE_CMP(groups[0], ==, 0);
     free(groups);
-    const struct lookup *lookups = look_up(&t);
+    const struct lookup *lookups = look_up(&pass_context);
     for (uint32_t i = 0; i < LOOKUPS; i++)
         for (int k = 0; k < 3; k++)
             REQUIRE_NEAR(lookups[i].irradiance[k], 0, 0);
-    gi_test_close(&t);
     test_mesh_destroy(&mesh);
 }
 
@@ -118,27 +114,25 @@ static struct test_mesh speck_in_corner(int corner, double half_extent, double s
 
 static void require_corner_distances(uint32_t resolution, int corner)
 {
-    static struct gi_test t;
     struct sdfgi_settings settings = gi_test_settings();
     settings.resolution = resolution;
     const double cell = (double)settings.min_cell_size_m, half = resolution / 2 * cell;
     struct test_mesh mesh = speck_in_corner(corner, half, cell / 4);
-    pass_scene_open(&t, &settings, &mesh);
-    struct oracle_bits bits = gi_test_bits(&t, 0);
+    pass_scene_open(&pass_context, &settings, &mesh);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
     REQUIRE_CMP(oracle_bits_count(&bits), ==, 1);
     oracle_bits_destroy(&bits);
     const double step = resolution / 32768.0;
-    float *distances = gi_test_distances(&t, 0);
+    float *distances = gi_test_distances(&pass_context, 0);
     const uint32_t n = resolution, x = corner & 1 ? 0 : n - 1, y = corner & 2 ? 0 : n - 1,
                    z = corner & 4 ? 0 : n - 1;
     REQUIRE_CMP(distances[x + n * (y + n * z)], ==, (float)SDFGI_DISTANCE_REACH);
     free(distances);
     /* Everywhere rounded down, by no more than a step: never a cell further from the surface than it is. */
-    const struct pass_distance_error e = pass_distance_error(&t, 1);
+    const struct pass_distance_error e = pass_distance_error(&pass_context, 1);
     REQUIRE_CMP(e.max, <=, 1e-5);
     REQUIRE_CMP(e.min, >=, -step - 1e-5);
     test_mesh_destroy(&mesh);
-    gi_test_close(&t);
 }
 
 static void hard_07_a_bit_in_any_corner_is_measured_as_far_as_distances_reach(void **state)
@@ -159,5 +153,5 @@ int main(void)
         cmocka_unit_test(hard_06_a_full_cascade_has_no_light_cells),
         cmocka_unit_test(hard_07_a_bit_in_any_corner_is_measured_as_far_as_distances_reach),
     };
-    return cmocka_run_group_tests_name("distance_limits", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("distance_limits", tests, NULL, pass_context_close);
 }

@@ -183,7 +183,7 @@ static void open_world(struct gi_test *t, enum sdfgi_y_scale y_scale)
 {
     struct sdfgi_settings settings = gi_test_settings();
     settings.y_scale = y_scale;
-    gi_test_open(t, &settings);
+    gi_test_renew(t, &settings);
     gi_test_update(t, 1);
 }
 
@@ -219,14 +219,12 @@ static void require_exact(struct gi_test *t, double y_scale)
 static void every_stored_bit_is_the_oracles(void **state)
 {
     (void)state;
-    static struct gi_test t;
     for (int scale = 0; scale < 3; scale++) {
-        open_world(&t, (enum sdfgi_y_scale)scale);
+        open_world(&pass_context, (enum sdfgi_y_scale)scale);
         const struct world w = { .origin = { 24, -40, 8 } };
-        write_cells(&t, &w);
-        make_whole(&t);
-        require_exact(&t, sdfgi_settings_y_scale(&t.gi->settings));
-        gi_test_close(&t);
+        write_cells(&pass_context, &w);
+        make_whole(&pass_context);
+        require_exact(&pass_context, sdfgi_settings_y_scale(&pass_context.gi->settings));
     }
 }
 
@@ -347,14 +345,12 @@ static void play(struct gi_test *t, struct world *w)
 static void scrolls_and_edits_in_parts_equal_a_fresh_search(void **state)
 {
     (void)state;
-    static struct gi_test t;
     for (int scale = 0; scale < 3; scale++) {
-        open_world(&t, (enum sdfgi_y_scale)scale);
+        open_world(&pass_context, (enum sdfgi_y_scale)scale);
         struct world w = { .origin = { 0, 0, 0 } };
-        write_cells(&t, &w);
-        make_whole(&t);
-        play(&t, &w);
-        gi_test_close(&t);
+        write_cells(&pass_context, &w);
+        make_whole(&pass_context);
+        play(&pass_context, &w);
     }
 }
 
@@ -387,16 +383,15 @@ static uint32_t cells_near_box(int32_t reach, uint32_t cell)
 static void blocks_that_no_change_reaches_are_left_alone(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    open_world(&t, SDFGI_Y_SCALE_100);
+    open_world(&pass_context, SDFGI_Y_SCALE_100);
     const struct world w = { .origin = { 0, 0, 0 } };
-    write_cells(&t, &w);
-    fill_with_dust(&t);
-    make_whole(&t);
-    uint16_t *before = read_distances(&t);
-    fill_buffer(&t, RESOURCE_BITS, 0);
-    const uint32_t searched = make_parts(&t, &small_box, 1);
-    uint16_t *after = read_distances(&t);
+    write_cells(&pass_context, &w);
+    fill_with_dust(&pass_context);
+    make_whole(&pass_context);
+    uint16_t *before = read_distances(&pass_context);
+    fill_buffer(&pass_context, RESOURCE_BITS, 0);
+    const uint32_t searched = make_parts(&pass_context, &small_box, 1);
+    uint16_t *after = read_distances(&pass_context);
     uint32_t gone = 0;
     for (uint32_t i = 0; i < CELLS; i++) {
         gone += after[i] == FARTHEST;
@@ -410,38 +405,33 @@ static void blocks_that_no_change_reaches_are_left_alone(void **state)
     REQUIRE_CMP(gone, ==, searched);
     free(before);
     free(after);
-    gi_test_close(&t);
 }
 
 static void a_box_without_cells_reaches_nothing(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    open_world(&t, SDFGI_Y_SCALE_75);
+    open_world(&pass_context, SDFGI_Y_SCALE_75);
     const struct world w = { .origin = { 8, 0, 0 } };
-    write_cells(&t, &w);
-    make_whole(&t);
-    uint16_t *before = read_distances(&t);
+    write_cells(&pass_context, &w);
+    make_whole(&pass_context);
+    uint16_t *before = read_distances(&pass_context);
     const struct cell_box changed[2] = { { { 3, 3, 3 }, { 3, 9, 9 } }, small_box };
-    const uint32_t searched = make_parts(&t, &changed[1], 1);
+    const uint32_t searched = make_parts(&pass_context, &changed[1], 1);
     REQUIRE_CMP(searched, >, 0u);
-    REQUIRE_CMP(make_parts(&t, changed, 2), ==, searched);
-    uint16_t *after = read_distances(&t);
+    REQUIRE_CMP(make_parts(&pass_context, changed, 2), ==, searched);
+    uint16_t *after = read_distances(&pass_context);
     REQUIRE_BYTES((const uint8_t *)after, (const uint8_t *)before, CELLS * sizeof *before);
     free(before);
     free(after);
-    gi_test_close(&t);
 }
 
 static void where_nothing_is_kept_all_is_searched(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    open_world(&t, SDFGI_Y_SCALE_75);
+    open_world(&pass_context, SDFGI_Y_SCALE_75);
     const struct world w = { .origin = { 8, 0, 0 } };
-    write_cells(&t, &w);
-    REQUIRE_CMP(make_parts(&t, NULL, 0), ==, (uint32_t)CELLS);
-    gi_test_close(&t);
+    write_cells(&pass_context, &w);
+    REQUIRE_CMP(make_parts(&pass_context, NULL, 0), ==, (uint32_t)CELLS);
 }
 
 int main(void)
@@ -455,5 +445,5 @@ int main(void)
         cmocka_unit_test(a_box_without_cells_reaches_nothing),
         cmocka_unit_test(where_nothing_is_kept_all_is_searched),
     };
-    return cmocka_run_group_tests_name("distance_parts", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("distance_parts", tests, NULL, pass_context_close);
 }

@@ -59,7 +59,7 @@ static void open_scene(struct gi_test *t, uint64_t room)
     const double low[3] = { 1, -4, -7 }, high[3] = { 8, 3, 1 };
     struct test_mesh soup = test_mesh_soup(3, 60, low, high, 1.5);
     const struct sdfgi_settings s = settings();
-    gi_test_open(t, &s);
+    gi_test_renew(t, &s);
     if (room > 0)
         t->gi->volume.resources->extent.light_cells = t->gi->volume.resources->extent.light_cells_max = room;
     pass_scene_stand(t, (double[]){ 5, -1, -3 });
@@ -95,16 +95,14 @@ static void require_dirty_groups(struct gi_test *t, uint32_t count)
 static void the_list_is_complete_and_in_the_order_of_blocks(void **state)
 {
     (void)state;
-    static struct gi_test t;
     static uint32_t expected[CELLS];
-    open_scene(&t, 0);
-    REQUIRE_CMP(t.gi->volume.state.params.cascades[0].wrap.x, !=, 0);
-    const uint32_t count = expected_list(&t, expected);
+    open_scene(&pass_context, 0);
+    REQUIRE_CMP(pass_context.gi->volume.state.params.cascades[0].wrap.x, !=, 0);
+    const uint32_t count = expected_list(&pass_context, expected);
     REQUIRE_CMP(count, >, 2000u);
-    REQUIRE_CMP(counted(&t), ==, count);
-    require_list(&t, expected, count);
-    require_dirty_groups(&t, count);
-    gi_test_close(&t);
+    REQUIRE_CMP(counted(&pass_context), ==, count);
+    require_list(&pass_context, expected, count);
+    require_dirty_groups(&pass_context, count);
 }
 
 /* ---- Listed again after a change: where a cell stands decides whether it keeps what it held */
@@ -169,18 +167,16 @@ static uint32_t require_light(struct gi_test *t, const uint32_t before[static CE
 static void cells_that_stay_keep_their_light_and_others_forget_it(void **state)
 {
     (void)state;
-    static struct gi_test t;
     static uint32_t expected[CELLS];
     static uint32_t light[CELLS];
     for (int32_t low = 8; low <= N; low += 8) {
-        open_scene(&t, 0);
-        gi_test_update(&t, 2);
-        const uint32_t count = expected_list(&t, expected);
-        fill_light(&t, light, count);
-        list_again(&t, low);
-        require_list(&t, expected, count);
-        REQUIRE_CMP(require_light(&t, light, expected, count, low), >, 0u);
-        gi_test_close(&t);
+        open_scene(&pass_context, 0);
+        gi_test_update(&pass_context, 2);
+        const uint32_t count = expected_list(&pass_context, expected);
+        fill_light(&pass_context, light, count);
+        list_again(&pass_context, low);
+        require_list(&pass_context, expected, count);
+        REQUIRE_CMP(require_light(&pass_context, light, expected, count, low), >, 0u);
     }
 }
 
@@ -206,30 +202,26 @@ static void require_blocks(struct gi_test *t, const uint32_t *expected, uint32_t
 static void lookups_find_each_cell_by_its_block(void **state)
 {
     (void)state;
-    static struct gi_test t;
     static uint32_t expected[CELLS];
-    open_scene(&t, 0);
-    const uint32_t count = expected_list(&t, expected);
-    require_blocks(&t, expected, count);
-    list_again(&t, 16);
-    require_blocks(&t, expected, count);
-    gi_test_close(&t);
+    open_scene(&pass_context, 0);
+    const uint32_t count = expected_list(&pass_context, expected);
+    require_blocks(&pass_context, expected, count);
+    list_again(&pass_context, 16);
+    require_blocks(&pass_context, expected, count);
 }
 
 static void without_room_the_first_cells_are_listed_and_the_others_counted(void **state)
 {
     (void)state;
     enum { ROOM = 777 };
-    static struct gi_test t;
     static uint32_t expected[CELLS];
-    open_scene(&t, ROOM);
-    const uint32_t count = expected_list(&t, expected);
-    REQUIRE_CMP(counted(&t), ==, count);
-    require_list(&t, expected, ROOM);
-    gi_test_update(&t, 6);
-    REQUIRE_CMP(pass_health_count(&t, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, count - ROOM);
-    REQUIRE_CMP(t.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
-    gi_test_close(&t);
+    open_scene(&pass_context, ROOM);
+    const uint32_t count = expected_list(&pass_context, expected);
+    REQUIRE_CMP(counted(&pass_context), ==, count);
+    require_list(&pass_context, expected, ROOM);
+    gi_test_update(&pass_context, 6);
+    REQUIRE_CMP(pass_health_count(&pass_context, SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW), ==, count - ROOM);
+    REQUIRE_CMP(pass_context.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
 }
 
 int main(void)
@@ -242,5 +234,5 @@ int main(void)
         cmocka_unit_test(lookups_find_each_cell_by_its_block),
         cmocka_unit_test(without_room_the_first_cells_are_listed_and_the_others_counted),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, pass_context_close);
 }

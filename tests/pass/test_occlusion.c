@@ -171,16 +171,15 @@ static struct comparison compare_probes(struct gi_test *t)
 
 static void check_scene(const char *name, struct test_mesh mesh)
 {
-    static struct gi_test t;
     struct sdfgi_settings settings = gi_test_settings();
     settings.visibility = SDFGI_VISIBILITY_PROBE_DEPTH;
-    gi_test_open(&t, &settings);
+    gi_test_renew(&pass_context, &settings);
     const double place[3] = { 10.3, -4.1, 6.2 }; /* slots wrap */
     const float identity[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    pass_scene_place(&t, gi_test_mesh(&t, &mesh), identity, place);
-    pass_scene_stand(&t, place);
-    gi_test_update(&t, 1);
-    const struct comparison c = compare_probes(&t);
+    pass_scene_place(&pass_context, gi_test_mesh(&pass_context, &mesh), identity, place);
+    pass_scene_stand(&pass_context, place);
+    gi_test_update(&pass_context, 1);
+    const struct comparison c = compare_probes(&pass_context);
     printf("%s: %u probes, mean %.5f cell off, variance %.5f; %u of %u texels graze edges\n", name, c.probes,
            c.mean_error, c.variance_error, c.doubtful, c.texels);
     REQUIRE_CMP(c.probes, >, 200u);
@@ -188,7 +187,6 @@ static void check_scene(const char *name, struct test_mesh mesh)
     REQUIRE_CMP(c.variance_error, <=, 0.02);
     REQUIRE_CMP(c.doubtful, <, c.texels / 4);
     test_mesh_destroy(&mesh);
-    gi_test_close(&t);
 }
 
 static void hard_43_depths_of_flat_walls_keep_their_variance(void **state)
@@ -217,5 +215,5 @@ int main(void)
         cmocka_unit_test(hard_43_depths_of_flat_walls_keep_their_variance),
         cmocka_unit_test(hard_43_depths_of_curved_walls_keep_their_variance),
     };
-    return cmocka_run_group_tests_name("occlusion", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("occlusion", tests, NULL, pass_context_close);
 }

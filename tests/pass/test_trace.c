@@ -139,38 +139,33 @@ static void open_with(struct gi_test *t, struct test_mesh mesh, enum sdfgi_y_sca
 static void hard_09_no_ray_tunnels_through_a_thin_wall(void **state)
 {
     (void)state;
-    static struct gi_test t;
     const double center[3] = { 0, 0, 0 }, half[3] = { 5.03125, 4.03125, 3.03125 };
-    open_with(&t, test_mesh_box(center, half, test_rotation_none), SDFGI_Y_SCALE_100);
+    open_with(&pass_context, test_mesh_box(center, half, test_rotation_none), SDFGI_Y_SCALE_100);
     aim_from_inside(9, 11.9);
-    trace(&t);
-    REQUIRE_CMP(require_rays_agree(&t, "thin box", 1), ==, 0);
-    gi_test_close(&t);
+    trace(&pass_context);
+    REQUIRE_CMP(require_rays_agree(&pass_context, "thin box", 1), ==, 0);
 }
 
 static void hard_09_nor_where_cells_are_flat(void **state)
 {
     (void)state;
-    static struct gi_test t;
     double turned[9];
     test_rotation((double[]){ 1, 2, 3 }, 0.5, turned);
-    open_with(&t, test_mesh_box((double[]){ 0, 0, 0 }, (double[]){ 2.1, 1.9, 2.3 }, turned),
+    open_with(&pass_context, test_mesh_box((double[]){ 0, 0, 0 }, (double[]){ 2.1, 1.9, 2.3 }, turned),
               SDFGI_Y_SCALE_50);
     aim_from_inside(10, 4.5);
-    trace(&t);
-    REQUIRE_CMP(require_rays_agree(&t, "turned box, y scale 0.5", 0.5), ==, 0);
-    gi_test_close(&t);
+    trace(&pass_context);
+    REQUIRE_CMP(require_rays_agree(&pass_context, "turned box, y scale 0.5", 0.5), ==, 0);
 }
 
 static void hard_12_no_ray_leaves_a_closed_bumpy_sphere(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    open_with(&t, test_mesh_bumpy_sphere((double[]){ 0.11, -0.07, 0.19 }, 5, 0.2, 5), SDFGI_Y_SCALE_100);
+    open_with(&pass_context, test_mesh_bumpy_sphere((double[]){ 0.11, -0.07, 0.19 }, 5, 0.2, 5),
+              SDFGI_Y_SCALE_100);
     aim_from_inside(12, 8);
-    trace(&t);
-    REQUIRE_CMP(require_rays_agree(&t, "bumpy sphere", 1), ==, 0);
-    gi_test_close(&t);
+    trace(&pass_context);
+    REQUIRE_CMP(require_rays_agree(&pass_context, "bumpy sphere", 1), ==, 0);
 }
 
 /* Probes stand on corners of cells and look in symmetric directions: their rays run exactly through edges and
@@ -178,8 +173,8 @@ static void hard_12_no_ray_leaves_a_closed_bumpy_sphere(void **state)
 static void hard_12_no_ray_slips_through_an_edge(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    open_with(&t, test_mesh_bumpy_sphere((double[]){ 0.11, -0.07, 0.19 }, 5, 0.2, 5), SDFGI_Y_SCALE_100);
+    open_with(&pass_context, test_mesh_bumpy_sphere((double[]){ 0.11, -0.07, 0.19 }, 5, 0.2, 5),
+              SDFGI_Y_SCALE_100);
     for (uint32_t i = 0; i < RAYS; i++) {
         const uint32_t probe = i / 256 % 343, texel = i % 256;
         const double square[2] = { (texel % 16 + 0.5) / 8 - 1, (texel / 16 + 0.5) / 8 - 1 };
@@ -188,18 +183,17 @@ static void hard_12_no_ray_slips_through_an_edge(void **state)
         oracle_octahedral_decode(square, d);
         aim(&rays[i], origin, (double[]){ d[0], d[2], d[1] }, 500);
     }
-    trace(&t);
-    require_rays_agree(&t, "lattice", 1);
-    gi_test_close(&t);
+    trace(&pass_context);
+    require_rays_agree(&pass_context, "lattice", 1);
 }
 
 /* 0.05 to 5 degrees from a wall: distance steps are short. */
 static void hard_10_grazing_rays_arrive(void **state)
 {
     (void)state;
-    static struct gi_test t;
     const double degree = 3.14159265358979 / 180;
-    open_with(&t, test_mesh_plane((double[]){ 0, 0.03, 0 }, (double[]){ 0, 0, 9 }, (double[]){ 9, 0, 0 }, 1),
+    open_with(&pass_context,
+              test_mesh_plane((double[]){ 0, 0.03, 0 }, (double[]){ 0, 0, 9 }, (double[]){ 9, 0, 0 }, 1),
               SDFGI_Y_SCALE_100);
     struct test_random random = { 10 };
     for (uint32_t i = 0; i < RAYS; i++) {
@@ -211,9 +205,8 @@ static void hard_10_grazing_rays_arrive(void **state)
                                    test_random_real(&random, 1, 63) };
         aim(&rays[i], origin, direction, 500);
     }
-    trace(&t);
-    REQUIRE_CMP(require_rays_agree(&t, "grazing", 1), <, RAYS);
-    gi_test_close(&t);
+    trace(&pass_context);
+    REQUIRE_CMP(require_rays_agree(&pass_context, "grazing", 1), <, RAYS);
 }
 
 /* ---- Light cells */
@@ -239,8 +232,7 @@ static void open_beside_wall(struct gi_test *t)
 static void no_light_comes_from_beyond_a_thin_wall(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    open_beside_wall(&t);
+    open_beside_wall(&pass_context);
     struct test_random random = { 54 };
     for (uint32_t i = 0; i < RAYS; i++) {
         const double from = test_random_real(&random, 1.1, 1.9), to = test_random_real(&random, 1.1, 1.9),
@@ -248,7 +240,7 @@ static void no_light_comes_from_beyond_a_thin_wall(void **state)
         const double origin[3] = { 32 + from, 32 + test_random_real(&random, -8, 8), 32 + z };
         aim(&rays[i], origin, (double[]){ (to - from) / length, 0, (41 - z) / length }, 500);
     }
-    trace(&t);
+    trace(&pass_context);
     uint32_t found = 0;
     for (uint32_t i = 0; i < RAYS; i++) {
         REQUIRE_CMP(rays[i].hit, !=, 0.0f);
@@ -258,7 +250,6 @@ static void no_light_comes_from_beyond_a_thin_wall(void **state)
             REQUIRE_CMP(rays[i].light_cell, ==, 33.0f);
     }
     printf("%u of %u rays find a light cell\n", found, RAYS);
-    gi_test_close(&t);
 }
 
 int main(void)
@@ -273,5 +264,5 @@ int main(void)
         cmocka_unit_test(hard_12_no_ray_slips_through_an_edge),
         cmocka_unit_test(no_light_comes_from_beyond_a_thin_wall),
     };
-    return cmocka_run_group_tests_name("trace", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("trace", tests, NULL, pass_context_close);
 }

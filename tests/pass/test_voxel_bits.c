@@ -109,18 +109,16 @@ static void require_between(const struct shape *shape, const struct oracle_bits 
 
 static void check_shape(struct shape shape)
 {
-    static struct gi_test t;
     struct sdfgi_settings settings = gi_test_settings();
     settings.y_scale = shape.y_scale;
-    pass_scene_open(&t, &settings, &shape.mesh);
-    struct oracle_bits bits = gi_test_bits(&t, 0);
-    const struct oracle_grid grid = gi_test_grid(&t, 0);
+    pass_scene_open(&pass_context, &settings, &shape.mesh);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
+    const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
     require_between(&shape, &bits, &grid);
     if (shape.inside)
         require_closed(&shape, &bits, &grid);
     oracle_bits_destroy(&bits);
     test_mesh_destroy(&shape.mesh);
-    gi_test_close(&t);
 }
 
 /* The same shape seen from inside. */
@@ -254,5 +252,5 @@ int main(void)
         cmocka_unit_test(hard_13_rooms_are_watertight_and_keep_their_size),
         cmocka_unit_test(rooms_on_the_grid_are_exact),
     };
-    return cmocka_run_group_tests_name("voxel_bits", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("voxel_bits", tests, NULL, pass_context_close);
 }

@@ -28,7 +28,6 @@ static void check_mesh(const char *name, struct test_mesh mesh, struct method me
                        enum sdfgi_y_scale y_scale)
 {
     static const double y_scales[] = { 0.5, 0.75, 1 };
-    static struct gi_test t;
     struct sdfgi_settings settings = gi_test_settings();
     if (method.id == SDFGI_SDF_FLOOD && !getenv("SDFGI_TEST_FULL")) { /* it is slow on processors */
         settings.resolution /= 2;
@@ -36,14 +35,13 @@ static void check_mesh(const char *name, struct test_mesh mesh, struct method me
     }
     settings.sdf_method = method.id;
     settings.y_scale = y_scale;
-    pass_scene_open(&t, &settings, &mesh);
-    const struct pass_distance_error e = pass_distance_error(&t, y_scales[y_scale]);
+    pass_scene_open(&pass_context, &settings, &mesh);
+    const struct pass_distance_error e = pass_distance_error(&pass_context, y_scales[y_scale]);
     printf("%s, %s, y scale %g: distance error max %+.4f mean %+.5f min %+.4f\n", name,
            method.id == SDFGI_SDF_FLOOD ? "flood" : "exact", y_scales[y_scale], e.max, e.mean, e.min);
     REQUIRE_CMP(e.max, <=, method.above + rounding);
-    REQUIRE_CMP(e.min, >=, -storage_step(&t) - rounding);
+    REQUIRE_CMP(e.min, >=, -storage_step(&pass_context) - rounding);
     test_mesh_destroy(&mesh);
-    gi_test_close(&t);
 }
 
 /* ---- Scenes */
@@ -143,5 +141,5 @@ int main(void)
         cmocka_unit_test(hard_62_flat_cells_measure_true_lengths),
         cmocka_unit_test(flood_stays_within_its_envelope),
     };
-    return cmocka_run_group_tests_name("voxel_distance", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("voxel_distance", tests, NULL, pass_context_close);
 }

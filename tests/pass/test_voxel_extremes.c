@@ -60,13 +60,12 @@ static bool is_set_near(const struct oracle_bits *bits, const uint32_t sub[stati
 static void hard_16_every_tiny_triangle_sets_one_bit(void **state)
 {
     (void)state;
-    static struct gi_test t;
     static double points[SPECKS][3];
     struct test_mesh mesh = specks(SPECKS, points);
     const struct sdfgi_settings settings = gi_test_settings();
-    pass_scene_open(&t, &settings, &mesh);
-    struct oracle_bits bits = gi_test_bits(&t, 0);
-    const struct oracle_grid grid = gi_test_grid(&t, 0);
+    pass_scene_open(&pass_context, &settings, &mesh);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
+    const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
     REQUIRE_CMP(oracle_bits_count(&bits), ==, SPECKS);
     for (uint32_t i = 0; i < SPECKS; i++) {
         uint32_t sub[3];
@@ -75,7 +74,6 @@ static void hard_16_every_tiny_triangle_sets_one_bit(void **state)
     }
     oracle_bits_destroy(&bits);
     test_mesh_destroy(&mesh);
-    gi_test_close(&t);
 }
 
 /* ---- Huge triangles */
@@ -108,17 +106,15 @@ static void hard_15_huge_triangles_stay_within_a_sub_voxel(void **state)
     (void)state;
     static const double slopes[2] = { 0, 0.3 }, height = 0.53;
     for (int i = 0; i < 2; i++) {
-        static struct gi_test t;
         const double edge_u[3] = { 0, 0, 1e6 }, edge_v[3] = { 1e6, slopes[i] * 1e6, 0 };
         struct test_mesh mesh = test_mesh_plane((double[]){ 0, height, 0 }, edge_u, edge_v, 1);
         const struct sdfgi_settings settings = gi_test_settings();
-        pass_scene_open(&t, &settings, &mesh);
-        struct oracle_bits bits = gi_test_bits(&t, 0);
-        const struct oracle_grid grid = gi_test_grid(&t, 0);
+        pass_scene_open(&pass_context, &settings, &mesh);
+        struct oracle_bits bits = gi_test_bits(&pass_context, 0);
+        const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
         require_plane(&bits, &grid, height, slopes[i]);
         oracle_bits_destroy(&bits);
         test_mesh_destroy(&mesh);
-        gi_test_close(&t);
     }
 }
 
@@ -126,36 +122,32 @@ static void hard_15_huge_triangles_stay_within_a_sub_voxel(void **state)
 static void two_large_triangles_among_many_small_ones_are_complete(void **state)
 {
     (void)state;
-    static struct gi_test t;
     const double height = 0.53, edge_u[3] = { 0, 0, 20 }, edge_v[3] = { 20, 0, 0 };
     const double beside[3] = { 8.5, -8, -8 }, far[3] = { 10, 8, 8 };
     struct test_mesh mesh = test_mesh_plane((double[]){ 0, height, 0 }, edge_u, edge_v, 1);
     struct test_mesh others = test_mesh_soup(15, 100000, beside, far, 0.01);
     test_mesh_append(&mesh, &others);
     const struct sdfgi_settings settings = gi_test_settings();
-    pass_scene_open(&t, &settings, &mesh);
-    struct oracle_bits bits = gi_test_bits(&t, 0);
-    const struct oracle_grid grid = gi_test_grid(&t, 0);
+    pass_scene_open(&pass_context, &settings, &mesh);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
+    const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
     require_plane(&bits, &grid, height, 0);
     oracle_bits_destroy(&bits);
     test_mesh_destroy(&others);
     test_mesh_destroy(&mesh);
-    gi_test_close(&t);
 }
 
 /* ---- The raster voxeliser */
 
 static void require_voxelizers_agree(struct test_mesh mesh, enum sdfgi_y_scale y_scale)
 {
-    static struct gi_test t;
     struct pass_volumes volumes[2];
     for (int i = 0; i < 2; i++) {
         struct sdfgi_settings settings = gi_test_settings();
         settings.voxelizer = (enum sdfgi_voxelizer)i;
         settings.y_scale = y_scale;
-        pass_scene_open(&t, &settings, &mesh);
-        volumes[i] = pass_volumes_read(&t);
-        gi_test_close(&t);
+        pass_scene_open(&pass_context, &settings, &mesh);
+        volumes[i] = pass_volumes_read(&pass_context);
     }
     pass_volumes_require_equal(&volumes[1], &volumes[0]);
     pass_volumes_destroy(&volumes[0]);
@@ -213,5 +205,5 @@ int main(void)
         cmocka_unit_test(raster_voxelizer_gives_the_same_volumes),
         cmocka_unit_test(raster_voxelizer_gives_the_same_needles),
     };
-    return cmocka_run_group_tests_name("voxel_extremes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("voxel_extremes", tests, NULL, pass_context_close);
 }

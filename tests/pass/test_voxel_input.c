@@ -38,11 +38,9 @@ static struct test_mesh torus(void)
 
 static struct pass_volumes volumes_of(const struct test_mesh *mesh)
 {
-    static struct gi_test t;
     const struct sdfgi_settings settings = coarse_settings();
-    pass_scene_open(&t, &settings, mesh);
-    const struct pass_volumes v = pass_volumes_read(&t);
-    gi_test_close(&t);
+    pass_scene_open(&pass_context, &settings, mesh);
+    const struct pass_volumes v = pass_volumes_read(&pass_context);
     return v;
 }
 
@@ -63,14 +61,12 @@ static void hard_65_mirrored_and_sheared_instances_set_the_baked_meshs_bits(void
         test_mesh_transform(&baked, basis, translation);
         test_mesh_invert(&baked); /* all three mirror */
         struct pass_volumes expected = volumes_of(&baked);
-        static struct gi_test t;
         const struct sdfgi_settings settings = coarse_settings();
-        gi_test_open(&t, &settings);
-        pass_scene_place(&t, gi_test_mesh(&t, &mesh), bases[i], translation);
-        gi_test_update(&t, 1);
-        struct pass_volumes placed = pass_volumes_read(&t);
+        gi_test_renew(&pass_context, &settings);
+        pass_scene_place(&pass_context, gi_test_mesh(&pass_context, &mesh), bases[i], translation);
+        gi_test_update(&pass_context, 1);
+        struct pass_volumes placed = pass_volumes_read(&pass_context);
         pass_volumes_require_equal(&placed, &expected);
-        gi_test_close(&t);
         pass_volumes_destroy(&placed);
         pass_volumes_destroy(&expected);
         test_mesh_destroy(&mesh);
@@ -82,35 +78,31 @@ static void hard_65_a_transform_to_a_line_leaves_nothing(void **state)
 {
     (void)state;
     static const float nothing[9] = { [4] = 1 };
-    static struct gi_test t;
     struct test_mesh mesh = torus();
     const struct sdfgi_settings settings = coarse_settings();
-    gi_test_open(&t, &settings);
-    pass_scene_place(&t, gi_test_mesh(&t, &mesh), nothing, zero);
-    gi_test_update(&t, 1);
-    struct oracle_bits bits = gi_test_bits(&t, 0);
+    gi_test_renew(&pass_context, &settings);
+    pass_scene_place(&pass_context, gi_test_mesh(&pass_context, &mesh), nothing, zero);
+    gi_test_update(&pass_context, 1);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
     REQUIRE_CMP(oracle_bits_count(&bits), ==, 0);
     oracle_bits_destroy(&bits);
-    gi_test_close(&t);
     test_mesh_destroy(&mesh);
 }
 
 /* Bits and distances in cell space with scene and camera moved by whole cells. */
 static void read_moved(const double cells[static 3], struct oracle_bits *bits, float **distances)
 {
-    static struct gi_test t;
     const struct sdfgi_settings settings = coarse_settings();
     double translation[3];
     for (int i = 0; i < 3; i++)
         translation[i] = cells[i] * (double)settings.min_cell_size_m;
     struct test_mesh mesh = torus();
-    gi_test_open(&t, &settings);
-    pass_scene_place(&t, gi_test_mesh(&t, &mesh), identity, translation);
-    pass_scene_stand(&t, translation);
-    gi_test_update(&t, 1);
-    *bits = gi_test_bits(&t, 0);
-    *distances = gi_test_distances(&t, 0);
-    gi_test_close(&t);
+    gi_test_renew(&pass_context, &settings);
+    pass_scene_place(&pass_context, gi_test_mesh(&pass_context, &mesh), identity, translation);
+    pass_scene_stand(&pass_context, translation);
+    gi_test_update(&pass_context, 1);
+    *bits = gi_test_bits(&pass_context, 0);
+    *distances = gi_test_distances(&pass_context, 0);
     test_mesh_destroy(&mesh);
 }
 
@@ -183,31 +175,29 @@ static struct gpu_test_buffer index_buffer(struct gi_test *t, const struct test_
 static void require_layout_reads(const struct layout *l, const struct test_mesh *mesh,
                                  const struct pass_volumes *expected)
 {
-    static struct gi_test t;
     const struct sdfgi_settings settings = coarse_settings();
-    gi_test_open(&t, &settings);
-    t.buffers[t.buffer_count++] = positions_buffer(&t, mesh, l);
-    struct sdfgi_mesh_desc desc = { .position_buffer = t.buffers[0].buffer,
+    gi_test_renew(&pass_context, &settings);
+    pass_context.buffers[pass_context.buffer_count++] = positions_buffer(&pass_context, mesh, l);
+    struct sdfgi_mesh_desc desc = { .position_buffer = pass_context.buffers[0].buffer,
                                     .position_offset = 4 * l->vertex_skip,
                                     .position_stride = 4 * l->stride,
                                     .vertex_count =
                                         l->index_size ? mesh->vertex_count : 3 * mesh->triangle_count,
                                     .triangle_count = mesh->triangle_count };
     if (l->index_size) {
-        t.buffers[t.buffer_count++] = index_buffer(&t, mesh, l);
-        desc.index_buffer = t.buffers[1].buffer;
+        pass_context.buffers[pass_context.buffer_count++] = index_buffer(&pass_context, mesh, l);
+        desc.index_buffer = pass_context.buffers[1].buffer;
         desc.index_offset = 4 * l->index_skip;
         desc.index_type = l->index_size == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32;
     }
     test_mesh_bounds(mesh, desc.bounds_min, desc.bounds_max);
     sdfgi_mesh handle;
-    REQUIRE_CMP(sdfgi_mesh_create(t.gi, &desc, &handle), ==, SDFGI_OK);
-    pass_scene_place(&t, handle, identity, zero);
-    gi_test_update(&t, 1);
-    struct pass_volumes read = pass_volumes_read(&t);
+    REQUIRE_CMP(sdfgi_mesh_create(pass_context.gi, &desc, &handle), ==, SDFGI_OK);
+    pass_scene_place(&pass_context, handle, identity, zero);
+    gi_test_update(&pass_context, 1);
+    struct pass_volumes read = pass_volumes_read(&pass_context);
     pass_volumes_require_equal(&read, expected);
     pass_volumes_destroy(&read);
-    gi_test_close(&t);
 }
 
 static void buffers_of_every_layout_give_the_same_volumes(void **state)
@@ -261,7 +251,7 @@ static void open_spoiled(struct gi_test *t, const struct sdfgi_settings *setting
                          const struct test_mesh *good)
 {
     struct test_mesh mesh = spoiled(good);
-    gi_test_open(t, settings);
+    gi_test_renew(t, settings);
     const struct layout plain = { 3, 0, 0, 4 };
     t->buffers[t->buffer_count++] = positions_buffer(t, &mesh, &plain);
     t->buffers[t->buffer_count++] = index_buffer(t, &mesh, &plain);
@@ -280,16 +270,14 @@ static void open_spoiled(struct gi_test *t, const struct sdfgi_settings *setting
 
 static void require_bad_triangles_are_skipped(enum sdfgi_voxelizer voxelizer)
 {
-    static struct gi_test t;
     struct sdfgi_settings settings = coarse_settings();
     settings.voxelizer = voxelizer;
     struct test_mesh good = torus();
     struct pass_volumes expected = volumes_of(&good);
-    open_spoiled(&t, &settings, &good);
-    struct pass_volumes read = pass_volumes_read(&t);
+    open_spoiled(&pass_context, &settings, &good);
+    struct pass_volumes read = pass_volumes_read(&pass_context);
     pass_volumes_require_equal(&read, &expected);
-    REQUIRE_CMP(pass_health_count(&t, SDFGI_MESSAGE_TRIANGLES_SKIPPED), ==, SKIPPED_TRIANGLES);
-    gi_test_close(&t);
+    REQUIRE_CMP(pass_health_count(&pass_context, SDFGI_MESSAGE_TRIANGLES_SKIPPED), ==, SKIPPED_TRIANGLES);
     pass_volumes_destroy(&read);
     pass_volumes_destroy(&expected);
     test_mesh_destroy(&good);
@@ -321,5 +309,5 @@ int main(void)
         cmocka_unit_test(hard_14_bad_triangles_are_skipped_and_counted),
         cmocka_unit_test(hard_14_raster_skips_and_counts_them_too),
     };
-    return cmocka_run_group_tests_name("voxel_input", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("voxel_input", tests, NULL, pass_context_close);
 }

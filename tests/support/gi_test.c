@@ -41,12 +41,17 @@ static void create(struct gi_test *t, const struct sdfgi_settings *settings)
     REQUIRE_CMP(sdfgi_create(&desc, &t->gi), ==, SDFGI_OK);
 }
 
-static void destroy(struct gi_test *t)
+static void destroy_buffers(struct gi_test *t)
 {
-    sdfgi_destroy(t->gi);
     for (uint32_t i = 0; i < t->buffer_count; i++)
         gpu_test_buffer_destroy(&t->gpu, &t->buffers[i]);
     t->buffer_count = 0;
+}
+
+static void destroy(struct gi_test *t)
+{
+    sdfgi_destroy(t->gi);
+    destroy_buffers(t);
 }
 
 void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
@@ -67,7 +72,47 @@ void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings)
 void gi_test_close(struct gi_test *t)
 {
     destroy(t);
+    t->gi = NULL;
     gpu_test_close(&t->gpu);
+}
+
+static void empty_scene(sdfgi *gi)
+{
+    const struct sdfgi_sky black = { { 0 }, { 0 }, { 0 } };
+    const struct scene *scene = &gi->scene;
+    for (uint32_t i = 0; i < scene->lights.end; i++)
+        if (sdfgi_pool_at(&scene->lights, i))
+            sdfgi_light_destroy(gi, (sdfgi_light){ sdfgi_pool_id(&scene->lights, i) });
+    for (uint32_t i = 0; i < scene->meshes.end; i++)
+        if (sdfgi_pool_at(&scene->meshes, i))
+            sdfgi_mesh_destroy(gi, (sdfgi_mesh){ sdfgi_pool_id(&scene->meshes, i) });
+    for (uint32_t i = 0; i < scene->materials.end; i++)
+        if (sdfgi_pool_at(&scene->materials, i))
+            sdfgi_material_destroy(gi, (sdfgi_material){ sdfgi_pool_id(&scene->materials, i) });
+    REQUIRE_CMP(sdfgi_set_sky(gi, &black), ==, SDFGI_OK);
+}
+
+static void switch_off(struct gi_test *t)
+{
+    struct sdfgi_settings off;
+    sdfgi_get_settings(t->gi, &off);
+    off.enabled = false;
+    REQUIRE_CMP(sdfgi_set_settings(t->gi, &off), ==, SDFGI_OK);
+    gi_test_update(t, 4); /* until no frame in flight uses what is to be destroyed */
+}
+
+void gi_test_renew(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    if (!t->gi) {
+        gi_test_open(t, settings);
+        return;
+    }
+    empty_scene(t->gi);
+    switch_off(t);
+    destroy_buffers(t);
+    memset(&t->frame, 0, sizeof t->frame);
+    memset(t->messages, 0, sizeof t->messages);
+    REQUIRE_CMP(sdfgi_set_settings(t->gi, settings), ==, SDFGI_OK);
 }
 
 sdfgi_mesh gi_test_mesh(struct gi_test *t, const struct test_mesh *mesh)

@@ -27,6 +27,9 @@ void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings);
 void gi_test_close(struct gi_test *t);
 /* Another context, without a scene, on the same device: drivers may run out of instances after some sixty. */
 void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings);
+/* An empty scene and a start from nothing in the same context, whose pipelines stay: they take longer to make
+ * than most scenes of tests. Opens what is closed. */
+void gi_test_renew(struct gi_test *t, const struct sdfgi_settings *settings);
 
 /* Small and quick: 64 cells a side, one cascade, 0.25 m, enabled. */
 struct sdfgi_settings gi_test_settings(void);
