@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Distances where there is nothing, everything, or one sub-voxel in a corner (HARD_CASES rows 5 to 8). */
 #include "gpu_test_compute.h"
+#include "hard_case.h"
 #include "oracle_edt.h"
 #include "pass_scene.h"
 #include "require.h"
@@ -32,6 +33,8 @@ static void fill_lookups(struct lookup lookups[LOOKUPS])
     }
 }
 
+#define PI 3.14159265358979323846
+
 static const struct lookup *look_up(struct gi_test *t)
 {
     static struct lookup lookups[LOOKUPS];
@@ -52,13 +55,19 @@ static void hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky(v
     REQUIRE_CMP(sdfgi_set_sky(pass_context.gi, &sky), ==, SDFGI_OK);
     gi_test_converge(&pass_context, 64);
     float *distances = gi_test_distances(&pass_context, 0);
+    uint32_t near = 0;
     for (uint32_t i = 0; i < 64 * 64 * 64; i++)
-        REQUIRE_CMP(distances[i], ==, (float)SDFGI_DISTANCE_REACH);
+        near += distances[i] != (float)SDFGI_DISTANCE_REACH;
     free(distances);
+    HARD_CASE_AT_MOST(5, "cells without the farthest distance", near, 0);
     const struct lookup *lookups = look_up(&pass_context);
+    double worst = 0;
     for (uint32_t i = 0; i < LOOKUPS; i++)
-        for (int k = 0; k < 3; k++) /* half floats keep 11 bits */
-            REQUIRE_NEAR(lookups[i].irradiance[k] / (3.14159265f * sky.zenith[k]), 1, 1e-3);
+        for (int k = 0; k < 3; k++) {
+            const double ratio = (double)lookups[i].irradiance[k] / (PI * (double)sky.zenith[k]);
+            worst = isfinite(ratio) ? fmax(worst, fabs(ratio - 1)) : INFINITY;
+        }
+    HARD_CASE_AT_MOST(5, "light off the sky's, relative", worst, 1e-3); /* half floats keep 11 bits */
 }
 
 /* Planes whose insets go through the middle of every layer of sub-voxels. */
@@ -90,10 +99,10 @@ static void hard_06_a_full_cascade_has_no_light_cells(void **state)
     REQUIRE_CMP(e.max, <=, 0);
     REQUIRE_CMP(e.min, >=, -32 / 32768.0 - 1e-6);
     uint32_t *counters = gi_test_read(&pass_context, RESOURCE_COUNTERS, NULL);
-    REQUIRE_CMP(counters[SDFGI_COUNTER_LIGHT_CELLS], ==, 0);
+    HARD_CASE_AT_MOST(6, "light cells", counters[SDFGI_COUNTER_LIGHT_CELLS], 0);
     free(counters);
     uint32_t *groups = gi_test_read(&pass_context, RESOURCE_INDIRECT, NULL);
-    REQUIRE_CMP(groups[0], ==, 0);
+    HARD_CASE_AT_MOST(6, "groups of work", groups[0], 0);
     free(groups);
     const struct lookup *lookups = look_up(&pass_context);
     for (uint32_t i = 0; i < LOOKUPS; i++)
@@ -126,12 +135,13 @@ static void require_corner_distances(uint32_t resolution, int corner)
     float *distances = gi_test_distances(&pass_context, 0);
     const uint32_t n = resolution, x = corner & 1 ? 0 : n - 1, y = corner & 2 ? 0 : n - 1,
                    z = corner & 4 ? 0 : n - 1;
-    REQUIRE_CMP(distances[x + n * (y + n * z)], ==, (float)SDFGI_DISTANCE_REACH);
+    HARD_CASE_AT_LEAST(7, "the far corner's distance, cells", distances[x + n * (y + n * z)],
+                       SDFGI_DISTANCE_REACH);
     free(distances);
     /* Everywhere rounded down, by no more than a step: never a cell further from the surface than it is. */
     const struct pass_distance_error e = pass_distance_error(&pass_context, 1);
-    REQUIRE_CMP(e.max, <=, 1e-5);
-    REQUIRE_CMP(e.min, >=, -step - 1e-5);
+    HARD_CASE_AT_MOST(8, "stored above the exact one, cells", e.max, 1e-5);
+    HARD_CASE_AT_MOST(7, "off the exact distance, storage steps", -e.min / step, 1 + 1e-5 / step);
     test_mesh_destroy(&mesh);
 }
 
