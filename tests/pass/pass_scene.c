@@ -7,6 +7,7 @@
 #include <math.h>
 #include <vulkan/vulkan.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 
 struct gi_test pass_context;
@@ -68,13 +69,32 @@ void pass_volumes_destroy(struct pass_volumes *volumes)
     free(volumes->distance);
 }
 
-void pass_volumes_require_equal(const struct pass_volumes *a, const struct pass_volumes *b)
+static uint64_t bytes_that_differ(const char *name, const uint8_t *a, const uint8_t *b, uint64_t size)
+{
+    uint64_t count = 0, first = 0;
+    for (uint64_t i = size; i-- > 0;)
+        if (a[i] != b[i]) {
+            count++;
+            first = i;
+        }
+    if (count)
+        printf("%s: %llu bytes differ, the first at %llu\n", name, (unsigned long long)count,
+               (unsigned long long)first);
+    return count;
+}
+
+uint64_t pass_volumes_differ(const struct pass_volumes *a, const struct pass_volumes *b)
 {
     REQUIRE_CMP(a->bits_size, ==, b->bits_size);
-    REQUIRE_BYTES(a->bits, b->bits, a->bits_size);
-    REQUIRE_BYTES(a->albedo, b->albedo, a->albedo_size);
-    REQUIRE_BYTES(a->normals, b->normals, a->normals_size);
-    REQUIRE_BYTES(a->distance, b->distance, a->distance_size);
+    return bytes_that_differ("bits", a->bits, b->bits, a->bits_size) +
+           bytes_that_differ("albedo", a->albedo, b->albedo, a->albedo_size) +
+           bytes_that_differ("normals", a->normals, b->normals, a->normals_size) +
+           bytes_that_differ("distances", a->distance, b->distance, a->distance_size);
+}
+
+void pass_volumes_require_equal(const struct pass_volumes *a, const struct pass_volumes *b)
+{
+    REQUIRE_CMP(pass_volumes_differ(a, b), ==, 0ul);
 }
 
 struct pass_distance_error pass_distance_error(struct gi_test *t, double y_scale)

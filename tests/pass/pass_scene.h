@@ -28,7 +28,8 @@ struct pass_volumes {
 
 struct pass_volumes pass_volumes_read(struct gi_test *t);
 void pass_volumes_destroy(struct pass_volumes *volumes);
-/* All four hold the same bytes. */
+/* Number of bytes in which they differ; says where. */
+uint64_t pass_volumes_differ(const struct pass_volumes *a, const struct pass_volumes *b);
 void pass_volumes_require_equal(const struct pass_volumes *a, const struct pass_volumes *b);
 
 /* Stored distances against the exact ones of the same bits, in cells; positive: too far. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Solid bits against the CPU's 6-separating set of inset triangles and skirts: none missing, few more. Closed
  * meshes stay closed (HARD_CASES rows 13 and 62), and rooms keep their size. */
+#include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
 
@@ -71,9 +72,8 @@ static void require_closed(const struct shape *shape, const struct oracle_bits *
     for (int i = 0; i < 3; i++)
         seed[i] = (uint32_t)((shape->inside[i] - grid->origin[i]) / grid->step[i]);
     uint64_t reached = 0;
-    if (oracle_bits_walk_escapes(bits, seed, &reached))
-        require_fail(__FILE__, __LINE__, "%s: a walk from inside gets out (%llu sub-voxels)", shape->name,
-                     (unsigned long long)reached);
+    HARD_CASE_AT_MOST(13, "walks that leave a closed mesh",
+                      oracle_bits_walk_escapes(bits, seed, &reached) ? 1 : 0, 0);
     REQUIRE_CMP(reached, >, 1000);
     require_size(shape, reached, grid);
 }
@@ -96,9 +96,9 @@ static void require_between(const struct shape *shape, const struct oracle_bits 
            shape->name, (unsigned long long)set, (unsigned long long)extra,
            100.0 * (double)extra / (double)set, (unsigned long long)outside);
     if (missing)
-        require_fail(__FILE__, __LINE__, "%s: %llu bits missing, first %u %u %u", shape->name,
-                     (unsigned long long)missing, first[0], first[1], first[2]);
-    REQUIRE_CMP(outside, ==, 0);
+        printf("the first bit missing is at %u %u %u\n", first[0], first[1], first[2]);
+    HARD_CASE_AT_MOST(13, "bits of the separating set that are missing", missing, 0);
+    HARD_CASE_AT_MOST(13, "bits off the surface", outside, 0);
     REQUIRE_CMP((double)extra, <, shape->extra * (double)set);
     oracle_bits_destroy(&least);
     oracle_bits_destroy(&exact);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Triangles far larger and far smaller than the volume, and both voxelisers (HARD_CASES rows 13, 15 and 16).
  */
+#include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
 #include "test_memory.h"
@@ -66,54 +67,90 @@ static void hard_16_every_tiny_triangle_sets_one_bit(void **state)
     pass_scene_open(&pass_context, &settings, &mesh);
     struct oracle_bits bits = gi_test_bits(&pass_context, 0);
     const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
-    REQUIRE_CMP(oracle_bits_count(&bits), ==, SPECKS);
+    uint32_t missing = 0;
     for (uint32_t i = 0; i < SPECKS; i++) {
         uint32_t sub[3];
         sub_voxel_of(&grid, points[i], sub);
-        REQUIRE_TRUE(is_set_near(&bits, sub));
+        missing += !is_set_near(&bits, sub);
     }
+    HARD_CASE_AT_MOST(16, "tiny triangles without a bit", missing, 0);
+    HARD_CASE_AT_MOST(16, "bits off one a triangle", fabs((double)oracle_bits_count(&bits) - SPECKS), 0);
     oracle_bits_destroy(&bits);
     test_mesh_destroy(&mesh);
 }
 
 /* ---- Huge triangles */
 
-/* Every column along y must be set within a sub-voxel of the plane y = height + slope x, which faces up and
- * lies half a sub-voxel lower for its inset, and nowhere else. */
-static void require_plane(const struct oracle_bits *bits, const struct oracle_grid *grid, double height,
-                          double slope)
+/* The plane a = height + slope b, where b is the axis after a, in cyclic order. It faces up along a. */
+struct plane {
+    int axis;
+    double height, slope;
+};
+
+static struct test_mesh plane_mesh(const struct plane *plane, double half)
+{
+    const int a = plane->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    double center[3] = { 0 }, edge_u[3] = { 0 }, edge_v[3] = { 0 };
+    center[a] = plane->height;
+    edge_u[b] = half;
+    edge_u[a] = half * plane->slope;
+    edge_v[c] = half;
+    return test_mesh_plane(center, edge_u, edge_v, 1);
+}
+
+static bool bit_along(const struct oracle_bits *bits, int axis, const int64_t at[static 3])
+{
+    uint32_t sub[3];
+    for (int k = 0; k < 3; k++)
+        sub[(axis + k) % 3] = (uint32_t)at[k];
+    return oracle_bits_get(bits, sub[0], sub[1], sub[2]);
+}
+
+/* Sub-voxels by which a column along the plane's axis misses it, at most. Every column must be set within a
+ * sub-voxel of the plane, which lies half a sub-voxel lower for its inset, and nowhere else. */
+static int64_t plane_error(const struct oracle_bits *bits, const struct oracle_grid *grid,
+                           const struct plane *plane)
 {
     const int64_t size = bits->size;
+    const int a = plane->axis, b = (a + 1) % 3;
     int64_t worst = 0;
     for (int64_t i = 0; i < size * size; i++) {
-        const double x = grid->origin[0] + ((double)(i % size) + 0.5) * grid->step[0];
-        const int64_t wanted = (int64_t)floor((height + slope * x - grid->origin[1]) / grid->step[1] - 0.5);
+        const double along = grid->origin[b] + ((double)(i % size) + 0.5) * grid->step[b];
+        const int64_t wanted =
+            (int64_t)floor((plane->height + plane->slope * along - grid->origin[a]) / grid->step[a] - 0.5);
         int64_t nearest = size;
-        for (int64_t y = 0; y < size; y++) {
-            if (!oracle_bits_get(bits, (uint32_t)(i % size), (uint32_t)y, (uint32_t)(i / size)))
+        for (int64_t level = 0; level < size; level++) {
+            if (!bit_along(bits, a, (int64_t[]){ level, i % size, i / size }))
                 continue;
-            nearest = llabs(y - wanted) < nearest ? llabs(y - wanted) : nearest;
-            worst = llabs(y - wanted) > worst ? llabs(y - wanted) : worst;
+            nearest = llabs(level - wanted) < nearest ? llabs(level - wanted) : nearest;
+            worst = llabs(level - wanted) > worst ? llabs(level - wanted) : worst;
         }
-        REQUIRE_CMP(nearest, <=, 1);
+        worst = nearest > worst ? nearest : worst;
     }
-    printf("plane of slope %g: %lld sub-voxels off at most\n", slope, (long long)worst);
-    REQUIRE_CMP(worst, <=, 1);
+    printf("plane across axis %d of slope %g: %lld sub-voxels off at most\n", a, plane->slope,
+           (long long)worst);
+    return worst;
+}
+
+static int64_t voxelized_plane_error(const struct plane *plane, const struct test_mesh *mesh)
+{
+    const struct sdfgi_settings settings = gi_test_settings();
+    pass_scene_open(&pass_context, &settings, mesh);
+    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
+    const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
+    const int64_t error = plane_error(&bits, &grid, plane);
+    oracle_bits_destroy(&bits);
+    return error;
 }
 
 static void hard_15_huge_triangles_stay_within_a_sub_voxel(void **state)
 {
     (void)state;
-    static const double slopes[2] = { 0, 0.3 }, height = 0.53;
-    for (int i = 0; i < 2; i++) {
-        const double edge_u[3] = { 0, 0, 1e6 }, edge_v[3] = { 1e6, slopes[i] * 1e6, 0 };
-        struct test_mesh mesh = test_mesh_plane((double[]){ 0, height, 0 }, edge_u, edge_v, 1);
-        const struct sdfgi_settings settings = gi_test_settings();
-        pass_scene_open(&pass_context, &settings, &mesh);
-        struct oracle_bits bits = gi_test_bits(&pass_context, 0);
-        const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
-        require_plane(&bits, &grid, height, slopes[i]);
-        oracle_bits_destroy(&bits);
+    static const double slopes[2] = { 0, 0.3 };
+    for (int i = 0; i < 6; i++) {
+        const struct plane plane = { i / 2, 0.53, slopes[i % 2] };
+        struct test_mesh mesh = plane_mesh(&plane, 1e6);
+        HARD_CASE_AT_MOST(15, "off the plane, sub-voxels", voxelized_plane_error(&plane, &mesh), 1);
         test_mesh_destroy(&mesh);
     }
 }
@@ -122,17 +159,12 @@ static void hard_15_huge_triangles_stay_within_a_sub_voxel(void **state)
 static void two_large_triangles_among_many_small_ones_are_complete(void **state)
 {
     (void)state;
-    const double height = 0.53, edge_u[3] = { 0, 0, 20 }, edge_v[3] = { 20, 0, 0 };
+    const struct plane plane = { 1, 0.53, 0 };
     const double beside[3] = { 8.5, -8, -8 }, far[3] = { 10, 8, 8 };
-    struct test_mesh mesh = test_mesh_plane((double[]){ 0, height, 0 }, edge_u, edge_v, 1);
+    struct test_mesh mesh = plane_mesh(&plane, 20);
     struct test_mesh others = test_mesh_soup(15, 100000, beside, far, 0.01);
     test_mesh_append(&mesh, &others);
-    const struct sdfgi_settings settings = gi_test_settings();
-    pass_scene_open(&pass_context, &settings, &mesh);
-    struct oracle_bits bits = gi_test_bits(&pass_context, 0);
-    const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
-    require_plane(&bits, &grid, height, 0);
-    oracle_bits_destroy(&bits);
+    REQUIRE_CMP(voxelized_plane_error(&plane, &mesh), <=, 1);
     test_mesh_destroy(&others);
     test_mesh_destroy(&mesh);
 }

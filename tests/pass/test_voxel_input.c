@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The same triangles give the same volumes however they are described, placed and drawn, and bad ones give
  * nothing (HARD_CASES rows 14 to 16, 25, 26 and 65). */
+#include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
 #include "test_memory.h"
@@ -66,7 +67,8 @@ static void hard_65_mirrored_and_sheared_instances_set_the_baked_meshs_bits(void
         pass_scene_place(&pass_context, gi_test_mesh(&pass_context, &mesh), bases[i], translation);
         gi_test_update(&pass_context, 1);
         struct pass_volumes placed = pass_volumes_read(&pass_context);
-        pass_volumes_require_equal(&placed, &expected);
+        HARD_CASE_AT_MOST(65, "bytes not those of the baked mesh", pass_volumes_differ(&placed, &expected),
+                          0);
         pass_volumes_destroy(&placed);
         pass_volumes_destroy(&expected);
         test_mesh_destroy(&mesh);
@@ -84,7 +86,7 @@ static void hard_65_a_transform_to_a_line_leaves_nothing(void **state)
     pass_scene_place(&pass_context, gi_test_mesh(&pass_context, &mesh), nothing, zero);
     gi_test_update(&pass_context, 1);
     struct oracle_bits bits = gi_test_bits(&pass_context, 0);
-    REQUIRE_CMP(oracle_bits_count(&bits), ==, 0);
+    HARD_CASE_AT_MOST(65, "bits of a transform to a line", oracle_bits_count(&bits), 0);
     oracle_bits_destroy(&bits);
     test_mesh_destroy(&mesh);
 }
@@ -120,8 +122,9 @@ static void hard_25_far_and_negative_places_give_the_same_bits(void **state)
     REQUIRE_CMP(oracle_bits_count(&expected), >, 5000);
     for (int i = 0; i < 4; i++) {
         read_moved(moves[i], &moved, &moved_distances);
-        REQUIRE_CMP(oracle_bits_missing(&expected, &moved, NULL), ==, 0);
-        REQUIRE_CMP(oracle_bits_missing(&moved, &expected, NULL), ==, 0);
+        HARD_CASE_AT_MOST(
+            25, "bits that differ",
+            oracle_bits_missing(&expected, &moved, NULL) + oracle_bits_missing(&moved, &expected, NULL), 0);
         REQUIRE_BYTES(moved_distances, expected_distances, sizeof(float) * 32 * 32 * 32);
         oracle_bits_destroy(&moved);
         free(moved_distances);
@@ -224,11 +227,13 @@ static void append_triangle(struct test_mesh *mesh, const float corners[static 9
 
 enum { SKIPPED_TRIANGLES = 8 };
 
-/* Eight triangles that are skipped and counted, and four without area, which are only skipped. */
+/* Eight triangles that are skipped and counted, four without area, which are only skipped, and all good ones
+ * once more: means are the same. */
 static struct test_mesh spoiled(const struct test_mesh *good)
 {
     const float bad[] = { NAN, INFINITY, -INFINITY, 1e30f, -3e38f, 1e12f };
     struct test_mesh mesh = { 0 };
+    test_mesh_append(&mesh, good);
     test_mesh_append(&mesh, good);
     for (int i = 0; i < 6; i++) {
         float corners[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
@@ -276,8 +281,12 @@ static void require_bad_triangles_are_skipped(enum sdfgi_voxelizer voxelizer)
     struct pass_volumes expected = volumes_of(&good);
     open_spoiled(&pass_context, &settings, &good);
     struct pass_volumes read = pass_volumes_read(&pass_context);
-    pass_volumes_require_equal(&read, &expected);
-    REQUIRE_CMP(pass_health_count(&pass_context, SDFGI_MESSAGE_TRIANGLES_SKIPPED), ==, SKIPPED_TRIANGLES);
+    HARD_CASE_AT_MOST(14, "bytes not those of the scene without them", pass_volumes_differ(&read, &expected),
+                      0);
+    HARD_CASE_AT_MOST(
+        14, "bad triangles less those counted",
+        fabs((double)pass_health_count(&pass_context, SDFGI_MESSAGE_TRIANGLES_SKIPPED) - SKIPPED_TRIANGLES),
+        0);
     pass_volumes_destroy(&read);
     pass_volumes_destroy(&expected);
     test_mesh_destroy(&good);

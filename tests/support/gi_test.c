@@ -117,6 +117,12 @@ void gi_test_renew(struct gi_test *t, const struct sdfgi_settings *settings)
 
 sdfgi_mesh gi_test_mesh(struct gi_test *t, const struct test_mesh *mesh)
 {
+    return gi_test_mesh_within(t, mesh, mesh);
+}
+
+sdfgi_mesh gi_test_mesh_within(struct gi_test *t, const struct test_mesh *mesh,
+                               const struct test_mesh *bounded)
+{
     REQUIRE_CMP(t->buffer_count, <, 2 * GI_TEST_MAX_MESHES);
     const struct gpu_test_buffer positions = gpu_test_buffer_device(
         &t->gpu, 12 * (VkDeviceSize)mesh->vertex_count, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, mesh->positions);
@@ -129,7 +135,7 @@ sdfgi_mesh gi_test_mesh(struct gi_test *t, const struct test_mesh *mesh)
                                     .index_type = VK_INDEX_TYPE_UINT32,
                                     .vertex_count = mesh->vertex_count,
                                     .triangle_count = mesh->triangle_count };
-    test_mesh_bounds(mesh, desc.bounds_min, desc.bounds_max);
+    test_mesh_bounds(bounded, desc.bounds_min, desc.bounds_max);
     sdfgi_mesh handle;
     REQUIRE_CMP(sdfgi_mesh_create(t->gi, &desc, &handle), ==, SDFGI_OK);
     return handle;

@@ -35,6 +35,9 @@ void gi_test_renew(struct gi_test *t, const struct sdfgi_settings *settings);
 struct sdfgi_settings gi_test_settings(void);
 
 sdfgi_mesh gi_test_mesh(struct gi_test *t, const struct test_mesh *mesh);
+/* Claims the bounds of `bounded`, for a mesh with vertices that are not finite. */
+sdfgi_mesh gi_test_mesh_within(struct gi_test *t, const struct test_mesh *mesh,
+                               const struct test_mesh *bounded);
 sdfgi_material gi_test_material(struct gi_test *t, const float albedo[static 3],
                                 const float emission[static 3]);
 /* An instance of `mesh` in world space, without a transform. */
