@@ -4,6 +4,7 @@
 #define SDFGI_IRRADIANCE_GLSL
 
 #include "sdfgi_space.glsl"
+#include "../lib/finite.glsl"
 #include "../lib/irradiance_pack.glsl"
 #include "../lib/octahedral.glsl"
 
@@ -16,7 +17,9 @@ struct sdfgi_irradiance_footprint {
 sdfgi_irradiance_footprint sdfgi_irradiance_footprint_of(vec3 direction)
 {
     const vec2 at = (sdfgi_octahedral_encode(direction) * 0.5 + 0.5) * float(SDFGI_IRRADIANCE_TEXELS - 1);
-    const vec2 low = min(floor(at), vec2(SDFGI_IRRADIANCE_TEXELS - 2));
+    const float last = float(SDFGI_IRRADIANCE_TEXELS - 2);
+    const vec2 low =
+        vec2(sdfgi_finite_clamp(floor(at.x), 0.0, last), sdfgi_finite_clamp(floor(at.y), 0.0, last));
     return sdfgi_irradiance_footprint(low, at - low);
 }
 

@@ -144,6 +144,12 @@ float inset_height(triangle t, vec2 p)
     return triangle_height(t, p) - t.inset;
 }
 
+/* The level that it crosses. Outside the triangle its plane may lead beyond all integers. */
+int inset_level(triangle t, vec2 p)
+{
+    return int(floor(clamp(inset_height(t, p), -MAX_COORDINATE, MAX_COORDINATE)));
+}
+
 /* The part of the line through `centre` along `axis` (0 or 1) that lies in the triangle, widened by `margin`:
  * from x to y from the centre, or x > y. */
 vec2 triangle_section(triangle t, vec2 centre, int axis, float margin)
@@ -190,7 +196,7 @@ void levels_add_crossed(triangle t, vec2 centre, int axis, inout column_levels l
 column_levels triangle_levels(triangle t, ivec2 column)
 {
     const vec2 centre = vec2(column) + 0.5;
-    const int level = int(floor(inset_height(t, centre)));
+    const int level = inset_level(t, centre);
     column_levels levels = column_levels(level, level);
     if (!((t.tiny && all(equal(column, tiny_column(t)))) || triangle_contains(t, centre)))
         levels = column_levels(0x7fffffff, -0x7fffffff);
@@ -238,13 +244,14 @@ void accumulate_surface(triangle t, uint block, surface_sample s)
     const uint major = height.x >= height.y && height.x >= height.z ? 0u : (height.y >= height.z ? 1u : 2u);
     if (!has_room(SDFGI_ACCUM_NORMAL + 3u * major, block, SDFGI_ACCUM_MOST_SAMPLES))
         return;
-    const uvec3 albedo = uvec3(clamp(s.albedo.rgb, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
+    const uvec3 albedo = uvec3(sdfgi_finite_color(s.albedo.rgb, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
     for (uint i = 0u; i < 3u; i++)
         accumulate(SDFGI_ACCUM_ALBEDO + i, block, albedo[i]);
     const float side = t.normal[major] < 0.0 ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
     for (uint i = 1u; i <= 2u; i++) {
-        const float slope = t.normal[(major + i) % 3u] * side / height[major];
+        const float slope =
+            sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
         accumulate(SDFGI_ACCUM_NORMAL + 3u * major + i, block, uint(int(round(slope * SDFGI_SLOPE_STEPS))));
     }
 }
@@ -310,7 +317,7 @@ void accumulate_wide(uint plane, uint block, float value)
 void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
 {
     const float covered = min(triangle_coverage(t, column), 1.0);
-    const vec3 emission = clamp(s.emission, 0.0, SDFGI_EMISSION_MOST) * covered;
+    const vec3 emission = sdfgi_finite_color(s.emission, SDFGI_EMISSION_MOST) * covered;
     if (all(lessThan(emission, vec3(SDFGI_EMISSION_STEP))) ||
         !has_room(SDFGI_ACCUM_EMISSION_COVERED, block, SDFGI_ACCUM_MOST_COVERED))
         return;
@@ -365,7 +372,7 @@ void triangle_store_column(triangle t, ivec2 column)
     const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
-    const int level = int(floor(inset_height(t, vec2(column) + 0.5)));
+    const int level = inset_level(t, vec2(column) + 0.5);
     const bool emits_here = emits && level >= low && level < high;
     const column_levels levels = triangle_levels(t, column);
     const int first = max(levels.first, low), last = min(levels.last, high - 1);

@@ -6,6 +6,7 @@
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
 #include "pass.glsl"
+#include "../lib/finite.glsl"
 
 layout(push_constant) uniform sdfgi_push
 {
@@ -31,6 +32,8 @@ layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) reado
 
 /* In sub-voxels. Beyond this floats cannot place an edge to within a sub-voxel. */
 const float MAX_COORDINATE = 1e9;
+/* Of a texture's coordinates and of a vertex's colour: sums and products of such stay finite. */
+const float MAX_UV = 1e9, MAX_COLOR = 65504.0;
 
 /* A corner of a box of cells. */
 ivec3 unpacked_corner(uint packed)
@@ -104,7 +107,8 @@ vec2 mesh_uv(uint index[3], vec3 bary)
     vec2 uv = vec2(0.0);
     for (int i = 0; i < 3; i++) {
         const uint at = args.uv_offset + index[i] * args.uv_stride;
-        uv += bary[i] * vec2(uvs[at], uvs[at + 1u]);
+        uv += bary[i] * vec2(sdfgi_finite_clamp(uvs[at], -MAX_UV, MAX_UV),
+                             sdfgi_finite_clamp(uvs[at + 1u], -MAX_UV, MAX_UV));
     }
     return uv;
 }
@@ -114,7 +118,9 @@ vec4 mesh_color(uint index[3], vec3 bary)
     vec4 color = vec4(0.0);
     for (int i = 0; i < 3; i++) {
         const uint at = args.color_offset + index[i] * args.color_stride;
-        color += bary[i] * vec4(colors[at], colors[at + 1u], colors[at + 2u], colors[at + 3u]);
+        const vec3 rgb = vec3(colors[at], colors[at + 1u], colors[at + 2u]);
+        color += bary[i] * vec4(sdfgi_finite_color(rgb, MAX_COLOR),
+                                sdfgi_finite_clamp(colors[at + 3u], 0.0, MAX_COLOR));
     }
     return color;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * What the voxeliser stores of a surface's colours: each block against the mean of what the host described
  * there. A square of 4 m lies level in a cascade; a column of sub-voxels is a 64th of it, a block an 8th. */
-#include "pass_scene.h"
+#include "pass_square.h"
 #include "require.h"
 #include "test_memory.h"
 
@@ -10,156 +10,21 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { COLUMNS = 64, BLOCKS = 8, PER_BLOCK = COLUMNS / BLOCKS, CORNERS = 4 };
-
-static struct gi_test t;
+enum {
+    COLUMNS = SQUARE_COLUMNS,
+    BLOCKS = SQUARE_BLOCKS,
+    PER_BLOCK = COLUMNS / BLOCKS,
+    CORNERS = SQUARE_CORNERS
+};
 
 static int open_context(void **state)
 {
     (void)state;
     struct sdfgi_settings settings = gi_test_settings();
     settings.resolution = 32; /* cells of 0.25 m: the square spans a half of the cascade */
-    gi_test_open(&t, &settings);
+    gi_test_open(&pass_context, &settings);
     return 0;
 }
-
-static int close_context(void **state)
-{
-    (void)state;
-    gi_test_close(&t);
-    return 0;
-}
-
-/* ---- The square */
-
-static const float height = 0.3f;
-/* As parts of a side, along x and z. */
-static const float corners[CORNERS][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } };
-
-static VkBuffer upload(VkDeviceSize size, const void *data)
-{
-    t.buffers[t.buffer_count] =
-        gpu_test_buffer_device(&t.gpu, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
-    return t.buffers[t.buffer_count++].buffer;
-}
-
-/* A square whose front is above. `uvs` and `colors`, of the corners, may be NULL. */
-static struct sdfgi_mesh_desc describe_square(const float (*uvs)[2], const float (*colors)[4])
-{
-    float positions[CORNERS][3];
-    for (int i = 0; i < CORNERS; i++)
-        memcpy(positions[i], (float[3]){ 4 * corners[i][0] - 2, height, 4 * corners[i][1] - 2 },
-               sizeof positions[i]);
-    static const uint32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
-    return (struct sdfgi_mesh_desc){ .position_buffer = upload(sizeof positions, positions),
-                                     .uv_buffer = uvs ? upload(CORNERS * sizeof *uvs, uvs) : NULL,
-                                     .color_buffer = colors ? upload(CORNERS * sizeof *colors, colors) : NULL,
-                                     .index_buffer = upload(sizeof indices, indices),
-                                     .index_type = VK_INDEX_TYPE_UINT32,
-                                     .vertex_count = CORNERS,
-                                     .triangle_count = 2,
-                                     .bounds_min = { -2, height, -2 },
-                                     .bounds_max = { 2, height, 2 } };
-}
-
-static sdfgi_mesh make_mesh(const struct sdfgi_mesh_desc *desc)
-{
-    sdfgi_mesh mesh;
-    REQUIRE_CMP(sdfgi_mesh_create(t.gi, desc, &mesh), ==, SDFGI_OK);
-    return mesh;
-}
-
-static sdfgi_mesh make_square(const float (*uvs)[2], const float (*colors)[4])
-{
-    const struct sdfgi_mesh_desc desc = describe_square(uvs, colors);
-    return make_mesh(&desc);
-}
-
-/* What a square of a material became. */
-struct square {
-    struct oracle_bits bits;
-    double albedo[BLOCKS][BLOCKS][3]; /* by z, x */
-    double emission[2];               /* in the middle: up, down */
-};
-
-static void read_albedo(struct square *s)
-{
-    struct sdfgi_inspect_cascade where;
-    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
-    uint32_t *words = gi_test_read(&t, RESOURCE_ALBEDO, NULL);
-    for (uint32_t z = 0; z < BLOCKS; z++)
-        for (uint32_t x = 0; x < BLOCKS; x++) {
-            const uint32_t cell[3] = { (uint32_t)((-2 - where.origin_m[0]) / where.cell_m[0]) + 2 * x,
-                                       (uint32_t)((height - where.origin_m[1]) / where.cell_m[1]),
-                                       (uint32_t)((-2 - where.origin_m[2]) / where.cell_m[2]) + 2 * z };
-            struct sdfgi_inspect_surface surface;
-            sdfgi_inspect_decode_block(words[sdfgi_inspect_block(&where, cell[0], cell[1], cell[2])],
-                                       (uint32_t[2]){ 0 }, 0, 1, &surface);
-            for (int k = 0; k < 3; k++)
-                s->albedo[z][x][k] = surface.albedo[k] / 1023.0;
-        }
-    free(words);
-}
-
-static void read_emission(struct square *s)
-{
-    struct sdfgi_inspect_cascade where;
-    REQUIRE_CMP(sdfgi_inspect_get_cascade(t.gi, 0, &where), ==, SDFGI_OK);
-    uint32_t *words = gi_test_read(&t, RESOURCE_EMISSION, NULL);
-    const uint32_t middle = where.resolution / 2,
-                   level = (uint32_t)(((double)height - where.origin_m[1]) / where.cell_m[1]);
-    struct sdfgi_inspect_surface surface;
-    sdfgi_inspect_decode_block(0, words + 2 * sdfgi_inspect_block(&where, middle, level, middle), 0,
-                               where.emission_unit, &surface);
-    for (int side = 0; side < 2; side++)
-        s->emission[side] = (double)surface.emission[1] * surface.emitting[2 + side] / 31;
-    free(words);
-}
-
-/* Makes the instance alone in the cascade. Its mesh and its material are destroyed. */
-static struct square voxelize_instance(struct sdfgi_instance_desc *instance,
-                                       const struct sdfgi_material_desc *desc)
-{
-    struct square s;
-    sdfgi_instance unused;
-    REQUIRE_CMP(sdfgi_material_create(t.gi, desc, &instance->material), ==, SDFGI_OK);
-    REQUIRE_CMP(sdfgi_instance_create(t.gi, instance, &unused), ==, SDFGI_OK);
-    gi_test_update(&t, 1);
-    s.bits = gi_test_bits(&t, 0);
-    read_albedo(&s);
-    read_emission(&s);
-    REQUIRE_CMP(sdfgi_mesh_destroy(t.gi, instance->mesh), ==, SDFGI_OK);
-    REQUIRE_CMP(sdfgi_material_destroy(t.gi, instance->material), ==, SDFGI_OK);
-    return s;
-}
-
-static struct square voxelize(sdfgi_mesh mesh, const struct sdfgi_material_desc *desc)
-{
-    struct sdfgi_instance_desc instance = { .mesh = mesh,
-                                            .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } } };
-    return voxelize_instance(&instance, desc);
-}
-
-/* Whether a column of the square sets its sub-voxel. */
-static bool column_is_set(const struct square *s, uint32_t x, uint32_t z)
-{
-    const uint32_t edge = (s->bits.size - COLUMNS) / 2;
-    bool set = false;
-    for (uint32_t y = 0; y < s->bits.size; y++)
-        set = set || oracle_bits_get(&s->bits, edge + x, y, edge + z);
-    return set;
-}
-
-static uint32_t columns_set(const struct square *s)
-{
-    uint32_t count = 0;
-    for (uint32_t z = 0; z < COLUMNS; z++)
-        for (uint32_t x = 0; x < COLUMNS; x++)
-            count += column_is_set(s, x, z);
-    return count;
-}
-
-static const struct sdfgi_material_desc grey = { .albedo = { 0.5f, 0.5f, 0.5f } };
 
 /* ---- Fronts */
 
@@ -170,7 +35,7 @@ static uint32_t grey_level(sdfgi_mesh mesh, const float basis[static 9])
 {
     struct sdfgi_instance_desc instance = { .mesh = mesh };
     memcpy(instance.transform.basis, basis, sizeof instance.transform.basis);
-    struct square s = voxelize_instance(&instance, &grey);
+    struct square s = square_voxelize_instance(&instance, &square_grey);
     uint32_t level = 0;
     while (!oracle_bits_get(&s.bits, s.bits.size / 2, level, s.bits.size / 2))
         level++;
@@ -181,13 +46,13 @@ static uint32_t grey_level(sdfgi_mesh mesh, const float basis[static 9])
 /* The surface lies 4.8 sub-voxels above the middle of the cascade, half a sub-voxel behind its front. */
 static void require_front(VkFrontFace front_face, const float basis[static 9], bool above)
 {
-    struct sdfgi_mesh_desc desc = describe_square(NULL, NULL);
+    struct sdfgi_mesh_desc desc = square_describe(NULL, NULL);
     desc.front_face = front_face;
-    REQUIRE_CMP(grey_level(make_mesh(&desc), basis), ==, 64 + (above ? 4u : 5u));
+    REQUIRE_CMP(grey_level(square_mesh_of(&desc), basis), ==, 64 + (above ? 4u : 5u));
     const struct sdfgi_material_desc lamp = { .emission = { 2, 2, 2 } };
-    struct sdfgi_instance_desc instance = { .mesh = make_mesh(&desc) };
+    struct sdfgi_instance_desc instance = { .mesh = square_mesh_of(&desc) };
     memcpy(instance.transform.basis, basis, sizeof instance.transform.basis);
-    struct square s = voxelize_instance(&instance, &lamp);
+    struct square s = square_voxelize_instance(&instance, &lamp);
     REQUIRE_NEAR(s.emission[above ? 0 : 1], 2, 0.01);
     REQUIRE_NEAR(s.emission[above ? 1 : 0], 0, 0);
     oracle_bits_destroy(&s.bits);
@@ -207,13 +72,13 @@ static void fronts_are_where_the_host_says(void **state)
 /* Triangles that the report counts outside a square's bounds, which end at `bounds_max_x` instead of 2. */
 static uint64_t outside_bounds(float bounds_max_x)
 {
-    struct sdfgi_mesh_desc desc = describe_square(NULL, NULL);
+    struct sdfgi_mesh_desc desc = square_describe(NULL, NULL);
     desc.bounds_max[0] = bounds_max_x;
-    const sdfgi_mesh mesh = make_mesh(&desc);
-    pass_scene_place(&t, mesh, upright, (double[3]){ 0 });
-    gi_test_update(&t, 3);
-    const uint64_t count = pass_health_count(&t, SDFGI_MESSAGE_BOUNDS_MISS_VERTICES);
-    REQUIRE_CMP(sdfgi_mesh_destroy(t.gi, mesh), ==, SDFGI_OK);
+    const sdfgi_mesh mesh = square_mesh_of(&desc);
+    pass_scene_place(&pass_context, mesh, upright, (double[3]){ 0 });
+    gi_test_update(&pass_context, 3);
+    const uint64_t count = pass_health_count(&pass_context, SDFGI_MESSAGE_BOUNDS_MISS_VERTICES);
+    REQUIRE_CMP(sdfgi_mesh_destroy(pass_context.gi, mesh), ==, SDFGI_OK);
     return count;
 }
 
@@ -223,14 +88,14 @@ static void triangles_outside_their_bounds_are_counted(void **state)
     REQUIRE_CMP(outside_bounds(1.9f), ==, 0ul); /* by less than a cell */
     REQUIRE_CMP(outside_bounds(1), ==, 2ul);
     struct sdfgi_settings settings;
-    sdfgi_get_settings(t.gi, &settings);
+    sdfgi_get_settings(pass_context.gi, &settings);
     settings.voxelizer = SDFGI_VOXELIZER_RASTER;
-    if (sdfgi_set_settings(t.gi, &settings) != SDFGI_OK)
+    if (sdfgi_set_settings(pass_context.gi, &settings) != SDFGI_OK)
         return;
     REQUIRE_CMP(outside_bounds(1.9f), ==, 0ul);
     REQUIRE_CMP(outside_bounds(1), ==, 2ul);
     settings.voxelizer = SDFGI_VOXELIZER_COMPUTE;
-    REQUIRE_CMP(sdfgi_set_settings(t.gi, &settings), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_set_settings(pass_context.gi, &settings), ==, SDFGI_OK);
 }
 
 /* ---- Alpha and colours of vertices */
@@ -238,13 +103,13 @@ static void triangles_outside_their_bounds_are_counted(void **state)
 static void masks_without_an_alpha_leave_all(void **state)
 {
     (void)state;
-    struct sdfgi_material_desc desc = grey;
+    struct sdfgi_material_desc desc = square_grey;
     desc.alpha_cutoff = 0.5f;
-    struct square s = voxelize(make_square(NULL, NULL), &desc);
-    REQUIRE_CMP(columns_set(&s), ==, (uint32_t)(COLUMNS * COLUMNS));
+    struct square s = square_voxelize(square_mesh(NULL, NULL), &desc);
+    REQUIRE_CMP(square_columns_set(&s), ==, (uint32_t)(COLUMNS * COLUMNS));
     oracle_bits_destroy(&s.bits);
     desc.alpha = 0.4f;
-    s = voxelize(make_square(NULL, NULL), &desc);
+    s = square_voxelize(square_mesh(NULL, NULL), &desc);
     REQUIRE_CMP(oracle_bits_count(&s.bits), ==, 0);
     oracle_bits_destroy(&s.bits);
 }
@@ -264,14 +129,14 @@ static void colors_of_vertices_multiply_albedo_and_alpha(void **state)
     float colors[CORNERS][4];
     for (int i = 0; i < CORNERS; i++) {
         double color[4];
-        color_at((double)corners[i][0], (double)corners[i][1], color);
+        color_at((double)square_corners[i][0], (double)square_corners[i][1], color);
         for (int k = 0; k < 4; k++)
             colors[i][k] = (float)color[k];
     }
     const struct sdfgi_material_desc desc = { .albedo = { 0.9f, 0.5f, 0.7f },
                                               .alpha = 0.8f,
                                               .alpha_cutoff = 0.2f };
-    struct square s = voxelize(make_square(NULL, (const float(*)[4])colors), &desc);
+    struct square s = square_voxelize(square_mesh(NULL, (const float(*)[4])colors), &desc);
     for (uint32_t z = 0; z < BLOCKS; z++)
         for (uint32_t x = 2; x < BLOCKS; x++) {
             double color[4];
@@ -281,7 +146,7 @@ static void colors_of_vertices_multiply_albedo_and_alpha(void **state)
         }
     for (uint32_t z = 0; z < COLUMNS; z++)
         for (uint32_t x = 0; x < COLUMNS; x++)
-            REQUIRE_CMP(column_is_set(&s, x, z), ==, 0.8 * (x + 0.5) / COLUMNS >= 0.2);
+            REQUIRE_CMP(square_column_is_set(&s, x, z), ==, 0.8 * (x + 0.5) / COLUMNS >= 0.2);
     oracle_bits_destroy(&s.bits);
 }
 
@@ -317,14 +182,14 @@ static struct picture picture_create(uint32_t size, uint32_t levels,
                                               .texels = p.texels,
                                               .texel_size = 4,
                                               .levels = levels };
-    p.image = gpu_test_image_create(&t.gpu, &desc);
+    p.image = gpu_test_image_create(&pass_context.gpu, &desc);
     return p;
 }
 
 /* No frame may be in flight. */
 static void picture_destroy(struct picture *p)
 {
-    gpu_test_image_destroy(&t.gpu, &p->image);
+    gpu_test_image_destroy(&pass_context.gpu, &p->image);
     free(p->texels);
 }
 
@@ -355,8 +220,8 @@ static sdfgi_mesh make_mapped_square(float repeats)
     float uvs[CORNERS][2];
     for (int i = 0; i < CORNERS; i++)
         for (int k = 0; k < 2; k++)
-            uvs[i][k] = repeats * corners[i][k];
-    return make_square((const float(*)[2])uvs, NULL);
+            uvs[i][k] = repeats * square_corners[i][k];
+    return square_mesh((const float(*)[2])uvs, NULL);
 }
 
 /* The texel that lies at x texels from the side of a texture of COLUMNS texels. */
@@ -390,7 +255,7 @@ static void require_area_means(const struct picture *p, VkSamplerAddressMode mod
                                                                   .uv_transform = { 1, 0, part, 0, 1, part },
                                                                   .address_u = mode,
                                                                   .address_v = mode } };
-    struct square s = voxelize(make_mapped_square(1), &desc);
+    struct square s = square_voxelize(make_mapped_square(1), &desc);
     for (uint32_t z = 0; z < BLOCKS; z++)
         for (uint32_t x = 0; x < BLOCKS; x++)
             for (int k = 0; k < 3 && x != z; k++)
@@ -420,7 +285,7 @@ static void textures_finer_than_a_sub_voxel_come_out_as_their_mean(void **state)
                                               .emission = { 2, 2, 2 },
                                               .albedo_texture = { .view = p.image.view },
                                               .emission_texture = { .view = p.image.view } };
-    struct square s = voxelize(make_mapped_square(13), &desc);
+    struct square s = square_voxelize(make_mapped_square(13), &desc);
     for (uint32_t i = 0; i < BLOCKS * BLOCKS; i++) {
         REQUIRE_NEAR(s.albedo[i / BLOCKS][i % BLOCKS][0], 155 / 255.0, 0.003);
         REQUIRE_NEAR(s.albedo[i / BLOCKS][i % BLOCKS][1], 130 / 255.0, 0.003);
@@ -435,13 +300,13 @@ static void masks_leave_holes_where_alpha_is_below_the_cutoff(void **state)
 {
     (void)state;
     struct picture p = picture_create(COLUMNS, 1, noise_at);
-    struct sdfgi_material_desc desc = grey;
+    struct sdfgi_material_desc desc = square_grey;
     desc.alpha_cutoff = 0.5f;
     desc.albedo_texture.view = p.image.view;
-    struct square s = voxelize(make_mapped_square(1), &desc);
+    struct square s = square_voxelize(make_mapped_square(1), &desc);
     for (uint32_t z = 0; z < COLUMNS; z++)
         for (uint32_t x = 0; x < COLUMNS; x++)
-            REQUIRE_CMP(column_is_set(&s, x, z), ==, p.texels[z * COLUMNS + x][3] == 255);
+            REQUIRE_CMP(square_column_is_set(&s, x, z), ==, p.texels[z * COLUMNS + x][3] == 255);
     oracle_bits_destroy(&s.bits);
     picture_destroy(&p);
 }
@@ -452,10 +317,10 @@ static uint64_t voxelize_ns(const struct sdfgi_material_desc *desc)
     static struct sdfgi_report report;
     uint64_t best = UINT64_MAX;
     for (int run = 0; run < 3; run++) {
-        struct square s = voxelize(make_mapped_square(13), desc);
+        struct square s = square_voxelize(make_mapped_square(13), desc);
         oracle_bits_destroy(&s.bits);
-        gi_test_update(&t, 2);
-        sdfgi_get_report(t.gi, &report);
+        gi_test_update(&pass_context, 2);
+        sdfgi_get_report(pass_context.gi, &report);
         const uint64_t ns = report.passes[PASS_VOXELIZE].gpu_ns;
         best = ns < best ? ns : best;
     }
@@ -467,7 +332,7 @@ static void textures_cost_little(void **state)
 {
     (void)state;
     struct picture p = picture_create(64, 7, checkerboard_at);
-    struct sdfgi_material_desc desc = grey;
+    struct sdfgi_material_desc desc = square_grey;
     const uint64_t plain = voxelize_ns(&desc);
     desc.albedo_texture.view = p.image.view;
     const uint64_t textured = voxelize_ns(&desc);
@@ -491,5 +356,5 @@ int main(void)
         cmocka_unit_test(textures_cost_little),
         cmocka_unit_test(masks_leave_holes_where_alpha_is_below_the_cutoff),
     };
-    return cmocka_run_group_tests_name("voxel_surface", tests, open_context, close_context);
+    return cmocka_run_group_tests_name("voxel_surface", tests, open_context, pass_context_close);
 }
