@@ -111,6 +111,61 @@ static void hard_06_a_full_cascade_has_no_light_cells(void **state)
     test_mesh_destroy(&mesh);
 }
 
+static const enum resource written_by_groups[] = { RESOURCE_LIGHT, RESOURCE_MASKS, RESOURCE_RAYS };
+enum { WRITTEN = sizeof written_by_groups / sizeof *written_by_groups, CANARY = 0xa5 };
+
+static void write_canaries(struct gi_test *t)
+{
+    for (int i = 0; i < WRITTEN; i++) {
+        const struct gpu_buffer *buffer = &t->gi->volume.resources->buffers[written_by_groups[i]];
+        uint8_t *data = test_array_alloc(buffer->size, 1);
+        memset(data, CANARY, buffer->size);
+        gpu_test_buffer_write(&t->gpu, buffer->handle, 0, buffer->size, data);
+        free(data);
+    }
+}
+
+static uint64_t canaries_lost(struct gi_test *t)
+{
+    uint64_t lost = 0;
+    for (int i = 0; i < WRITTEN; i++) {
+        uint64_t size;
+        uint8_t *data = gi_test_read(t, written_by_groups[i], &size);
+        for (uint64_t k = 0; k < size; k++)
+            lost += data[k] != CANARY;
+        free(data);
+    }
+    return lost;
+}
+
+/* Passes over light cells and rays of which there are none: their commands are recorded, and do nothing. */
+static void hard_59_work_of_no_group_writes_nothing(void **state)
+{
+    (void)state;
+    static struct sdfgi_report report;
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 32;
+    struct test_mesh mesh = all_layers(4, 128);
+    pass_scene_open(&pass_context, &settings, &mesh);
+    test_mesh_destroy(&mesh);
+    gi_test_update(&pass_context, 1);
+    write_canaries(&pass_context);
+    const struct sdfgi_light_desc lamp = { .type = SDFGI_LIGHT_DIRECTIONAL,
+                                           .direction = { 0, -1, 0 },
+                                           .intensity = { 1, 1, 1 } };
+    sdfgi_light light;
+    REQUIRE_CMP(sdfgi_light_create(pass_context.gi, &lamp, &light), ==, SDFGI_OK);
+    bool direct = false, traced = false;
+    for (int frame = 0; frame < 4; frame++) {
+        gi_test_update(&pass_context, 1);
+        sdfgi_get_report(pass_context.gi, &report);
+        direct = direct || report.passes[PASS_LIGHT_DIRECT].ran;
+        traced = traced || report.passes[PASS_PROBE_TRACE].ran;
+    }
+    REQUIRE_TRUE(direct && traced);
+    HARD_CASE_AT_MOST(59, "bytes written by no group", canaries_lost(&pass_context), 0);
+}
+
 /* A square whose inset crosses the centre of one sub-voxel and touches no other. */
 static struct test_mesh speck_in_corner(int corner, double half_extent, double sub)
 {
@@ -161,6 +216,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky),
         cmocka_unit_test(hard_06_a_full_cascade_has_no_light_cells),
+        cmocka_unit_test(hard_59_work_of_no_group_writes_nothing),
         cmocka_unit_test(hard_07_a_bit_in_any_corner_is_measured_as_far_as_distances_reach),
     };
     return cmocka_run_group_tests_name("distance_limits", tests, NULL, pass_context_close);

@@ -236,6 +236,54 @@ static void rooms_on_the_grid_are_exact(void **state)
         SDFGI_Y_SCALE_100 }));
 }
 
+/* ---- Coarser cascades */
+
+enum { CASCADES = 3 };
+
+/* A coarser cascade voxelises the triangles anew. About 3 in 10 of the sub-voxels that hold a finer one are
+ * not set, because a separating set leaves out what the surface only touches. No wall is lost for that: a
+ * walk from inside gets out in no cascade. */
+static void check_cascades(struct shape shape)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 32;
+    settings.cascades = CASCADES;
+    settings.y_scale = shape.y_scale;
+    pass_scene_open(&pass_context, &settings, &shape.mesh);
+    for (uint32_t c = 0; c < CASCADES; c++) {
+        struct oracle_bits bits = gi_test_bits(&pass_context, c);
+        const struct oracle_grid grid = gi_test_grid(&pass_context, c);
+        uint32_t seed[3];
+        for (int i = 0; i < 3; i++)
+            seed[i] = (uint32_t)((shape.inside[i] - grid.origin[i]) / grid.step[i]);
+        uint64_t reached = 0;
+        const bool escapes = oracle_bits_walk_escapes(&bits, seed, &reached);
+        printf("%s: cascade %u: %llu sub-voxels inside\n", shape.name, c, (unsigned long long)reached);
+        HARD_CASE_AT_MOST(63, "walks that leave a closed mesh in a cascade", escapes ? 1 : 0, 0);
+        REQUIRE_CMP(reached, >, 50ul);
+        oracle_bits_destroy(&bits);
+    }
+    test_mesh_destroy(&shape.mesh);
+}
+
+static void hard_63_walls_separate_in_coarser_cascades_too(void **state)
+{
+    (void)state;
+    static const double inside[3] = { 2.3, 0, 0 }, zero[3] = { 0, 0, 0 };
+    double turned[9];
+    test_rotation((double[]){ 0, 1, 1 }, 0.4, turned);
+    check_cascades(sphere(SDFGI_Y_SCALE_100));
+    check_cascades(room_of(
+        (struct shape){ "flat room", test_mesh_sphere(center, 1.7, 4), center, usual, SDFGI_Y_SCALE_50 }));
+    check_cascades(
+        room_of((struct shape){ "turned room", test_mesh_box(center, (double[]){ 1.2, 1.1, 1.3 }, turned),
+                                center, usual, SDFGI_Y_SCALE_75 }));
+    check_cascades((struct shape){ "bumpy sphere", test_mesh_bumpy_sphere(center, 2.8, 0.2, 5), center, usual,
+                                   SDFGI_Y_SCALE_100 });
+    check_cascades((struct shape){ "torus", test_mesh_torus(zero, 2.3, 1.3, turned, 64, 32), inside, usual,
+                                   SDFGI_Y_SCALE_100 });
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -251,6 +299,7 @@ int main(void)
         cmocka_unit_test(hard_62_flat_cells_are_watertight_too),
         cmocka_unit_test(hard_13_rooms_are_watertight_and_keep_their_size),
         cmocka_unit_test(rooms_on_the_grid_are_exact),
+        cmocka_unit_test(hard_63_walls_separate_in_coarser_cascades_too),
     };
     return cmocka_run_group_tests_name("voxel_bits", tests, NULL, pass_context_close);
 }
