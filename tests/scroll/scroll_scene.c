@@ -5,6 +5,7 @@
 #include "require.h"
 #include "test_memory.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 bool scroll_is_full(void)
@@ -116,98 +117,110 @@ uint32_t scroll_settle(struct gi_test *t)
     return 0;
 }
 
-static void require_same_bytes(struct gi_test *a, struct gi_test *b, enum resource resource, const char *what)
+/* Elements that differ, and the first; says so. */
+struct difference {
+    uint64_t count, first;
+};
+
+static void difference_add(struct difference *d, uint64_t element)
+{
+    d->first = d->count++ ? d->first : element;
+}
+
+static uint64_t difference_tell(const struct difference *d, const char *what, const char *of)
+{
+    if (d->count)
+        printf("%s: %s: %llu differ, first %llu\n", what, of, (unsigned long long)d->count,
+               (unsigned long long)d->first);
+    return d->count;
+}
+
+static uint64_t bytes_differ(struct gi_test *a, struct gi_test *b, enum resource resource, const char *what)
 {
     uint64_t size;
     uint8_t *x = gi_test_read(a, resource, &size), *y = gi_test_read(b, resource, NULL);
-    uint64_t differ = 0, first = 0;
-    for (uint64_t i = size; i-- > 0;)
-        if (x[i] != y[i]) {
-            differ++;
-            first = i;
-        }
-    if (differ)
-        require_fail(__FILE__, __LINE__, "%s: %s: %llu of %llu bytes differ, first at %llu: %#x and %#x",
-                     what, sdfgi_resource_row(resource)->name, (unsigned long long)differ,
-                     (unsigned long long)size, (unsigned long long)first, x[first], y[first]);
+    struct difference d = { 0 };
+    for (uint64_t i = 0; i < size; i++)
+        if (x[i] != y[i])
+            difference_add(&d, i);
     free(x);
     free(y);
+    return difference_tell(&d, what, sdfgi_resource_row(resource)->name);
 }
 
-/* Words of a buffer under a mask: one that tells probes and light cells, not what they hold. */
-static void require_same_words(struct gi_test *a, struct gi_test *b, enum resource resource, uint64_t stride,
-                               uint64_t word, uint32_t mask, const char *what)
+/* Of probes: where they stand and how they are linked, not whether they are new. */
+static uint64_t probes_differ(struct gi_test *a, struct gi_test *b, const char *what)
 {
-    uint64_t size, differ = 0, first = 0;
-    uint32_t *x = gi_test_read(a, resource, &size), *y = gi_test_read(b, resource, NULL);
-    for (uint64_t i = size / 4 / stride; i-- > 0;)
-        if ((x[i * stride + word] ^ y[i * stride + word]) & mask) {
-            differ++;
-            first = i;
-        }
-    if (differ)
-        require_fail(__FILE__, __LINE__, "%s: %s: %llu elements differ, first %llu: %#x and %#x", what,
-                     sdfgi_resource_row(resource)->name, (unsigned long long)differ,
-                     (unsigned long long)first, x[first * stride + word], y[first * stride + word]);
+    uint64_t size;
+    uint32_t *x = gi_test_read(a, RESOURCE_PROBES, &size), *y = gi_test_read(b, RESOURCE_PROBES, NULL);
+    struct difference d = { 0 };
+    for (uint64_t i = 0; i < size / 4; i++)
+        if ((x[i] ^ y[i]) & ~SDFGI_PROBE_NEW)
+            difference_add(&d, i);
     free(x);
     free(y);
+    return difference_tell(&d, what, "probes");
 }
 
-static void require_same_list(struct gi_test *a, struct gi_test *b, const char *what)
+static uint64_t lists_differ(struct gi_test *a, struct gi_test *b, const char *what)
 {
     uint32_t *x = gi_test_read(a, RESOURCE_LIGHT_CELLS, NULL),
              *y = gi_test_read(b, RESOURCE_LIGHT_CELLS, NULL);
     uint32_t *m = gi_test_read(a, RESOURCE_COUNTERS, NULL), *n = gi_test_read(b, RESOURCE_COUNTERS, NULL);
     const uint64_t room = a->gi->volume.resources->extent.light_cells;
+    struct difference counts = { 0 }, words = { 0 };
     REQUIRE_CMP(room, ==, b->gi->volume.resources->extent.light_cells);
     for (uint32_t c = 0; c < a->gi->settings.cascades; c++) {
         const uint32_t count = m[SDFGI_COUNTER_LIGHT_CELLS + c];
         if (count != n[SDFGI_COUNTER_LIGHT_CELLS + c])
-            require_fail(__FILE__, __LINE__, "%s: cascade %u: %u and %u light cells", what, c, count,
-                         n[SDFGI_COUNTER_LIGHT_CELLS + c]);
+            difference_add(&counts, c);
         for (uint64_t i = 3 * c * room; i < 3 * (c * room + count); i++)
             if (x[i] != y[i])
-                require_fail(__FILE__, __LINE__, "%s: cascade %u: light cell %llu, word %llu: %#x and %#x",
-                             what, c, (unsigned long long)(i / 3 - c * room), (unsigned long long)(i % 3),
-                             x[i], y[i]);
+                difference_add(&words, i);
     }
     free(x);
     free(y);
     free(m);
     free(n);
+    return difference_tell(&counts, what, "numbers of light cells") +
+           difference_tell(&words, what, "words of light cells");
 }
 
 /* Those of probes that are dead are not read. */
-static void require_same_depths(struct gi_test *a, struct gi_test *b, const char *what)
+static uint64_t depths_differ(struct gi_test *a, struct gi_test *b, const char *what)
 {
     enum { WORDS = SDFGI_OCCLUSION_STRIDE * SDFGI_OCCLUSION_STRIDE };
     const uint64_t probes = a->gi->volume.resources->extent.probes * a->gi->settings.cascades;
     uint32_t *x = gi_test_read(a, RESOURCE_OCCLUSION, NULL), *y = gi_test_read(b, RESOURCE_OCCLUSION, NULL);
     uint32_t *states = gi_test_read(a, RESOURCE_PROBES, NULL);
+    struct difference d = { 0 };
     for (uint64_t i = 0; i < probes * WORDS; i++)
         if (!(states[i / WORDS] & SDFGI_PROBE_DEAD) && x[i] != y[i])
-            require_fail(__FILE__, __LINE__, "%s: probe %llu, texel %llu of its depths: %#x and %#x", what,
-                         (unsigned long long)(i / WORDS), (unsigned long long)(i % WORDS), x[i], y[i]);
+            difference_add(&d, i);
     free(x);
     free(y);
     free(states);
+    return difference_tell(&d, what, "texels of depths");
 }
 
-void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what)
+uint64_t scroll_differences(struct gi_test *walked, struct gi_test *fresh, const char *what)
 {
     for (uint32_t c = 0; c < walked->gi->settings.cascades; c++)
         REQUIRE_BYTES(walked->gi->volume.state.cascades.at[c].origin,
                       fresh->gi->volume.state.cascades.at[c].origin,
                       sizeof walked->gi->volume.state.cascades.at[c].origin);
-    static const enum resource whole[] = { RESOURCE_BITS, RESOURCE_DISTANCE, RESOURCE_ALBEDO,
-                                           RESOURCE_EMISSION, RESOURCE_NORMALS };
+    static const enum resource whole[] = { RESOURCE_BITS,     RESOURCE_DISTANCE, RESOURCE_ALBEDO,
+                                           RESOURCE_EMISSION, RESOURCE_NORMALS,  RESOURCE_LIGHT_BLOCKS };
+    const bool depths = walked->gi->settings.visibility == SDFGI_VISIBILITY_PROBE_DEPTH;
+    uint64_t count = probes_differ(walked, fresh, what) + lists_differ(walked, fresh, what);
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
-        require_same_bytes(walked, fresh, whole[i], what);
-    require_same_words(walked, fresh, RESOURCE_PROBES, 1, 0, ~SDFGI_PROBE_NEW, what);
-    require_same_bytes(walked, fresh, RESOURCE_LIGHT_BLOCKS, what);
-    if (walked->gi->settings.visibility != SDFGI_VISIBILITY_PROBE_DEPTH) /* or else nobody writes them */
-        require_same_bytes(walked, fresh, RESOURCE_MASKS, what);
-    require_same_list(walked, fresh, what);
-    if (walked->gi->settings.visibility == SDFGI_VISIBILITY_PROBE_DEPTH)
-        require_same_depths(walked, fresh, what);
+        count += bytes_differ(walked, fresh, whole[i], what);
+    /* With depths nobody writes masks. */
+    return count +
+           (depths ? depths_differ(walked, fresh, what) : bytes_differ(walked, fresh, RESOURCE_MASKS, what));
+}
+
+void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what)
+{
+    REQUIRE_CMP(scroll_differences(walked, fresh, what), ==, 0ul);
 }

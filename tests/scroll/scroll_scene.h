@@ -32,7 +32,8 @@ uint32_t scroll_settle(struct gi_test *t);
 
 /* What cascades hold, light aside: bits, distances, albedo, emission, normals, masks, where probes stand,
  * which cells are light cells, their list with direct light, and, where there are any, depths around probes.
- */
+ * The first returns how many elements differ, and says which. */
+uint64_t scroll_differences(struct gi_test *walked, struct gi_test *fresh, const char *what);
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what);
 
 #endif

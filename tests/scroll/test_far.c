@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The same scene far from the world's origin gives the same volumes and the same light (HARD_CASES rows 25
  * and 26). */
+#include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
 #include "scroll_scene.h"
@@ -67,14 +68,39 @@ static void look(struct gi_test *t, float (*light)[3])
     gi_test_irradiance(t, points, POINTS, light);
 }
 
-static void require_same(struct gi_test *a, struct gi_test *b, enum resource resource, double shift)
+static uint64_t bytes_differ(struct gi_test *a, struct gi_test *b, enum resource resource)
 {
-    uint64_t size;
+    uint64_t size, count = 0;
     uint8_t *x = gi_test_read(a, resource, &size), *y = gi_test_read(b, resource, NULL);
-    if (memcmp(x, y, size) != 0)
-        require_fail(__FILE__, __LINE__, "%s differs %g m away", sdfgi_resource_row(resource)->name, shift);
+    for (uint64_t i = 0; i < size; i++)
+        count += x[i] != y[i];
+    if (count > 0)
+        printf("%s: %llu bytes differ\n", sdfgi_resource_row(resource)->name, (unsigned long long)count);
     free(x);
     free(y);
+    return count;
+}
+
+static uint64_t volumes_differ(struct gi_test *a, struct gi_test *b)
+{
+    static const enum resource volumes[] = { RESOURCE_BITS, RESOURCE_DISTANCE, RESOURCE_ALBEDO,
+                                             RESOURCE_NORMALS, RESOURCE_MASKS };
+    uint64_t count = 0;
+    for (size_t i = 0; i < sizeof volumes / sizeof *volumes; i++)
+        count += bytes_differ(a, b, volumes[i]);
+    return count;
+}
+
+/* The same place in a context far away: at a point, the light is at most so much off. */
+static double light_off(struct gi_test *there, double shift, const float (*near_light)[3])
+{
+    float light[POINTS][3];
+    double worst = 0;
+    look(there, light);
+    for (int p = 0; p < POINTS; p++)
+        worst = fmax(worst, fabs((double)light[p][1] / (double)near_light[p][1] - 1));
+    printf("%g m away: light within %.2e\n", shift, worst);
+    return worst;
 }
 
 /* Whole cascades away, so that the same texels hold the same cells and hashed places repeat. */
@@ -84,22 +110,58 @@ static void hard_26_far_away_is_the_same(void **state)
     static struct gi_test here, there;
     const struct sdfgi_settings settings = scroll_settings(scroll_resolution());
     open_at(&here, &settings, 0);
-    float near_light[POINTS][3], far_light[POINTS][3];
+    float near_light[POINTS][3];
     look(&here, near_light);
     static const double shifts[] = { 1024, -131072, 16777216 };
     for (size_t i = 0; i < sizeof shifts / sizeof *shifts; i++) {
         open_at(&there, &settings, shifts[i]);
-        require_same(&here, &there, RESOURCE_BITS, shifts[i]);
-        require_same(&here, &there, RESOURCE_DISTANCE, shifts[i]);
-        require_same(&here, &there, RESOURCE_ALBEDO, shifts[i]);
-        require_same(&here, &there, RESOURCE_NORMALS, shifts[i]);
-        require_same(&here, &there, RESOURCE_MASKS, shifts[i]);
-        look(&there, far_light);
-        double worst = 0;
-        for (int p = 0; p < POINTS; p++)
-            worst = fmax(worst, fabs((double)far_light[p][1] / (double)near_light[p][1] - 1));
-        printf("%g m away: volumes identical, light within %.2e\n", shifts[i], worst);
-        REQUIRE_CMP(worst, <=, 1e-5);
+        HARD_CASE_AT_MOST(26, "bytes of volumes that differ", volumes_differ(&here, &there), 0);
+        HARD_CASE_AT_MOST(26, "light off, relative, where hashes repeat",
+                          light_off(&there, shifts[i], (const float(*)[3])near_light), 1e-5);
+        gi_test_close(&there);
+    }
+    gi_test_close(&here);
+}
+
+static double rms_off(struct gi_test *there, const float (*near_light)[3])
+{
+    float light[POINTS][3];
+    double sum = 0;
+    look(there, light);
+    for (int p = 0; p < POINTS; p++) {
+        const double off = (double)light[p][1] / (double)near_light[p][1] - 1;
+        sum += off * off / POINTS;
+    }
+    return sqrt(sum);
+}
+
+/* Places where the same texels hold the same cells, but where hashes of probes' places do not repeat: the
+ * volumes are the same there, and the light is as far off as with another seed. Measured in pictures: 0.47 to
+ * 1.12 times as far (test_far_pictures.c). */
+static void hard_26_elsewhere_only_the_noise_is_another(void **state)
+{
+    (void)state;
+    if (!scroll_is_full())
+        skip();
+    static struct gi_test here, there;
+    const struct sdfgi_settings settings = scroll_settings(64);
+    open_at(&here, &settings, 0);
+    float near_light[POINTS][3];
+    look(&here, near_light);
+    open_at(&there, &settings, 0);
+    there.frame.seed = 77;
+    gi_test_update(&there, 2);
+    gi_test_converge(&there, 400);
+    const double noise = rms_off(&there, (const float(*)[3])near_light);
+    gi_test_close(&there);
+    static const double shifts[] = { 1024 + 128, 16777216 - 128 };
+    for (size_t i = 0; i < sizeof shifts / sizeof *shifts; i++) {
+        open_at(&there, &settings, shifts[i]);
+        HARD_CASE_AT_MOST(26, "bytes of volumes that differ", volumes_differ(&here, &there), 0);
+        const double off = rms_off(&there, (const float(*)[3])near_light);
+        printf("%g m away: light off by %.2e rms, by %.2e with another seed\n", shifts[i], off, noise);
+        HARD_CASE_AT_MOST(26, "light off where hashes do not repeat, over that of another seed", off / noise,
+                          2);
         gi_test_close(&there);
     }
     gi_test_close(&here);
@@ -109,6 +171,9 @@ int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(hard_26_far_away_is_the_same) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_26_far_away_is_the_same),
+        cmocka_unit_test(hard_26_elsewhere_only_the_noise_is_another),
+    };
     return cmocka_run_group_tests_name("scroll_far", tests, NULL, NULL);
 }
