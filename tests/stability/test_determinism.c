@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The same input gives the same bits: in another context, after switching off and on, and whatever memory
  * held before (HARD_CASES row 58). */
+#include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
 #include "test_memory.h"
@@ -97,20 +98,27 @@ static struct snapshot take(struct gi_test *t)
     return s;
 }
 
+static uint64_t bytes_differ(const void *a, const void *b, uint64_t size, const char *name)
+{
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < size; i++)
+        count += ((const uint8_t *)a)[i] != ((const uint8_t *)b)[i];
+    if (count > 0)
+        printf("%s: %llu bytes differ\n", name, (unsigned long long)count);
+    return count;
+}
+
 static void require_same(struct snapshot *a, struct snapshot *b)
 {
+    uint64_t differ = bytes_differ(a->irradiance, b->irradiance, sizeof a->irradiance, "light");
     for (int i = 0; i < COMPARED; i++) {
         REQUIRE_CMP(a->sizes[i], ==, b->sizes[i]);
-        if (memcmp(a->buffers[i], b->buffers[i], a->sizes[i]) != 0)
-            printf("%s differs\n", sdfgi_resource_row(compared[i])->name);
-    }
-    for (int i = 0; i < COMPARED; i++)
-        REQUIRE_BYTES(a->buffers[i], b->buffers[i], a->sizes[i]);
-    REQUIRE_BYTES(a->irradiance, b->irradiance, sizeof a->irradiance);
-    for (int i = 0; i < COMPARED; i++) {
+        differ +=
+            bytes_differ(a->buffers[i], b->buffers[i], a->sizes[i], sdfgi_resource_row(compared[i])->name);
         free(a->buffers[i]);
         free(b->buffers[i]);
     }
+    HARD_CASE_AT_MOST(58, "bytes that differ", differ, 0);
 }
 
 static struct snapshot run_fresh(uint32_t first_row)
