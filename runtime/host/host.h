@@ -116,7 +116,7 @@ struct host_renderer_desc {
     uint32_t width, height;                /* [1, 16384] after supersampling */
     uint32_t supersample;                  /* samples along each side of a pixel, [1, 4]; 0: 1 */
     const struct sdfgi_settings *settings; /* NULL: defaults, that is, GI is off */
-    struct sdfgi_log log;                  /* messages of the library */
+    struct sdfgi_log log; /* warnings of the library, and less; its errors are in host_device_error() */
     uint32_t seed;
     float gi_exposure; /* sdfgi_frame_desc::exposure */
     enum host_lookup lookup;

@@ -89,17 +89,25 @@ static bool validation_wanted(const struct host_device_desc *desc)
     return desc->validation || (value && strcmp(value, "") != 0 && strcmp(value, "0") != 0);
 }
 
-static bool validation_available(void)
+static bool validation_check(struct host_device *device)
 {
     VkLayerProperties layers[64];
     uint32_t count = HOST_COUNT(layers);
-    if (vkEnumerateInstanceLayerProperties(&count, layers) < 0)
+    if (!host_check(device, vkEnumerateInstanceLayerProperties(&count, layers), "listing the layers"))
         return false;
     for (uint32_t i = 0; i < count; i++) {
         if (strcmp(layers[i].layerName, validation_layer) == 0)
             return true;
     }
-    return false;
+    return host_fail(device, "validation was asked for, but %s is not installed", validation_layer);
+}
+
+/* Where there is no driver, the loader makes no instance or an instance without devices. */
+static bool driver_check(struct host_device *device, VkResult result, const char *what)
+{
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED)
+        return host_fail(device, no_device);
+    return host_check(device, result, what);
 }
 
 static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct host_device *device)
@@ -116,7 +124,9 @@ static VkDebugUtilsMessengerCreateInfoEXT messenger_info(struct host_device *dev
 
 static bool instance_version(struct host_device *device, uint32_t *version)
 {
-    if (vkEnumerateInstanceVersion(version) < 0 || *version < VK_API_VERSION_1_2)
+    if (!host_check(device, vkEnumerateInstanceVersion(version), "reading the version of Vulkan"))
+        return false;
+    if (*version < VK_API_VERSION_1_2)
         return host_fail(device, "the Vulkan loader is older than 1.2");
     *version = *version >= VK_API_VERSION_1_3 ? VK_API_VERSION_1_3 : VK_API_VERSION_1_2;
     return true;
@@ -134,16 +144,14 @@ static bool instance_create_plain(struct host_device *device, uint32_t version,
         .enabledExtensionCount = desc->instance_extension_count,
         .ppEnabledExtensionNames = desc->instance_extensions,
     };
-    if (vkCreateInstance(&info, NULL, &device->instance) < 0)
-        return host_fail(device, no_device);
-    return true;
+    return driver_check(device, vkCreateInstance(&info, NULL, &device->instance), "creating the instance");
 }
 
 static bool instance_create_validated(struct host_device *device, uint32_t version,
                                       const struct host_device_desc *desc)
 {
-    if (!validation_available())
-        return host_fail(device, "validation was asked for, but %s is not installed", validation_layer);
+    if (!validation_check(device))
+        return false;
     const char *extensions[16];
     uint32_t count = 0;
     for (; count < desc->instance_extension_count && count < HOST_COUNT(extensions) - 1; count++)
@@ -173,8 +181,8 @@ static bool instance_create_validated(struct host_device *device, uint32_t versi
         .enabledExtensionCount = count,
         .ppEnabledExtensionNames = extensions,
     };
-    if (vkCreateInstance(&info, NULL, &device->instance) < 0)
-        return host_fail(device, no_device);
+    if (!driver_check(device, vkCreateInstance(&info, NULL, &device->instance), "creating the instance"))
+        return false;
     const PFN_vkCreateDebugUtilsMessengerEXT create =
         (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(device->instance,
                                                                   "vkCreateDebugUtilsMessengerEXT");
@@ -300,10 +308,11 @@ enum { MAX_DEVICES = 32 };
 static uint32_t enumerate(struct host_device *device, VkPhysicalDevice physical[MAX_DEVICES])
 {
     uint32_t count = MAX_DEVICES;
-    if (vkEnumeratePhysicalDevices(device->instance, &count, physical) < 0 || count == 0) {
-        host_fail(device, no_device);
+    if (!driver_check(device, vkEnumeratePhysicalDevices(device->instance, &count, physical),
+                      "listing the devices"))
         return 0;
-    }
+    if (count == 0)
+        host_fail(device, no_device);
     return count;
 }
 

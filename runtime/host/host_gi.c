@@ -17,9 +17,10 @@ struct host_gi {
 static void message_received(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
 {
     struct host_gi *gi = user;
+    /* An error comes with a result that says so: whoever gets that prints it, and prints it once. */
     if (level == SDFGI_LOG_ERROR)
         snprintf(gi->last_error, sizeof(gi->last_error), "%s", text);
-    if (gi->log.fn)
+    else if (gi->log.fn)
         gi->log.fn(gi->log.user, level, id, text);
 }
 
