@@ -11,6 +11,7 @@
 #include "schema.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <memory>
 
@@ -42,8 +43,11 @@ bool extension_is_supported(const char *name)
 json_ptr json_parse(const container &box)
 {
     const char *end = nullptr;
+    errno = 0; // all that tells text that is broken from a tree that finds no memory
     json_ptr json(cJSON_ParseWithLengthOpts(box.json, box.json_size, &end, false));
     const char *const limit = box.json + box.json_size;
+    if (!json && errno == ENOMEM)
+        throw std::bad_alloc();
     if (!json)
         fail("the JSON is broken near byte %zu", end == nullptr ? 0 : static_cast<size_t>(end - box.json));
     while (end < limit && (*end == '\0' || strchr(" \t\r\n", *end) != nullptr))
@@ -198,6 +202,9 @@ void model_parse(importer &in, std::vector<bytes> &buffers, const cJSON *documen
         fail("the JSON is larger than 4 GiB");
     const bool parsed = parser.LoadASCIIFromString(&in.model, &error, &warning, text.get(),
                                                    static_cast<unsigned>(size), "", tinygltf::NO_REQUIRE);
+    // It catches what has no memory, and gives only the name of it.
+    if (error.find(std::bad_alloc().what()) != std::string::npos)
+        throw std::bad_alloc();
     if (!parsed || !error.empty())
         fail("%s", error.empty() ? "the parser gave up without a reason" : error.c_str());
 }

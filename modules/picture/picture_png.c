@@ -2,6 +2,7 @@
 #include "picture_png.h"
 
 #include <base/text.h>
+#include <errno.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -134,7 +135,10 @@ bool picture_png_read(struct picture_png *png, const uint8_t *bytes, size_t size
     base_text_error(error, error_size, "out of memory");
     decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, stop, ignore);
     decoder.info = decoder.png ? png_create_info_struct(decoder.png) : NULL;
+    errno = 0;
     const bool complete = decoder.info && decode(&decoder, bytes);
+    if (!complete && errno == ENOMEM) /* inflating without memory is reported as data that is broken */
+        base_text_error(error, error_size, "out of memory");
     png_destroy_read_struct(&decoder.png, &decoder.info, NULL);
     if (complete)
         return true;

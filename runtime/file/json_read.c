@@ -4,6 +4,7 @@
 #include "input_file.h"
 
 #include <base/text.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -58,8 +59,11 @@ cJSON *json_load(const struct json_place *place)
         return NULL;
     const char *end = text;
     /* A byte of zero inside the text would hide what follows it. */
+    errno = 0; /* all that tells text that is broken from a tree that finds no memory */
     cJSON *json = strlen(text) == size ? cJSON_ParseWithOpts(text, &end, true) : NULL;
-    if (!json)
+    if (!json && errno == ENOMEM)
+        json_fail(place, "", "out of memory");
+    else if (!json)
         json_fail(place, "", "broken JSON in line %u",
                   line_of(text, strlen(text) == size ? end : text + strlen(text)));
     free(text);

@@ -20,6 +20,14 @@ cJSON *json_add_element(cJSON *array)
     return NULL;
 }
 
+bool json_add_item(cJSON *object, const char *name, cJSON *item)
+{
+    if (item && cJSON_AddItemToObject(object, name, item))
+        return true;
+    cJSON_Delete(item);
+    return false;
+}
+
 bool json_add_number(cJSON *object, const char *name, double value)
 {
     return (isfinite(value) ? cJSON_AddNumberToObject(object, name, value)

@@ -12,6 +12,9 @@
 cJSON *json_add_object(cJSON *parent, const char *name);
 cJSON *json_add_element(cJSON *array);
 
+/* Takes `item` over, and deletes it where it cannot be added; NULL stands for want of memory. */
+bool json_add_item(cJSON *object, const char *name, cJSON *item);
+
 /* null where the number is not finite, or the text NULL. */
 bool json_add_number(cJSON *object, const char *name, double value);
 bool json_add_text(cJSON *object, const char *name, const char *text);

@@ -38,10 +38,8 @@ static bool add_gi(cJSON *json, const struct report *report, const struct report
 {
     cJSON *gi = json_add_object(json, "gi");
     cJSON *settings = report_settings_to_json(&summary->settings);
-    if (!settings || !cJSON_AddItemToObject(gi, "settings", settings)) {
-        cJSON_Delete(settings);
+    if (!json_add_item(gi, "settings", settings))
         return false;
-    }
     return cJSON_AddBoolToObject(gi, "enabled", summary->settings.enabled) &&
            cJSON_AddBoolToObject(gi, "converged", report->last.converged) &&
            json_add_number(gi, "converged_fraction", (double)report->last.converged_fraction);
@@ -116,10 +114,8 @@ static bool add_run(cJSON *json, const struct report *report, const struct repor
     cJSON *device = json_add_object(json, "device");
     const int size[2] = { (int)summary->width, (int)summary->height };
     cJSON *size_json = cJSON_CreateIntArray(size, 2);
-    if (!size_json || !cJSON_AddItemToObject(json, "size", size_json)) {
-        cJSON_Delete(size_json);
+    if (!json_add_item(json, "size", size_json))
         return false;
-    }
     return json_add_text(device, "name", summary->device_name) &&
            json_add_text(device, "driver", summary->device_driver) &&
            json_add_text(device, "type", summary->device_type) &&

@@ -8,7 +8,7 @@
 
 static bool add_vector(cJSON *object, const char *name, const double values[3])
 {
-    return cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray(values, 3));
+    return json_add_item(object, name, cJSON_CreateDoubleArray(values, 3));
 }
 
 static bool add_float_vector(cJSON *object, const char *name, const float values[3])
@@ -25,14 +25,12 @@ static bool add_run(cJSON *json, const struct walk_record *record, const struct 
     const int size[2] = { (int)run->width, (int)run->height };
     cJSON *device = json_add_object(json, "device");
     cJSON *settings = report_settings_to_json(&run->settings);
-    if (!settings || !cJSON_AddItemToObject(json, "settings", settings)) {
-        cJSON_Delete(settings);
+    if (!json_add_item(json, "settings", settings))
         return false;
-    }
     return json_add_text(device, "name", run->device_name) &&
            json_add_text(device, "driver", run->device_driver) &&
            json_add_text(device, "type", run->device_type) &&
-           cJSON_AddItemToObject(json, "size", cJSON_CreateIntArray(size, 2)) &&
+           json_add_item(json, "size", cJSON_CreateIntArray(size, 2)) &&
            json_add_number(json, "seconds", run->seconds) &&
            json_add_number(json, "estimated_bytes", (double)run->estimated_bytes) &&
            json_add_number(json, "validation_messages", run->validation_messages) &&
