@@ -163,11 +163,12 @@ static enum walk_plot_result draw(FILE *script, FILE *plot, const char *path, ch
     const int failure = run_gnuplot(script, plot);
     if (!failure)
         return WALK_PLOT_WRITTEN;
-    base_text_error(error, error_size, "%s: no plot: gnuplot %s", path,
+    base_text_error(error, error_size, "%s: no plot: gnuplot %s%s", path,
                     failure == ENOENT ? "is not installed"
-                    : failure > 0     ? strerror(failure)
-                                      : "failed");
-    return WALK_PLOT_NO_GNUPLOT;
+                    : failure > 0     ? "cannot be started: "
+                                      : "failed",
+                    failure > 0 && failure != ENOENT ? strerror(failure) : "");
+    return failure > 0 && failure != ENOENT ? WALK_PLOT_NOT_WRITTEN : WALK_PLOT_NO_GNUPLOT;
 }
 
 /* ---- Its place -------------------------------------------------------------------------------------- */
