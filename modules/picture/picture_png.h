@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * PNG files, from bytes in memory. Time and memory are bounded by the size of the picture, and that by the
- * size of the file: image data beyond the last row is never inflated, and texts and profiles are skipped. */
+ * PNG files, from bytes in memory, and into streams. When they are read, time and memory are bounded by the
+ * size of the picture, and that by the size of the file: image data beyond the last row is never inflated,
+ * and texts and profiles are skipped. */
 #ifndef PICTURE_PNG_H
 #define PICTURE_PNG_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,6 +28,11 @@ bool picture_png_size(const uint8_t *bytes, size_t size, uint32_t *width, uint32
  * failure returns false with one line in `error`, and `png` is empty. */
 bool picture_png_read(struct picture_png *png, const uint8_t *bytes, size_t size, bool deep, char *error,
                       size_t error_size);
+
+/* Encodes the first 1, 3 or 4 channels of RGBA. On failure returns false with one line in `error`; what
+ * cannot be written shows when the stream is flushed. */
+bool picture_png_write(FILE *stream, const uint8_t *rgba, uint32_t width, uint32_t height, uint32_t channels,
+                       char *error, size_t error_size);
 
 #ifdef __cplusplus
 }

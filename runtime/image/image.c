@@ -5,6 +5,7 @@
 #include "file/output_file.h"
 
 #include <base/text.h>
+#include <picture/picture_png.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -124,8 +125,9 @@ bool image_write_png(const char *path, const uint8_t *rgba, uint32_t width, uint
     struct output_file file;
     if (!output_file_begin(&file, path, error, error_size))
         return false;
-    if (image_png_write(rgba, width, height, channels, file.stream))
+    char reason[256];
+    if (picture_png_write(file.stream, rgba, width, height, channels, reason, sizeof reason))
         return output_file_commit(&file, error, error_size);
     output_file_cancel(&file);
-    return base_text_error(error, error_size, "%s: out of memory", path);
+    return base_text_error(error, error_size, "%s: %s", path, reason);
 }

@@ -32,7 +32,5 @@ bool image_hdr_write(const struct image_source *source, FILE *stream, char *erro
 bool image_pfm_read(struct image *image, const struct image_input *input, char *error, size_t error_size);
 bool image_pfm_write(const struct image_source *source, FILE *stream, char *error, size_t error_size);
 bool image_png_read(struct image *image, const struct image_input *input, char *error, size_t error_size);
-/* From bytes; false when memory runs out. */
-bool image_png_write(const uint8_t *rgba, uint32_t width, uint32_t height, uint32_t channels, FILE *stream);
 
 #endif

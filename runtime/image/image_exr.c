@@ -3,6 +3,7 @@
 #include "image_codec.h"
 
 #include <base/text.h>
+#include <errno.h>
 #include <openexr.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@ struct stream {
     char message[MESSAGE_BYTES];
 };
 
+/* Of contexts that read: those that write call it locked, and asking them for their stream waits for ever. */
 static void keep_message(exr_const_context_t context, exr_result_t code, const char *text)
 {
     void *user = NULL;
@@ -26,13 +28,22 @@ static void keep_message(exr_const_context_t context, exr_result_t code, const c
         base_text_error(((struct stream *)user)->message, MESSAGE_BYTES, "%s", text);
 }
 
+static void ignore_message(exr_const_context_t context, exr_result_t code, const char *text)
+{
+    (void)context;
+    (void)code;
+    (void)text;
+}
+
 static int64_t write_bytes(exr_const_context_t context, void *user, const void *bytes, uint64_t size,
                            uint64_t offset, exr_stream_error_func_ptr_t report)
 {
-    FILE *file = ((struct stream *)user)->file;
-    if (fseeko(file, (off_t)offset, SEEK_SET) == 0 && fwrite(bytes, 1, size, file) == size)
+    struct stream *stream = user;
+    (void)context;
+    (void)report;
+    if (fseeko(stream->file, (off_t)offset, SEEK_SET) == 0 && fwrite(bytes, 1, size, stream->file) == size)
         return (int64_t)size;
-    report(context, EXR_ERR_WRITE_IO, "the disk does not take any more");
+    base_text_error(stream->message, MESSAGE_BYTES, "the disk does not take any more");
     return -1;
 }
 
@@ -48,8 +59,11 @@ static exr_context_initializer_t initializer(struct stream *stream)
 
 static bool fail(const struct stream *stream, exr_result_t code, char *error, size_t error_size)
 {
-    return base_text_error(error, error_size, "%s",
-                           stream->message[0] ? stream->message : exr_get_default_error_message(code));
+    /* Compressors without memory are reported as data that is broken. */
+    const char *reason = code == EXR_ERR_OUT_OF_MEMORY || errno == ENOMEM ? "out of memory"
+                         : stream->message[0]                             ? stream->message
+                                              : exr_get_default_error_message(code);
+    return base_text_error(error, error_size, "%s", reason);
 }
 
 /* ---- Reading ---------------------------------------------------------------------------------------- */
@@ -170,6 +184,7 @@ bool image_exr_read(struct image *image, const struct image_input *input, char *
     struct stream stream = { 0 };
     const exr_context_initializer_t init = initializer(&stream);
     exr_context_t context;
+    errno = 0;
     const exr_result_t code = exr_start_read(&context, input->path, &init);
     if (code != EXR_ERR_SUCCESS)
         return fail(&stream, code, error, error_size);
@@ -234,6 +249,8 @@ bool image_exr_write(const struct image_source *source, FILE *file, char *error,
     struct stream stream = { .file = file };
     exr_context_initializer_t init = initializer(&stream);
     init.write_fn = write_bytes;
+    init.error_handler_fn = ignore_message;
+    errno = 0;
     exr_context_t context;
     exr_result_t code = exr_start_write(&context, "picture", EXR_WRITE_FILE_DIRECTLY, &init);
     if (code != EXR_ERR_SUCCESS)

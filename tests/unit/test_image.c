@@ -75,6 +75,30 @@ static void hdr_is_off_by_less_than_its_shared_exponent_allows(void **state)
     image_finish(&image);
 }
 
+/* Powers of two are exact. Runs of every length that a row can begin, and values that have no exponent. */
+static void hdr_runs_come_back_as_they_were(void **state)
+{
+    (void)state;
+    enum { LENGTHS = 5, ROW = 300 };
+    static const int lengths[LENGTHS] = { 1, 2, 3, 127, 128 };
+    static float row[4 * ROW];
+    for (int x = 0, run = 0, left = 0; x < ROW; x++, left--) {
+        if (left == 0)
+            left = lengths[run++ % LENGTHS];
+        for (int c = 0; c < 3; c++)
+            row[4 * x + c] = ldexpf(1, run + c);
+    }
+    memcpy(row + 4 * 290, (float[12]){ 0, 0, 0, 0, INFINITY, 0, 0, 0, NAN, -1, 1e-39f, 0 }, 12 * sizeof *row);
+    struct image image;
+    if (!image_write_float(files_path("r.hdr"), row, ROW, 1, 3, error, sizeof error) ||
+        !image_read(&image, files_path("r.hdr"), error, sizeof error))
+        fail_msg("%s", error);
+    for (int i = 0; i < 4 * 290; i++)
+        assert_true(i % 4 == 3 || image.rgba[i] == row[i]);
+    assert_true(image.rgba[4 * 290] == 0 && image.rgba[4 * 291] > 9e37f && image.rgba[4 * 292] == 0);
+    image_finish(&image);
+}
+
 static void png_gives_back_the_same_bytes(void **state)
 {
     (void)state;
@@ -311,6 +335,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(float_formats_give_back_the_same_bits),
         cmocka_unit_test(hdr_is_off_by_less_than_its_shared_exponent_allows),
+        cmocka_unit_test(hdr_runs_come_back_as_they_were),
         cmocka_unit_test(png_gives_back_the_same_bytes),
         cmocka_unit_test(a_big_endian_pfm_is_swapped),
         cmocka_unit_test(broken_files_give_one_line_that_names_them),
