@@ -2,6 +2,7 @@
 #include "failing_vulkan.h"
 
 #include "empty.comp.h"
+#include "fallible_vulkan.h"
 
 #include <vulkan/vulkan.h>
 
@@ -9,7 +10,7 @@
 
 static uint32_t calls, failing_call;
 static VkResult failure;
-static bool skip_shaders, lose_device;
+static bool skip_shaders, readback_fails, hide_coherence;
 
 void failing_vulkan_reset(uint32_t fail_at, VkResult result)
 {
@@ -28,80 +29,39 @@ void failing_vulkan_skip_shaders(bool skip)
     skip_shaders = skip;
 }
 
-void failing_vulkan_lose_device(bool lose)
+void failing_vulkan_readback_fails(bool fails)
 {
-    lose_device = lose;
+    readback_fails = fails;
 }
 
-static bool fails(void)
+void failing_vulkan_hide_coherence(bool hide)
 {
+    hide_coherence = hide;
+}
+
+static bool is_readback(const char *name)
+{
+    return strcmp(name, "vkGetQueryPoolResults") == 0 || strcmp(name, "vkInvalidateMappedMemoryRanges") == 0;
+}
+
+/* Without a failure calls are counted that can run out of device memory: nearly all. */
+static bool fails(const char *name, enum fallible_error errors)
+{
+    const enum fallible_error error = failure == VK_ERROR_DEVICE_LOST          ? FALLIBLE_LOST
+                                      : failure == VK_ERROR_OUT_OF_HOST_MEMORY ? FALLIBLE_HOST
+                                                                               : FALLIBLE_DEVICE;
+    if (is_readback(name) != readback_fails || !(errors & error))
+        return false;
     return ++calls == failing_call;
 }
 
-/* X(name, parameters, arguments): every function of the library's that allocates and returns a VkResult. */
-#define FALLIBLE(X)                                                                                          \
-    X(AllocateMemory,                                                                                        \
-      (VkDevice device, const VkMemoryAllocateInfo *info, const VkAllocationCallbacks *callbacks,            \
-       VkDeviceMemory *out),                                                                                 \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateBuffer,                                                                                          \
-      (VkDevice device, const VkBufferCreateInfo *info, const VkAllocationCallbacks *callbacks,              \
-       VkBuffer *out),                                                                                       \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateImage,                                                                                           \
-      (VkDevice device, const VkImageCreateInfo *info, const VkAllocationCallbacks *callbacks,               \
-       VkImage *out),                                                                                        \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateImageView,                                                                                       \
-      (VkDevice device, const VkImageViewCreateInfo *info, const VkAllocationCallbacks *callbacks,           \
-       VkImageView *out),                                                                                    \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateSampler,                                                                                         \
-      (VkDevice device, const VkSamplerCreateInfo *info, const VkAllocationCallbacks *callbacks,             \
-       VkSampler *out),                                                                                      \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateShaderModule,                                                                                    \
-      (VkDevice device, const VkShaderModuleCreateInfo *info, const VkAllocationCallbacks *callbacks,        \
-       VkShaderModule *out),                                                                                 \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateDescriptorSetLayout,                                                                             \
-      (VkDevice device, const VkDescriptorSetLayoutCreateInfo *info, const VkAllocationCallbacks *callbacks, \
-       VkDescriptorSetLayout *out),                                                                          \
-      (device, info, callbacks, out))                                                                        \
-    X(CreatePipelineLayout,                                                                                  \
-      (VkDevice device, const VkPipelineLayoutCreateInfo *info, const VkAllocationCallbacks *callbacks,      \
-       VkPipelineLayout *out),                                                                               \
-      (device, info, callbacks, out))                                                                        \
-    X(CreateComputePipelines,                                                                                \
-      (VkDevice device, VkPipelineCache cache, uint32_t count, const VkComputePipelineCreateInfo *infos,     \
-       const VkAllocationCallbacks *callbacks, VkPipeline *out),                                             \
-      (device, cache, count, infos, callbacks, out))                                                         \
-    X(CreateDescriptorPool,                                                                                  \
-      (VkDevice device, const VkDescriptorPoolCreateInfo *info, const VkAllocationCallbacks *callbacks,      \
-       VkDescriptorPool *out),                                                                               \
-      (device, info, callbacks, out))                                                                        \
-    X(AllocateDescriptorSets,                                                                                \
-      (VkDevice device, const VkDescriptorSetAllocateInfo *info, VkDescriptorSet *out), (device, info, out)) \
-    X(CreateQueryPool,                                                                                       \
-      (VkDevice device, const VkQueryPoolCreateInfo *info, const VkAllocationCallbacks *callbacks,           \
-       VkQueryPool *out),                                                                                    \
-      (device, info, callbacks, out))                                                                        \
-    X(BindBufferMemory, (VkDevice device, VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset),      \
-      (device, buffer, memory, offset))                                                                      \
-    X(BindImageMemory, (VkDevice device, VkImage image, VkDeviceMemory memory, VkDeviceSize offset),         \
-      (device, image, memory, offset))                                                                       \
-    X(MapMemory,                                                                                             \
-      (VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,                       \
-       VkMemoryMapFlags flags, void **out),                                                                  \
-      (device, memory, offset, size, flags, out))
-
-#define WRAPPER(name, parameters, arguments)                                                                 \
+#define WRAPPER(name, errors, parameters, arguments)                                                         \
     static PFN_vk##name real_##name;                                                                         \
     static VKAPI_ATTR VkResult VKAPI_CALL failing_##name parameters                                          \
     {                                                                                                        \
-        return fails() ? failure : real_##name arguments;                                                    \
+        return fails("vk" #name, errors) ? failure : real_##name arguments;                                  \
     }
-FALLIBLE(WRAPPER)
+FALLIBLE_DEVICE_FUNCTIONS(WRAPPER)
 #undef WRAPPER
 
 static VKAPI_ATTR VkResult VKAPI_CALL create_empty_pipeline(VkDevice device, VkPipelineCache cache,
@@ -123,12 +83,13 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_empty_pipeline(VkDevice device, VkP
     return result;
 }
 
-static VKAPI_ATTR VkResult VKAPI_CALL lose_query_results(VkDevice device, VkQueryPool pool, uint32_t first,
-                                                         uint32_t count, size_t size, void *data,
-                                                         VkDeviceSize stride, VkQueryResultFlags flags)
+/* Flushing memory that is coherent is allowed, and does nothing. */
+static VKAPI_ATTR void VKAPI_CALL get_memory_properties(VkPhysicalDevice physical,
+                                                        VkPhysicalDeviceMemoryProperties *out)
 {
-    return lose_device ? VK_ERROR_DEVICE_LOST
-                       : vkGetQueryPoolResults(device, pool, first, count, size, data, stride, flags);
+    vkGetPhysicalDeviceMemoryProperties(physical, out);
+    for (uint32_t i = 0; i < out->memoryTypeCount && hide_coherence; i++)
+        out->memoryTypes[i].propertyFlags &= ~(VkMemoryPropertyFlags)VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
 static PFN_vkVoidFunction real_function(VkDevice device, const char *name)
@@ -140,15 +101,13 @@ static PFN_vkVoidFunction real_function(VkDevice device, const char *name)
 
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
 {
-#define CHOOSE(id, parameters, arguments)                                                                    \
+#define CHOOSE(id, errors, parameters, arguments)                                                            \
     if (strcmp(name, "vk" #id) == 0) {                                                                       \
         real_##id = (PFN_vk##id)real_function(device, name);                                                 \
         return (PFN_vkVoidFunction)failing_##id;                                                             \
     }
-    FALLIBLE(CHOOSE)
+    FALLIBLE_DEVICE_FUNCTIONS(CHOOSE)
 #undef CHOOSE
-    if (strcmp(name, "vkGetQueryPoolResults") == 0)
-        return (PFN_vkVoidFunction)lose_query_results;
     return vkGetDeviceProcAddr(device, name);
 }
 
@@ -157,5 +116,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL failing_vulkan_get_instance_proc_addr(V
 {
     if (strcmp(name, "vkGetDeviceProcAddr") == 0)
         return (PFN_vkVoidFunction)get_device_proc_addr;
+    if (strcmp(name, "vkGetPhysicalDeviceMemoryProperties") == 0)
+        return (PFN_vkVoidFunction)get_memory_properties;
     return vkGetInstanceProcAddr(instance, name);
 }

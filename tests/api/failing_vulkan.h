@@ -9,12 +9,15 @@
 
 #include <vulkan/vulkan_core.h>
 
-/* Calls that may fail, counted from 1 since the last reset; call `fail_at` returns `result`, 0 fails none. */
+/* Calls that may return `result`, counted from 1 since the last reset; call `fail_at` does, 0 fails none.
+ * Those that bring back what frames found out count only when asked for, and then alone. */
 void failing_vulkan_reset(uint32_t fail_at, VkResult result);
 uint32_t failing_vulkan_calls(void);
 
-/* Whether contexts find their device lost when they read times. */
-void failing_vulkan_lose_device(bool lose);
+void failing_vulkan_readback_fails(bool fails);
+
+/* Contexts created from then on find no memory that is coherent, and have to flush and invalidate. */
+void failing_vulkan_hide_coherence(bool hide);
 
 /* Contexts created from then on get pipelines of an empty shader: they take a hundredth of the time. */
 void failing_vulkan_skip_shaders(bool skip);

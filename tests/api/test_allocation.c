@@ -453,9 +453,10 @@ static void a_device_lost_while_times_are_read_is_noticed(void **state)
     add_a_triangle(gi);
     update_twice(gi);
     memset(messages, 0, sizeof messages);
-    failing_vulkan_lose_device(true);
+    failing_vulkan_readback_fails(true);
+    failing_vulkan_reset(1, VK_ERROR_DEVICE_LOST);
     REQUIRE_CMP((int)sdfgi_update(gi, unused_commands, &frame), ==, (int)SDFGI_ERROR_DEVICE_LOST);
-    failing_vulkan_lose_device(false);
+    failing_vulkan_readback_fails(false);
     REQUIRE_CMP(messages[SDFGI_MESSAGE_DEVICE_LOST], ==, 1u);
     REQUIRE_CMP((int)sdfgi_update(gi, unused_commands, &frame), ==, (int)SDFGI_ERROR_DEVICE_LOST);
     sdfgi_destroy(gi);

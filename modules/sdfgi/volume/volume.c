@@ -123,7 +123,7 @@ void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
         return;
     }
     volume->feedback.emitters_refused = true;
-    sdfgi_message_log(&volume->backend->hooks, SDFGI_MESSAGE_OUT_OF_DEVICE_MEMORY,
+    sdfgi_message_log(&volume->backend->hooks, SDFGI_MESSAGE_NO_EMITTER_LISTS,
                       "sdfgi_update: no memory for lists of emitters: light of small lamps will be noisy");
 }
 

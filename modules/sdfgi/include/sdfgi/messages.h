@@ -27,13 +27,14 @@
     X(UPDATE_LOST, WARNING, "a recorded update never ran; see sdfgi_cancel_update")                          \
     X(BOUNDS_MISS_VERTICES, WARNING,                                                                         \
       "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")            \
-    X(SURFACES_CROWDED, WARNING, "hundreds of surfaces lie in one another: their mean leaves some out")
+    X(SURFACES_CROWDED, WARNING, "hundreds of surfaces lie in one another: their mean leaves some out")      \
+    X(NO_EMITTER_LISTS, WARNING, "no memory for lists of emitters: light of small lamps is noisy")
 
 enum sdfgi_message {
 #define SDFGI_MESSAGE_ENUM(id, level, hint) SDFGI_MESSAGE_##id,
     SDFGI_MESSAGES(SDFGI_MESSAGE_ENUM)
 #undef SDFGI_MESSAGE_ENUM
-    SDFGI_MESSAGE_COUNT,
+        SDFGI_MESSAGE_COUNT,
 };
 
 #endif
