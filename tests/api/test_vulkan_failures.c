@@ -205,7 +205,7 @@ static void lists_of_emitters_can_be_done_without(void **state)
 }
 
 /* Programs call them where they cannot handle errors. */
-static void switching_off_and_cancelling_call_nothing_that_can_fail(void **state)
+static void switching_off_reset_and_cancel_call_nothing_that_can_fail(void **state)
 {
     (void)state;
     sdfgi *gi = create(SDFGI_VOXELIZER_RASTER, true);
@@ -214,6 +214,7 @@ static void switching_off_and_cancelling_call_nothing_that_can_fail(void **state
     update(gi, 1);
     failing_vulkan_reset(1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
     sdfgi_cancel_update(gi);
+    sdfgi_reset(gi);
     REQUIRE_CMP((int)sdfgi_set_settings(gi, &off), ==, (int)SDFGI_OK);
     update(gi, 2); /* what was retired is destroyed */
     REQUIRE_CMP(failing_vulkan_calls(), ==, 0u);
@@ -248,7 +249,7 @@ int main(void)
         cmocka_unit_test(what_a_frame_found_out_can_be_done_without),
         cmocka_unit_test(light_rests_even_if_nothing_is_told_of_a_while),
         cmocka_unit_test(lists_of_emitters_can_be_done_without),
-        cmocka_unit_test(switching_off_and_cancelling_call_nothing_that_can_fail),
+        cmocka_unit_test(switching_off_reset_and_cancel_call_nothing_that_can_fail),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
