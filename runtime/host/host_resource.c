@@ -155,6 +155,15 @@ VkCommandBuffer host_commands_begin(struct host_device *device)
     return cmd;
 }
 
+/* Whoever submitted frees what the work uses, so that a wait that fails is tried again in another way. */
+static bool queue_wait(struct host_device *device)
+{
+    const VkResult result = vkQueueWaitIdle(device->queue);
+    if (result != VK_SUCCESS)
+        vkDeviceWaitIdle(device->device);
+    return host_check(device, result, "waiting for the queue");
+}
+
 bool host_commands_finish(struct host_device *device, VkCommandBuffer cmd)
 {
     const VkSubmitInfo submit = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
@@ -163,7 +172,7 @@ bool host_commands_finish(struct host_device *device, VkCommandBuffer cmd)
     const bool ok =
         host_check(device, vkEndCommandBuffer(cmd), "ending a command buffer") &&
         host_check(device, vkQueueSubmit(device->queue, 1, &submit, VK_NULL_HANDLE), "submitting") &&
-        host_check(device, vkQueueWaitIdle(device->queue), "waiting for the queue");
+        queue_wait(device);
     vkFreeCommandBuffers(device->device, device->pool, 1, &cmd);
     return ok;
 }
