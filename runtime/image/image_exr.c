@@ -5,6 +5,7 @@
 #include <base/text.h>
 #include <errno.h>
 #include <openexr.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { PIXEL_BYTES = 4 * sizeof(float), CHANNEL_COUNT = 4, MESSAGE_BYTES = 160 };
@@ -98,22 +99,33 @@ static bool check_channels(const exr_attr_chlist_t *list, uint32_t *channels, ch
     return true;
 }
 
-static exr_result_t decode_chunk(exr_context_t context, const exr_chunk_info_t *chunk, float *out,
-                                 int32_t width)
+/* Where samples go: to `rgba`, and those of other channels to `unread`, with the same width. The library's
+ * routines for three and four channels write all of them, wanted or not. */
+struct destination {
+    float *rgba, *unread;
+    int32_t width;
+};
+
+static void set_destination(exr_coding_channel_info_t *channel, const struct destination *to)
+{
+    const int slot = channel_slot(channel->channel_name);
+    const int32_t stride = slot < 0 ? (int32_t)sizeof(float) : PIXEL_BYTES;
+    channel->decode_to_ptr = (uint8_t *)(slot < 0 ? to->unread : to->rgba + slot);
+    channel->user_bytes_per_element = sizeof(float);
+    channel->user_data_type = EXR_PIXEL_FLOAT;
+    channel->user_pixel_stride = stride;
+    channel->user_line_stride = stride * to->width;
+}
+
+static exr_result_t decode_chunk(exr_context_t context, const exr_chunk_info_t *chunk,
+                                 const struct destination *to)
 {
     exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t code = exr_decoding_initialize(context, 0, chunk, &decode);
     if (code != EXR_ERR_SUCCESS)
         return code;
-    for (int i = 0; i < decode.channel_count; i++) {
-        exr_coding_channel_info_t *channel = &decode.channels[i];
-        const int slot = channel_slot(channel->channel_name);
-        channel->decode_to_ptr = slot < 0 ? NULL : (uint8_t *)(out + slot);
-        channel->user_bytes_per_element = sizeof(float);
-        channel->user_data_type = EXR_PIXEL_FLOAT;
-        channel->user_pixel_stride = PIXEL_BYTES;
-        channel->user_line_stride = PIXEL_BYTES * width;
-    }
+    for (int i = 0; i < decode.channel_count; i++)
+        set_destination(&decode.channels[i], to);
     code = exr_decoding_choose_default_routines(context, 0, &decode);
     if (code == EXR_ERR_SUCCESS)
         code = exr_decoding_run(context, 0, &decode);
@@ -125,13 +137,20 @@ static exr_result_t decode_lines(exr_context_t context, struct image *image, int
 {
     int32_t step = 0;
     exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &step);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    struct destination to = { .unread = calloc((size_t)image->width * (size_t)step, sizeof(float)),
+                              .width = (int32_t)image->width };
+    if (!to.unread)
+        return EXR_ERR_OUT_OF_MEMORY;
     for (int32_t y = 0; code == EXR_ERR_SUCCESS && y < (int32_t)image->height; y += step) {
         exr_chunk_info_t chunk;
+        to.rgba = image->rgba + 4 * (size_t)y * image->width;
         code = exr_read_scanline_chunk_info(context, 0, first_line + y, &chunk);
         if (code == EXR_ERR_SUCCESS)
-            code = decode_chunk(context, &chunk, image->rgba + 4 * (size_t)y * image->width,
-                                (int32_t)image->width);
+            code = decode_chunk(context, &chunk, &to);
     }
+    free(to.unread);
     return code;
 }
 

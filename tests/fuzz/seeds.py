@@ -3,6 +3,7 @@
 """Writes the seeds: seeds.py OUT makes OUT/TARGET/NAME. Readers must take files named valid_*, must refuse
 those named broken_*, and may do as they like with the others; each must be over in a second. The target first
 puts the checksums right where the name says _mended. A file that was a finding is named after what it did."""
+import base64
 import json
 import pathlib
 import struct
@@ -37,8 +38,8 @@ def png_seeds():
         png(3, 1, 2, 3, b"\0\x18", (b"PLTE", bytes(range(9))), (b"tRNS", b"\x80\xff")))
     add("png", "valid_interlaced", png(3, 3, 8, 0, b"\3\1" + b"\0\2" * 2 + b"\0\1\2" + b"\0\4" * 2 + b"\0abc",
                                        interlace=1))
-    add("png", "valid_text_and_gamma", png(1, 1, 8, 0, b"\0\7", (b"gAMA", b"\0\0\xb1\x8f"), (b"tEXt", b"a\0b"),
-                                           (b"zTXt", b"a\0\0" + zlib.compress(b"text"))))
+    add("png", "valid_text_and_gamma", png(1, 1, 8, 0, b"\0\7", (b"gAMA", b"\0\0\xb1\x8f"),
+                                           (b"tEXt", b"a\0b"), (b"zTXt", b"a\0\0" + zlib.compress(b"text"))))
     add("png", "more_rows_than_pixels_took_gigabytes", png(1, 1, 8, 6, bytes(4_000_000)))
     add("png", "broken_claims_32768_squared", png(32768, 32768, 8, 6, b""))
     # Readers that guess the format by the first bytes took these for pictures of other formats.
@@ -137,13 +138,15 @@ def exr_runs(data):
         count = 1
         while at + count < len(data) and data[at + count] == data[at] and count < 128:
             count += 1
-        runs += bytes([count - 1, data[at]]) if count > 2 else bytes([(256 - count) & 255]) + data[at:at + count]
+        stretch = bytes([256 - count]) + data[at:at + count]
+        runs += bytes([count - 1, data[at]]) if count > 2 else stretch
         at += count
     return runs
 
 
 def exr_seeds():
-    rgb, half, whole = [(b"B", 2), (b"G", 2), (b"R", 2)], [(b"Y", 1)], [(b"A", 1), (b"B", 1), (b"G", 1), (b"R", 1)]
+    rgb, half = [(b"B", 2), (b"G", 2), (b"R", 2)], [(b"Y", 1)]
+    whole = [(n, 1) for n in (b"A", b"B", b"G", b"R")]
     line = struct.pack("<12f", *range(12))
     flat = struct.pack("<64e", *[1.5] * 64)
     add("exr", "valid_float", exr(4, 2, rgb, 0, [line, line], 1))
@@ -152,6 +155,9 @@ def exr_seeds():
     add("exr", "valid_runs", exr(8, 2, half, 1, [exr_runs(exr_delta(flat[:16]))] * 2, 1))
     add("exr", "valid_deflated_lines", exr(32, 2, half, 2, [zlib.compress(exr_delta(flat[:64]))] * 2, 1))
     add("exr", "valid_deflated_blocks", exr(32, 2, half, 3, [zlib.compress(exr_delta(flat))], 16))
+    for extra in (b"!", b"Z"):
+        add("exr", f"valid_with_{'first' if extra < b'A' else 'last'}_of_four_halves_unread_wrote_to_null",
+            exr(2, 2, sorted([*whole[1:], (extra, 1)]), 0, [struct.pack("<8e", *range(8))] * 2, 1))
     for name, compression, lines in (("wavelets", 4, 32), ("pxr24", 5, 16), ("b44", 6, 32), ("b44a", 7, 32),
                                      ("dwa_lines", 8, 32), ("dwa_blocks", 9, 256)):
         add("exr", f"{name}_of_zeros", exr(32, 2, half, compression, [bytes(60)], lines))
@@ -203,14 +209,16 @@ def scene_of_everything():
     triangles = s.accessor(struct.pack("<6I", 0, 1, 2, 0, 2, 3), 5125, "SCALAR", 6)
     places, values = s.view(b"\2"), s.view(square[:12])
     sparse = s.accessor(square, 5126, "VEC3", 4, sparse={
-        "count": 1, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": values}})
+        "count": 1, "indices": {"bufferView": places, "componentType": 5121},
+        "values": {"bufferView": values}})
     quantized = s.accessor(struct.pack("<16h", *range(16)), 5122, "VEC4", 4, normalized=True)
     picture = s.view(png(2, 2, 8, 6, b"\0" + bytes(range(8)) + b"\0" + bytes(range(8))))
     moved = {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1, "scale": [2, 2], "texCoord": 1}}
     return s.glb(
         extensionsUsed=["KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength",
                         "KHR_materials_unlit", "KHR_mesh_quantization", "EXT_unknown"],
-        images=[{"bufferView": picture, "mimeType": "image/png"}], samplers=[{"wrapS": 33071, "magFilter": 9728}],
+        images=[{"bufferView": picture, "mimeType": "image/png"}],
+        samplers=[{"wrapS": 33071, "magFilter": 9728}],
         textures=[{"source": 0, "sampler": 0}, {"source": 0}],
         materials=[
             {"name": "a", "alphaMode": "MASK", "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 1},
@@ -241,27 +249,34 @@ def scene_of_everything():
 def gltf_seeds():
     a, tri = '"asset":{"version":"2.0"}', struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
     add("gltf", "valid_everything", scene_of_everything())
-    add("gltf", "valid_text", '{%s,"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":'
-        '[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,'
-        'AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,"byteLength":36}],'
-        '"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}]}' % a)
+    add("gltf", "valid_text", json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," +
+                     base64.b64encode(tri).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]}))
     add("gltf", "broken_key_given_twice_took_quadratic_time",
         "{%s,%s,%s}" % (a, ",".join(['"a":0'] * 500), ",".join(['"skins":[]'] * 500)))
-    add("gltf", "broken_cycle_of_nodes", '{%s,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}]}' % a)
+    add("gltf", "broken_cycle_of_nodes",
+        '{%s,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}]}' % a)
     add("gltf", "broken_deep_arrays", "{%s,\"extras\":%s%s}" % (a, "[" * 5000, "]" * 5000))
     deep = ",".join('{"children":[%d]}' % (i + 1) for i in range(300)) + ",{}"
     add("gltf", "valid_deep_nodes", '{%s,"scenes":[{"nodes":[0]}],"nodes":[%s]}' % (a, deep))
     add("gltf", "broken_leads_outside", '{%s,"buffers":[{"byteLength":1,"uri":"%%2e%%2e/secret"}]}' % a)
-    add("gltf", "broken_buffer_is_the_file_itself_and_short", '{%s,"buffers":[{"byteLength":99999,"uri":"fuzzed.glb"}]}' % a)
+    add("gltf", "broken_buffer_is_the_file_itself_and_short",
+        '{%s,"buffers":[{"byteLength":99999,"uri":"fuzzed.glb"}]}' % a)
     for name, node in (("far", {"mesh": 0, "translation": [1e300, -1e300, 1e300]}),
-                       ("vast", {"mesh": 0, "scale": [1e250] * 3}), ("tiny", {"mesh": 0, "scale": [1e-300] * 3})):
+                       ("vast", {"mesh": 0, "scale": [1e250] * 3}),
+                       ("tiny", {"mesh": 0, "scale": [1e-300] * 3})):
         s = Scene()
         s.accessor(tri, 5126, "VEC3", 3)
         add("gltf", name, s.glb(meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}], nodes=[node],
                                 scenes=[{"nodes": [0]}]))
     s = Scene()
     s.accessor(b"", 5126, "VEC3", 999999999999999)
-    add("gltf", "broken_count_beyond_memory", s.glb(meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}]))
+    add("gltf", "broken_count_beyond_memory",
+        s.glb(meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}]))
 
 
 # ---- Views and walks ------------------------------------------------------------------------------------
@@ -271,18 +286,21 @@ def view_seeds():
     add("view", "valid_everything", json.dumps({
         "camera": camera, "sky": {"zenith": [1, 1, 2], "horizon": [1, 1, 1], "ground": [0.1, 0.1, 0.1]},
         "sun": {"direction": [0, -1, 0.2], "irradiance": [3, 3, 3], "angle_deg": 0.5},
-        "lights": [{"type": "point", "position": [0, 2, 0], "intensity": [9, 9, 9], "radius": 0.1, "range": 9},
+        "lights": [{"type": "point", "position": [0, 2, 0], "intensity": [9, 9, 9], "radius": 0.1,
+                    "range": 9},
                    {"type": "spot", "position": [0, 2, 0], "intensity": [9, 9, 9], "direction": [0, -1, 0],
                     "inner_deg": 10, "outer_deg": 30}],
         "punctual_scale": 1, "emissive_scale": 2, "materials": "lambert", "default_albedo": [0.5, 0.5, 0.5]}))
-    add("view", "valid_uniform_sky", json.dumps({"camera": camera, "sky": {"radiance": [1, 1, 1]}, "sun": None}))
+    add("view", "valid_uniform_sky",
+        json.dumps({"camera": camera, "sky": {"radiance": [1, 1, 1]}, "sun": None}))
     add("view", "broken_hidden_by_a_zero", json.dumps({"camera": camera}) + "\0{}")
     add("view", "broken_looks_along_up", json.dumps({"camera": {**camera, "look_at": [0, 9, 5]}}))
     add("view", "broken_key_given_twice", '{"camera":%s,"camera":0}' % json.dumps(camera))
 
 
 def path_seeds():
-    add("path", "valid_points", '{"points":[[0,1,0],[3,1,0],[3,2,4],[0,1,9]],"speed_m_s":3,"fps":30,"yfov_deg":70}')
+    add("path", "valid_points",
+        '{"points":[[0,1,0],[3,1,0],[3,2,4],[0,1,9]],"speed_m_s":3,"fps":30,"yfov_deg":70}')
     add("path", "valid_looks", json.dumps({
         "points": [{"position": [0, 1, 0], "look_at": [5, 1, 0]}, [3, 1, 0], {"position": [3, 1, 5]}],
         "smooth_m": 0.5, "view": "a.json"}))
@@ -296,7 +314,8 @@ def path_seeds():
 
 def state_seeds():
     # Only what the target's `mend` makes of it belongs to the target's picture.
-    head, samples = b"raycst02" + bytes(32) + struct.pack("<4I", 4, 4, 513, 16), struct.pack("<96d", *[4.0] * 96)
+    head = b"raycst02" + bytes(32) + struct.pack("<4I", 4, 4, 513, 16)
+    samples = struct.pack("<96d", *[4.0] * 96)
     add("state", "valid_once_mended", head + struct.pack("<I", 4) + samples)
     add("state", "valid_mended_with_the_most_samples", head + b"\xff" * 4 + samples)
     add("state", "broken_of_another_scene", head + struct.pack("<I", 4) + samples)
@@ -325,10 +344,12 @@ def cache_seeds():
 def text_seeds():
     add("settings", "valid_settings", "\n".join([
         "sdfgi_enabled=true", "sdfgi_cascades=4", "sdfgi_min_cell_size=0.2", "sdfgi_y_scale=75%",
-        "sdfgi_energy=1e0", "sdfgi_resolution=64", "sdfgi_visibility=probe_depth", "sdfgi_cascade0_distance=25.6",
+        "sdfgi_energy=1e0", "sdfgi_resolution=64", "sdfgi_visibility=probe_depth",
+        "sdfgi_cascade0_distance=25.6",
         "sdfgi_max_distance=204.8", "sdfgi_ray_count=16", "sdfgi_energy=nan", "x=1", "sdfgi_cascades=-1"]))
-    add("cli", "valid_arguments", "\n".join(["scene.glb", "--out=x", "--spp", "64", "--seed=18", "--time=0.5",
-                                             "--size", "320x180", "--set=a=b", "--gi", "off", "--flag", "--", "--x"]))
+    add("cli", "valid_arguments", "\n".join([
+        "scene.glb", "--out=x", "--spp", "64", "--seed=18", "--time=0.5", "--size", "320x180", "--set=a=b",
+        "--gi", "off", "--flag", "--", "--x"]))
     add("cli", "valid_help", "--help")
     add("cli", "broken_size", "scene.glb\n--size\n0x1e9")
 
