@@ -7,6 +7,9 @@ packages=(meson ninja-build python3 pkg-config gcc g++ libvulkan-dev glslang-too
     libcglm-dev libopenexr-dev libembree-dev libcmocka-dev libspirv-cross-c-shared-dev libcjson-dev
     libimgui-dev zlib1g-dev gnuplot-nox xvfb xauth)
 
+# What tests/fuzz/run.sh needs besides.
+fuzz_packages=(clang libclang-rt-dev)
+
 say() {
     printf '%s\n' "== $*" >&2
 }
@@ -42,10 +45,14 @@ install_packages() {
         "${missing[@]}" >/dev/null || die "apt-get could not install ${missing[*]}"
 }
 
-# configure_and_build FOLDER [meson options]: safe to call again and after an interruption.
+# configure_and_build FOLDER [TARGET] [meson options]: safe to call again and after an interruption.
 configure_and_build() {
-    local folder=$1
+    local folder=$1 target=all
     shift
+    if [ $# -gt 0 ] && [[ $1 != -* ]]; then
+        target=$1
+        shift
+    fi
     if [ -f "$folder/build.ninja" ]; then
         meson configure "$folder" "$@" >/dev/null || die "meson could not change the options of $folder"
     else
@@ -57,11 +64,18 @@ configure_and_build() {
         }
     fi
     say "building"
-    ninja -C "$folder" --quiet || die "the build failed"
+    ninja -C "$folder" --quiet "$target" || die "the build failed"
     # The program is promised as $folder/sdfgi; meson puts it into the folder of its sources.
     if [ -x "$folder/runtime/sdfgi" ]; then
         ln -sfn runtime/sdfgi "$folder/sdfgi"
     fi
+}
+
+# The programs of libFuzzer, in a folder of their own: all code is compiled with clang and sanitizers.
+build_fuzzers() {
+    export CC=clang CXX=clang++
+    configure_and_build "$1" fuzz -Dfuzz=enabled -Dwindow=disabled -Dbuildtype=debugoptimized \
+        -Db_ndebug=false -Db_lundef=false
 }
 
 # best_device PROGRAM: the GPU that it renders with if no other is asked for, as "NAME (TYPE)"; none: nothing.

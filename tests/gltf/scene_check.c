@@ -53,8 +53,15 @@ static void texture_ref_check(const struct gltf_scene *s, const struct gltf_text
     }
 }
 
+static bool is_name(const char *name)
+{
+    return name == NULL || strlen(name) <= 255;
+}
+
 static void material_check(const struct gltf_scene *s, const struct gltf_material *m)
 {
+    check(is_name(m->name));
+    check(isfinite(m->normal_scale) && isfinite(m->occlusion_strength));
     const float factors[] = { m->base_color[0], m->base_color[1], m->base_color[2], m->base_color[3],
                               m->metallic,      m->roughness,     m->alpha_cutoff };
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++)
@@ -76,12 +83,19 @@ static void primitive_check(const struct gltf_scene *s, const struct gltf_primit
     check(p->material >= 0 && p->material < (int64_t)s->material_count);
     vertices_check(p);
     const struct gltf_material *const m = &s->materials[p->material];
-    check(p->uv1 != NULL || m->base_color_texture.texture < 0 || m->base_color_texture.uv_set == 0);
+    const struct gltf_texture_ref *const refs[] = { &m->base_color_texture, &m->metallic_roughness_texture,
+                                                    &m->normal_texture, &m->occlusion_texture,
+                                                    &m->emissive_texture };
+    for (size_t i = 0; i < sizeof refs / sizeof *refs; i++)
+        check(p->uv1 != NULL || refs[i]->texture < 0 || refs[i]->uv_set == 0);
 }
 
 static void light_check(const struct gltf_light *l)
 {
+    check(is_name(l->name));
     check(is_unit(l->direction));
+    for (int i = 0; i < 3; i++)
+        check(isfinite(l->position[i]) && l->intensity[i] >= 0);
     check(are_finite(l->intensity, 3) && isfinite(l->range) && l->range >= 0);
     if (l->type == GLTF_LIGHT_SPOT)
         check(l->inner_rad >= 0 && l->inner_rad < l->outer_rad && (double)l->outer_rad <= 1.5707963267948966);
@@ -94,10 +108,37 @@ static void transform_check(const double *m)
     check(m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1);
 }
 
+/* Axes of unit length, at right angles. */
+static void rigid_check(const double *m)
+{
+    transform_check(m);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const double *const a = m + 4 * i, *const b = m + 4 * k;
+            check(fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - (i == k)) < unit_tolerance);
+        }
+}
+
+static void camera_check(const struct gltf_camera *c)
+{
+    check(is_name(c->name));
+    rigid_check(c->transform);
+    check(c->yfov_rad == 0 ? c->ymag > 0 && isfinite(c->ymag) : c->yfov_rad > 0 && c->yfov_rad < 3.1415927f);
+}
+
+static void image_check(const struct gltf_image *image)
+{
+    check(image->width > 0 && image->height > 0 && image->texels != NULL);
+    volatile uint8_t last = image->texels[4 * (size_t)image->width * image->height - 1];
+    (void)last;
+}
+
 void scene_check(const struct gltf_scene *s)
 {
     for (uint32_t i = 0; i < s->image_count; i++)
-        check(s->images[i].width > 0 && s->images[i].height > 0 && s->images[i].texels != NULL);
+        image_check(&s->images[i]);
+    for (uint32_t i = 0; i < s->texture_count; i++)
+        check(s->textures[i].image >= -1 && s->textures[i].image < (int64_t)s->image_count);
     for (uint32_t i = 0; i < s->material_count; i++)
         material_check(s, &s->materials[i]);
     for (uint32_t i = 0; i < s->primitive_count; i++)
@@ -109,7 +150,7 @@ void scene_check(const struct gltf_scene *s)
     for (uint32_t i = 0; i < s->light_count; i++)
         light_check(&s->lights[i]);
     for (uint32_t i = 0; i < s->camera_count; i++)
-        transform_check(s->cameras[i].transform);
+        camera_check(&s->cameras[i]);
     for (int i = 0; i < 3; i++)
         check(isfinite(s->bounds_min[i]) && isfinite(s->bounds_max[i]) &&
               s->bounds_min[i] <= s->bounds_max[i]);

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Runs 16 fuzz processes of a folder that pack.sh made, one line for each at the end.
+#   OUT=FOLDER run16.sh MINUTES       findings and grown corpora go to $OUT
+set -euo pipefail
+[ $# -eq 1 ] || { sed -n '3,4s/^# \{0,1\}//p' "$0"; exit 2; }
+here=$(dirname "$(readlink -f "$0")")
+: "${OUT:?is to name a folder}"
+mkdir -p "$OUT/findings" "$OUT/corpus"
+# The libraries of the machine that built it, the loader and libc among them.
+export FUZZ_LOADER="$here/lib/ld-linux-x86-64.so.2 --library-path $here/lib"
+
+# Those of one target work on one corpus.
+workers=(gltf gltf gltf gltf exr exr png jpeg hdr pfm view path state cache settings cli)
+printf '%-10s %12s %10s %10s\n' target executions coverage findings
+for target in "${workers[@]}"; do
+    "$here/feed.sh" "$here/fuzz_$target" "$here/seeds/$target" "$OUT/corpus/$target" "$OUT/findings" \
+        "$(($1 * 60))" &
+done
+failed=0
+for _ in "${workers[@]}"; do
+    wait -n || failed=$((failed + 1))
+done
+echo "$failed of ${#workers[@]} have findings"
+[ "$failed" -eq 0 ]
