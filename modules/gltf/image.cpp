@@ -5,6 +5,7 @@
 // defects are.
 #include "import.h"
 
+#include <cstdlib>
 #include <map>
 #include <picture/picture_png.h>
 #include <string_view>
@@ -17,6 +18,11 @@
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
+// stb_image 2.27 decodes with whatever its memory held where a JPEG leaves out a table (2.28 sets it to
+// zero).
+#define STBI_MALLOC(size)          calloc(1, size)
+#define STBI_REALLOC(memory, size) realloc(memory, size)
+#define STBI_FREE(memory)          free(memory)
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 

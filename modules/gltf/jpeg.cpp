@@ -14,6 +14,9 @@ namespace
 constexpr unsigned char marker_tables = 0xc4, marker_scan = 0xda;
 // Each scan visits all pixels, however few bytes it has. Encoders write about ten.
 constexpr size_t max_scans = 64;
+// More would not fit its arrays, and one more it takes for another. No JPEG has more than 176 kinds of
+// symbol.
+constexpr size_t max_codes = 255;
 
 // Where a JPEG's first segment is that is neither an application's nor a comment: those hold other data,
 // often a whole small JPEG, and the decoder skips them by their length as is done here.
@@ -49,7 +52,7 @@ void huffman_tables_check(const byte_range &file, size_t segment, const std::str
         size_t codes = 0;
         for (size_t i = 1; i <= 16; i++)
             codes += byte_at(file, segment + used + i);
-        if (codes > 256)
+        if (codes > max_codes)
             fail("%s: a Huffman table of the JPEG has %zu codes", what.c_str(), codes);
         used += 17 + codes;
     }

@@ -54,20 +54,19 @@ def jpeg_segment(marker, data):
     return bytes([0xff, marker]) + struct.pack(">H", len(data) + 2) + data
 
 
-def jpeg(components=1, frame=0xc0, sampling=0x11, dc=b"\0\0", codes=None, restart=0):
+def jpeg(components=1, frame=0xc0, sampling=0x11, dc=b"\0\0", codes=None, restart=0, tables=2):
     """A table with one code of one bit for each kind: all blocks are grey."""
-    ids = range(1, components + 1)
+    ids, rest = range(1, components + 1), (b"\0\0\0" if frame == 0xc2 else b"\0\x3f\0")
     head = struct.pack(">BHHB", 8, 8, 8, components)
     table = bytes([0, 1] + [0] * 15) if codes is None else bytes([0]) + bytes(codes)
-    values = bytes(sum(table[1:]))
-    progressive = frame == 0xc2
+    table += bytes(sum(table[1:]))
+    huffman = [jpeg_segment(0xc4, table), jpeg_segment(0xc4, b"\x10" + table[1:])][:tables]
     return b"".join([
         b"\xff\xd8", jpeg_segment(0xe0, b"JFIF\0\1\1\0\0\1\0\1\0\0"), jpeg_segment(0xdb, b"\0" + b"\1" * 64),
         jpeg_segment(frame, head + b"".join(bytes([i, sampling if i == 1 else 0x11, 0]) for i in ids)),
-        jpeg_segment(0xc4, table + values), jpeg_segment(0xc4, b"\x10" + table[1:] + values),
+        *huffman,
         jpeg_segment(0xdd, struct.pack(">H", restart)) if restart else b"",
-        jpeg_segment(0xda, bytes([components]) + b"".join(bytes([i, 0]) for i in ids) +
-                     (b"\0\0\0" if progressive else b"\0\x3f\0")), dc, b"\xff\xd9"])
+        jpeg_segment(0xda, bytes([components]) + b"".join(bytes([i, 0]) for i in ids) + rest), dc, b"\xff\xd9"])
 
 
 def jpeg_seeds():
@@ -77,6 +76,13 @@ def jpeg_seeds():
     add("jpeg", "valid_subsampled", jpeg(3, sampling=0x22))
     add("jpeg", "valid_progressive", jpeg(3, frame=0xc2))
     add("jpeg", "valid_restarts", jpeg(restart=1))
+    # The decoder keeps its tables in memory that held something else: what a file leaves out was in them.
+    for tables in (0, 1):
+        for kind, frame in (("", 0xc0), ("progressive_", 0xc2)):
+            add("jpeg", f"{kind}with_{tables}_of_2_tables_read_far_past_the_others",
+                jpeg(3, frame=frame, dc=bytes(range(64, 120)), tables=tables))
+    add("jpeg", "broken_last_of_256_codes_was_another",
+        jpeg(dc=b"\xff\0" * 9, codes=[0] * 7 + [255, 1] + [0] * 7))
     add("jpeg", "broken_table_of_4080_codes_wrote_past_its_array", jpeg(codes=[255] * 16))
 
 
