@@ -59,6 +59,7 @@ if [ "$full" = false ] && [ "${#suites[@]}" -eq 0 ]; then
     done
 fi
 
+[ "$full" = false ] || packages+=("${fuzz_packages[@]}")
 install_packages
 configure_and_build build -Dtests=enabled -Db_ndebug=false
 choose_lavapipe

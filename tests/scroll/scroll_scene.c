@@ -215,7 +215,8 @@ uint64_t scroll_differences(struct gi_test *walked, struct gi_test *fresh, const
     uint64_t count = probes_differ(walked, fresh, what) + lists_differ(walked, fresh, what);
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
         count += bytes_differ(walked, fresh, whole[i], what);
-    /* With depths nobody writes masks. */
+    if (!walked->gi->settings.use_occlusion)
+        return count; /* nobody writes masks or depths */
     return count +
            (depths ? depths_differ(walked, fresh, what) : bytes_differ(walked, fresh, RESOURCE_MASKS, what));
 }
