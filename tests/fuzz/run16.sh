@@ -8,7 +8,10 @@ here=$(dirname "$(readlink -f "$0")")
 : "${OUT:?is to name a folder}"
 mkdir -p "$OUT/findings" "$OUT/corpus"
 # The libraries of the machine that built it, the loader and libc among them.
-export FUZZ_LOADER="$here/lib/ld-linux-x86-64.so.2 --library-path $here/lib"
+libraries=$(mktemp -d)
+trap 'rm -rf "$libraries"' EXIT
+tar -C "$libraries" -xzf "$here/lib.tar.gz"
+export FUZZ_LOADER="$libraries/lib/ld-linux-x86-64.so.2 --library-path $libraries/lib"
 
 # Those of one target work on one corpus.
 workers=(gltf gltf gltf gltf exr exr png jpeg hdr pfm view path state cache settings cli)
@@ -21,5 +24,6 @@ failed=0
 for _ in "${workers[@]}"; do
     wait -n || failed=$((failed + 1))
 done
+tar -C "$OUT" --remove-files -czf "$OUT/corpus.tar.gz" corpus
 echo "$failed of ${#workers[@]} have findings"
 [ "$failed" -eq 0 ]
