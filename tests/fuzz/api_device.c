@@ -116,6 +116,8 @@ static void make_shape(struct api_device *device, struct gi_test *t, uint32_t in
     *desc = (struct sdfgi_mesh_desc){ .position_buffer = device->positions[index].buffer,
                                       .index_buffer = device->indices[index].buffer,
                                       .index_type = VK_INDEX_TYPE_UINT32,
+                                      .uv_buffer = device->positions[index].buffer,
+                                      .uv_stride = 12,
                                       .vertex_count = mesh.vertex_count,
                                       .triangle_count = mesh.triangle_count };
     test_mesh_bounds(&mesh, desc->bounds_min, desc->bounds_max);
@@ -126,16 +128,20 @@ void api_device_open(struct api_device *device, struct gi_test *t)
 {
     static const double center[3], half[3] = { 0.9, 0.35, 0.6 }, u[3] = { 0, 0, 1.5 }, v[3] = { 1.5, 0, 0 };
     static float ones[4 * SIDE * SIDE];
+    static uint8_t texels[4 * SIDE * SIDE];
     make_shape(device, t, 0, test_mesh_box(center, half, test_rotation_none));
     make_shape(device, t, 1, test_mesh_sphere(center, 0.8, 1));
     make_shape(device, t, 2, test_mesh_torus(center, 0.9, 0.3, test_rotation_none, 8, 4));
     make_shape(device, t, 3, test_mesh_plane(center, u, v, 2));
     device->copy = gpu_test_buffer_host(&t->gpu, COPY_BYTES, 0, NULL);
-    for (int i = 0; i < 4 * SIDE * SIDE; i++)
+    for (int i = 0; i < 4 * SIDE * SIDE; i++) {
         ones[i] = 0.5f;
+        texels[i] = (uint8_t)(37 * i);
+    }
     device->depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, ones);
     device->normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, SIDE, SIDE, ones);
     device->output = gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, SIDE, SIDE, NULL);
+    device->texture = gi_test_gather_image(t, VK_FORMAT_R8G8B8A8_UNORM, 4, SIDE, SIDE, texels);
 }
 
 void api_device_close(struct api_device *device, struct gi_test *t)
@@ -148,4 +154,5 @@ void api_device_close(struct api_device *device, struct gi_test *t)
     gpu_test_image_destroy(&t->gpu, &device->depth);
     gpu_test_image_destroy(&t->gpu, &device->normal);
     gpu_test_image_destroy(&t->gpu, &device->output);
+    gpu_test_image_destroy(&t->gpu, &device->texture);
 }

@@ -36,6 +36,8 @@ struct sdfgi_material_desc api_random_material(struct test_random *random)
     if (test_random_uint(random) % 4 == 0)
         random_color(random, 3, desc.emission);
     desc.double_sided_emission = test_random_uint(random) % 2;
+    if (test_random_uint(random) % 8 == 0)
+        desc.alpha_cutoff = 0.5f;
     return desc;
 }
 
@@ -137,6 +139,8 @@ static void toggle_material(struct api_world *w)
     const uint32_t slot = api_below(w, API_MATERIALS);
     if (!w->scene.materials[slot].live) {
         w->scene.materials[slot].desc = api_random_material(&w->random);
+        if (api_below(w, 10) == 0)
+            w->scene.materials[slot].desc.albedo_texture.view = w->device->texture.view;
         require_ok(sdfgi_material_create(w->t->gi, &w->scene.materials[slot].desc,
                                          &w->scene.materials[slot].handle));
         w->scene.materials[slot].live = true;
@@ -281,7 +285,7 @@ const char *api_step(struct api_world *world)
         { "material", 8, toggle_material },
         { "instance", 30, change_instance },
         { "light", 10, change_light },
-        { "sky", 3, change_sky },
+        { "sky", 6, change_sky },
         { "settings", 2, change_settings },
         { "camera", 10, move_camera },
         { "invalidate", 3, invalidate },
@@ -320,9 +324,13 @@ void api_scene_build(struct gi_test *t, const struct api_device *device, const s
     for (uint32_t i = 0; i < API_MESHES; i++)
         if (scene->meshes[i].live)
             require_ok(sdfgi_mesh_create(t->gi, &device->shapes[scene->meshes[i].shape], &meshes[i]));
-    for (uint32_t i = 0; i < API_MATERIALS; i++)
+    for (uint32_t i = 0; i < API_MATERIALS; i++) {
+        struct sdfgi_material_desc desc = scene->materials[i].desc;
+        if (desc.albedo_texture.view)
+            desc.albedo_texture.view = device->texture.view;
         if (scene->materials[i].live)
-            require_ok(sdfgi_material_create(t->gi, &scene->materials[i].desc, &materials[i]));
+            require_ok(sdfgi_material_create(t->gi, &desc, &materials[i]));
+    }
     for (uint32_t i = 0; i < API_INSTANCES; i++) {
         struct sdfgi_instance_desc desc = scene->instances[i].desc;
         if (!scene->instances[i].live)

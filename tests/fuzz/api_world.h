@@ -51,7 +51,7 @@ struct api_stale {
 struct api_device {
     struct gpu_test_buffer positions[API_SHAPES], indices[API_SHAPES], copy;
     struct sdfgi_mesh_desc shapes[API_SHAPES];
-    struct gpu_test_image depth, normal, output;
+    struct gpu_test_image depth, normal, output, texture;
 };
 
 struct api_world {
