@@ -274,32 +274,39 @@ static void begin_anew(struct api_world *w)
     sdfgi_reset(w->t->gi);
 }
 
+/* Those of api_change come first. */
+static const struct {
+    const char *name;
+    uint32_t weight;
+    void (*run)(struct api_world *world);
+} steps[] = {
+    { "sky", 6, change_sky },
+    { "light", 10, change_light },
+    { "instance", 30, change_instance },
+    { "mesh", 8, toggle_mesh },
+    { "settings", 2, change_settings },
+    { "material", 8, toggle_material },
+    { "camera", 10, move_camera },
+    { "invalidate", 3, invalidate },
+    { "reset", 1, begin_anew },
+    { "wrong call", 15, api_break_rule },
+    { "frame", 30, api_frame },
+};
+
+const char *api_change(struct api_world *world, uint32_t change)
+{
+    steps[change].run(world);
+    return steps[change].name;
+}
+
 const char *api_step(struct api_world *world)
 {
-    static const struct {
-        const char *name;
-        uint32_t weight;
-        void (*run)(struct api_world *world);
-    } steps[] = {
-        { "mesh", 8, toggle_mesh },
-        { "material", 8, toggle_material },
-        { "instance", 30, change_instance },
-        { "light", 10, change_light },
-        { "sky", 6, change_sky },
-        { "settings", 2, change_settings },
-        { "camera", 10, move_camera },
-        { "invalidate", 3, invalidate },
-        { "reset", 1, begin_anew },
-        { "wrong call", 15, api_break_rule },
-        { "frame", 30, api_frame },
-    };
     uint32_t sum = 0, step = 0;
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
         sum += steps[i].weight;
     for (uint32_t at = api_below(world, sum); at >= steps[step].weight; step++)
         at -= steps[step].weight;
-    steps[step].run(world);
-    return steps[step].name;
+    return api_change(world, step);
 }
 
 /* ---- The same scene again --------------------------------------------------------------------------- */

@@ -79,6 +79,9 @@ uint32_t api_below(struct api_world *world, uint32_t limit);
 
 /* Does one thing, and returns its name. */
 const char *api_step(struct api_world *world);
+/* Changes the sky, a light, an instance, a mesh or the settings. */
+enum { API_CHANGES = 5 };
+const char *api_change(struct api_world *world, uint32_t change);
 /* What a host does in a frame: runs it, or drops it. */
 void api_frame(struct api_world *world);
 /* Calls that must be refused and change nothing. */
