@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { STEPS = 150, FIRST_SEED = 5, SEEDS = 2, POINTS = 24, SECONDS = 60 };
+enum { STEPS = 150, FIRST_SEED = 30, SEEDS = 2, POINTS = 24, SECONDS = 60 };
 
 static struct gi_test walked, fresh;
 static struct api_device walked_device, fresh_device;
