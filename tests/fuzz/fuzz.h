@@ -33,6 +33,9 @@ void fuzz_big_endian_put(uint8_t *bytes, uint32_t value);
 
 /* The `mutate` of formats that are JSON, or have it inside. */
 size_t fuzz_json_mutate(uint8_t *data, size_t size, size_t capacity, struct test_random *random);
+/* Those of glTF and GLB. */
+size_t fuzz_glb_mutate(uint8_t *data, size_t size, size_t capacity, struct test_random *random);
+void fuzz_glb_mend(uint8_t *data, size_t size);
 
 #define FUZZ_DECLARE(name) extern const struct fuzz_target fuzz_##name;
 FUZZ_TARGETS(FUZZ_DECLARE) /* meson.build has the list */

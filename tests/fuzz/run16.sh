@@ -14,7 +14,7 @@ tar -C "$libraries" -xzf "$here/lib.tar.gz"
 export FUZZ_LOADER="$libraries/lib/ld-linux-x86-64.so.2 --library-path $libraries/lib"
 
 # Those of one target work on one corpus.
-workers=(gltf gltf gltf gltf exr exr png jpeg hdr pfm view path state cache settings cli)
+workers=(gltf gltf gltf trace trace exr png jpeg hdr pfm view path state cache settings cli)
 printf '%-10s %12s %10s %10s\n' target executions coverage findings
 for target in "${workers[@]}"; do
     "$here/feed.sh" "$here/fuzz_$target" "$here/seeds/$target" "$OUT/corpus/$target" "$OUT/findings" \

@@ -66,7 +66,8 @@ def jpeg(components=1, frame=0xc0, sampling=0x11, dc=b"\0\0", codes=None, restar
         jpeg_segment(frame, head + b"".join(bytes([i, sampling if i == 1 else 0x11, 0]) for i in ids)),
         *huffman,
         jpeg_segment(0xdd, struct.pack(">H", restart)) if restart else b"",
-        jpeg_segment(0xda, bytes([components]) + b"".join(bytes([i, 0]) for i in ids) + rest), dc, b"\xff\xd9"])
+        jpeg_segment(0xda, bytes([components]) + b"".join(bytes([i, 0]) for i in ids) + rest), dc,
+        b"\xff\xd9"])
 
 
 def jpeg_seeds():
@@ -363,6 +364,8 @@ def text_seeds():
 for write in (png_seeds, jpeg_seeds, hdr_seeds, pfm_seeds, exr_seeds, gltf_seeds, view_seeds, path_seeds,
               state_seeds, cache_seeds, text_seeds):
     write()
+# Whatever can be imported can be traced.
+files.update({f"trace/{path[5:]}": data for path, data in files.items() if path.startswith("gltf/")})
 for path, content in files.items():
     out = pathlib.Path(sys.argv[1]) / path
     out.parent.mkdir(parents=True, exist_ok=True)
