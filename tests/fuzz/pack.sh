@@ -7,20 +7,20 @@ set -euo pipefail
 out=$(readlink -m "$1")
 cd "$(dirname "$(readlink -f "$0")")/../.."
 programs=build-fuzz/tests/fuzz
-rm -rf "$out"
-mkdir -p "$out/lib" "$out/seeds"
+packed=$(mktemp -d)
+trap 'rm -rf "$packed"' EXIT
+mkdir -p "$out" "$packed/lib" "$packed/seeds"
 for target in "$programs"/seeds/*; do
     name=$(basename "$target")
-    strip --strip-debug -o "$out/fuzz_$name" "$programs/fuzz_$name"
-    ldd "$programs/fuzz_$name" | grep -o '/[^ ]*' | xargs -I '{}' cp -Lu '{}' "$out/lib/"
-    cp -r "$target" "$out/seeds/"
+    strip --strip-debug -o "$packed/fuzz_$name" "$programs/fuzz_$name"
+    ldd "$programs/fuzz_$name" | grep -o '/[^ ]*' | xargs -I '{}' cp -Lu '{}' "$packed/lib/"
+    cp -r "$target" "$packed/seeds/"
     # What was found to reach new code, smallest files first.
     if [ -d "build-fuzz/corpus/$name" ]; then
         find "build-fuzz/corpus/$name" -type f -size -8k -printf '%s %p\n' | sort -n | sed -n 1,500p |
-            cut -d ' ' -f 2- | xargs -r cp -t "$out/seeds/$name"
+            cut -d ' ' -f 2- | xargs -r cp -t "$packed/seeds/$name"
     fi
 done
-tar -C "$out" -czf "$out/lib.tar.gz" lib # Embree alone has 42 MiB
-rm -r "$out/lib"
+tar -C "$packed" -czf "$out/programs.tar.gz" .
 cp tests/fuzz/feed.sh tests/fuzz/run16.sh "$out/"
 du -sh "$out" >&2

@@ -30,7 +30,7 @@ elif [ -n "$(missing_packages)" ]; then
     say "skipped: fuzzing needs the packages $(missing_packages | tr '\n' ' ')"
     exit 77
 fi
-build_fuzzers build-fuzz
+build_fuzzers build-fuzz >&2
 programs=build-fuzz/tests/fuzz
 if [ "${#targets[@]}" -eq 0 ]; then
     mapfile -t targets < <(cd "$programs/seeds" && ls)

@@ -7,17 +7,17 @@ set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 : "${OUT:?is to name a folder}"
 mkdir -p "$OUT/findings" "$OUT/corpus"
+packed=$(mktemp -d)
+trap 'rm -rf "$packed"' EXIT
+tar -C "$packed" -xzf "$here/programs.tar.gz"
 # The libraries of the machine that built it, the loader and libc among them.
-libraries=$(mktemp -d)
-trap 'rm -rf "$libraries"' EXIT
-tar -C "$libraries" -xzf "$here/lib.tar.gz"
-export FUZZ_LOADER="$libraries/lib/ld-linux-x86-64.so.2 --library-path $libraries/lib"
+export FUZZ_LOADER="$packed/lib/ld-linux-x86-64.so.2 --library-path $packed/lib"
 
 # Those of one target work on one corpus.
 workers=(gltf gltf gltf trace trace exr png jpeg hdr pfm view path state cache settings cli)
 printf '%-10s %12s %10s %10s\n' target executions coverage findings
 for target in "${workers[@]}"; do
-    "$here/feed.sh" "$here/fuzz_$target" "$here/seeds/$target" "$OUT/corpus/$target" "$OUT/findings" \
+    "$here/feed.sh" "$packed/fuzz_$target" "$packed/seeds/$target" "$OUT/corpus/$target" "$OUT/findings" \
         "$(($1 * 60))" &
 done
 failed=0
