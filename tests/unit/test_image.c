@@ -209,20 +209,41 @@ static void pictures_are_what_their_names_say(void **state)
     require_refused_under_name("b.exr", "b.hdr");
 }
 
-/* Its data window ends at (32767, 32767), low bytes first. */
-static void enlarge_exr(const char *name)
+/* Overwrites `count` bytes of an attribute's value from `at`; type and size stand between it and its name. */
+static void patch_exr(const char *name, const char *attribute, size_t at, const char *with, size_t count)
 {
-    char bytes[4096];
+    char bytes[1 << 14];
     FILE *file = fopen(files_path(name), "rb");
-    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file), length = strlen(attribute) + 1;
     fclose(file);
     for (size_t i = 0; i + 40 < size; i++)
-        if (memcmp(bytes + i, "dataWindow", 11) == 0) {
-            memcpy(bytes + i + 11 + 6 + 4 + 8, "\xff\x7f\0\0\xff\x7f\0\0", 8);
+        if (memcmp(bytes + i, attribute, length) == 0) {
+            memcpy(bytes + i + length + strlen(bytes + i + length) + 1 + 4 + at, with, count);
             files_write(name, bytes, size);
             return;
         }
     fail();
+}
+
+/* Its data window ends at (32767, 32767), low bytes first. */
+static void enlarge_exr(const char *name)
+{
+    patch_exr(name, "dataWindow", 8, "\xff\x7f\0\0\xff\x7f\0\0", 8);
+}
+
+/* The first channel, alpha, is given a name that says nothing. */
+static void an_exr_with_another_channel_is_read_as_without_it(void **state)
+{
+    (void)state;
+    struct image image = write_and_read("extra.exr", 4);
+    image_finish(&image);
+    patch_exr("extra.exr", "channels", 0, "!", 1);
+    if (!image_read(&image, files_path("extra.exr"), error, sizeof error))
+        fail_msg("%s", error);
+    assert_int_equal(image.channels, 3);
+    for (int i = 0; i < 4 * COUNT; i++)
+        assert_true(image.rgba[i] == wanted_value(i, 3));
+    image_finish(&image);
 }
 
 static void require_refused(const char *name, const char *reason)
@@ -336,6 +357,7 @@ int main(void)
         cmocka_unit_test(float_formats_give_back_the_same_bits),
         cmocka_unit_test(hdr_is_off_by_less_than_its_shared_exponent_allows),
         cmocka_unit_test(hdr_runs_come_back_as_they_were),
+        cmocka_unit_test(an_exr_with_another_channel_is_read_as_without_it),
         cmocka_unit_test(png_gives_back_the_same_bytes),
         cmocka_unit_test(a_big_endian_pfm_is_swapped),
         cmocka_unit_test(broken_files_give_one_line_that_names_them),
