@@ -6,6 +6,7 @@
 #define SDFGI_VISIBILITY_GLSL
 
 #include "pass.glsl"
+#include "../lib/chebyshev.glsl"
 #include "../lib/octahedral.glsl"
 
 #ifdef SDFGI_WRITES_MASKS
@@ -63,9 +64,7 @@ vec2 visibility_depth_texel(uint probe_index, ivec2 coord)
         sdfgi_occlusion[probe_index * stride * stride + uint(coord.y + 1) * stride + uint(coord.x + 1)]);
 }
 
-/* An upper bound of the fraction of depths beyond the receiver: Chebyshev's inequality on mean and mean of
- * squares (Donnelly and Lauritzen 2006, "Variance shadow maps"), cubed for contrast as in DDGI. `dir` leads
- * from the probe to the receiver, `range` is its distance in cell widths. */
+/* How far a receiver is visible. `dir` leads to it from the probe, `range` is its distance in cell widths. */
 float visibility_chebyshev(uint probe_index, vec3 dir, float range)
 {
     const vec2 t = (sdfgi_octahedral_encode(dir) * 0.5 + 0.5) * float(SDFGI_OCCLUSION_TEXELS) - 0.5;
@@ -77,13 +76,7 @@ float visibility_chebyshev(uint probe_index, vec3 dir, float range)
                           visibility_depth_texel(probe_index, base + ivec2(1)), f.x);
     const vec2 moments =
         mix(low, high, f.y) * vec2(SDFGI_OCCLUSION_RANGE, SDFGI_OCCLUSION_RANGE * SDFGI_OCCLUSION_RANGE);
-    const float gap = range - sdfgi_frame.probe_bias - moments.x;
-    if (gap <= 0.0)
-        return 1.0;
-    /* unorm16 of the range resolves variances of 0.02 cells^2 (HARD_CASES row 43). */
-    const float variance = max(moments.y - moments.x * moments.x, 0.02);
-    const float p = variance / (variance + gap * gap);
-    return p * p * p;
+    return sdfgi_chebyshev(moments, range - sdfgi_frame.probe_bias - moments.x);
 }
 
 sdfgi_visibility visibility_from_depths(uint cascade, ivec3 cage, vec3 pos)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Depths around probes against rays in double precision through the same bits, filtered alike (HARD_CASES
  * rows 41 and 43). */
+#include "hard_case.h"
 #include "oracle_encode.h"
 #include "oracle_trace.h"
 #include "pass_scene.h"
@@ -26,7 +27,7 @@ struct depths {
 
 struct comparison {
     double mean_error, variance_error; /* of texels that no such ray reaches; for others, how far outside */
-    uint32_t probes, texels, doubtful;
+    uint32_t probes, texels, doubtful, wrong_borders;
 };
 
 /* ---- The reference */
@@ -102,13 +103,16 @@ static bool probe_position(uint32_t state, const uint32_t probe[static 3], doubl
     return !(state >> 31);
 }
 
-static void require_borders_repeat(const uint32_t *map)
+/* How many texels of the border are not the bits of those that they repeat. */
+static uint32_t wrong_border_texels(const uint32_t *map)
 {
+    uint32_t wrong = 0;
     for (uint32_t i = 0; i < STRIDE * STRIDE; i++) {
         uint32_t source[2];
         oracle_octahedral_border(TEXELS, i % STRIDE, i / STRIDE, source);
-        REQUIRE_CMP(map[i], ==, map[source[0] + STRIDE * source[1]]);
+        wrong += map[i] != map[source[0] + STRIDE * source[1]];
     }
+    return wrong;
 }
 
 static void compare_texel(struct comparison *c, struct depths *depths, int x, int y, struct moments have)
@@ -130,7 +134,7 @@ static void compare_probe(struct comparison *c, const struct oracle_bits *bits,
 {
     static struct depths depths;
     trace_depths(bits, position, &depths);
-    require_borders_repeat(map);
+    c->wrong_borders += wrong_border_texels(map);
     for (int y = 1; y <= TEXELS; y++)
         for (int x = 1; x <= TEXELS; x++)
             compare_texel(c, &depths, x, y, stored(map[x + STRIDE * y]));
@@ -183,8 +187,9 @@ static void check_scene(const char *name, struct test_mesh mesh)
     printf("%s: %u probes, mean %.5f cell off, variance %.5f; %u of %u texels graze edges\n", name, c.probes,
            c.mean_error, c.variance_error, c.doubtful, c.texels);
     REQUIRE_CMP(c.probes, >, 200u);
-    REQUIRE_CMP(c.mean_error, <=, 0.002);
-    REQUIRE_CMP(c.variance_error, <=, 0.02);
+    HARD_CASE_AT_MOST(41, "border texels of depths that are no copies", c.wrong_borders, 0);
+    HARD_CASE_AT_MOST(43, "mean of stored depths, off by cells", c.mean_error, 0.002);
+    HARD_CASE_AT_MOST(43, "variance of stored depths, off by cells squared", c.variance_error, 0.02);
     REQUIRE_CMP(c.doubtful, <, c.texels / 4);
     test_mesh_destroy(&mesh);
 }

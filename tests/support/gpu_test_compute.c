@@ -130,3 +130,12 @@ void gpu_test_compute(struct gpu_test *gpu, const struct gpu_test_shader *shader
     vkDestroyDescriptorPool(gpu->device, work.pool, NULL);
     gpu_test_buffer_destroy(gpu, &buffer);
 }
+
+void gpu_test_compute_alone(const uint32_t *code, size_t code_size, uint32_t count, void *data, size_t size)
+{
+    static struct gpu_test gpu; /* must stay where it is */
+    const struct gpu_test_shader shader = { .code = code, .code_size = code_size };
+    gpu_test_open(&gpu, NULL);
+    gpu_test_compute(&gpu, &shader, count, data, size);
+    gpu_test_close(&gpu);
+}

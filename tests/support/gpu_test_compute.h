@@ -18,6 +18,9 @@ struct gpu_test_shader {
 void gpu_test_compute(struct gpu_test *gpu, const struct gpu_test_shader *shader, uint32_t count, void *data,
                       size_t size);
 
+/* The same on a device without features, which is opened for it and closed. */
+void gpu_test_compute_alone(const uint32_t *code, size_t code_size, uint32_t count, void *data, size_t size);
+
 /* Destroys the pipeline that was kept. */
 void gpu_test_compute_forget(struct gpu_test *gpu);
 

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT
+ * Numbers that shaders are given at the ends of their range: depths without variance, and denormal light
+ * (HARD_CASES rows 43 and 56). */
+#include "gpu_test_compute.h"
+#include "hard_case.h"
+#include "oracle_encode.h"
+#include "require.h"
+#include "test_memory.h"
+
+#include "encode_chebyshev.comp.h"
+#include "encode_light.comp.h"
+#include "encode_rgb48.comp.h"
+#include "encode_rgbe.comp.h"
+
+#include "shaders/shared/constants.h"
+
+#include <math.h>
+
+/* ---- Moments of depth */
+
+struct depth_trip {
+    float mean, square, gap, visibility;
+};
+
+/* As the atlas holds it: a number in [0, 1] in 16 bits. */
+static double stored_share(double share)
+{
+    return floor(share * 65535 + 0.5) / 65535;
+}
+
+/* A wall at one distance: whatever the rounding of its moments, a receiver before it is seen, and one that is
+ * a cell behind it is not. */
+static void hard_43_weights_of_flat_depths_are_shares(void **state)
+{
+    (void)state;
+    enum { DEPTHS = 20000 };
+    static struct depth_trip depths[DEPTHS];
+    const double range = SDFGI_OCCLUSION_RANGE;
+    struct test_random random = { 43 };
+    double variance = 0, before = INFINITY, behind = 0, least = INFINITY, most = 0;
+    for (int i = 0; i < DEPTHS; i++) {
+        const double depth = test_random_real(&random, 0, range);
+        const double mean = range * stored_share(depth / range),
+                     square = range * range * stored_share(depth * depth / (range * range));
+        variance = fmax(variance, fabs(square - mean * mean));
+        const double receiver = i % 3 == 0   ? depth
+                                : i % 3 == 1 ? depth + 1
+                                             : test_random_real(&random, 0, range);
+        depths[i] = (struct depth_trip){ (float)mean, (float)square, (float)(receiver - mean), NAN };
+    }
+    gpu_test_compute_alone(encode_chebyshev_comp, sizeof encode_chebyshev_comp, DEPTHS, depths,
+                           sizeof depths);
+    for (int i = 0; i < DEPTHS; i++) {
+        const double weight = (double)depths[i].visibility;
+        REQUIRE_TRUE(isfinite(weight));
+        least = fmin(least, weight);
+        most = fmax(most, weight);
+        before = i % 3 == 0 ? fmin(before, weight) : before;
+        behind = i % 3 == 1 ? fmax(behind, weight) : behind;
+    }
+    HARD_CASE_AT_MOST(43, "variance that rounding adds to a flat depth, cells squared", variance, 0.02);
+    HARD_CASE_AT_LEAST(43, "least weight", least, 0);
+    HARD_CASE_AT_MOST(43, "largest weight", most, 1);
+    HARD_CASE_AT_LEAST(43, "weight of a receiver at the wall", before, 0.999);
+    HARD_CASE_AT_MOST(43, "weight of a receiver a cell behind the wall", behind, 1e-3);
+}
+
+/* ---- Denormal numbers */
+
+/* Numbers below the smallest normal one, each beside others of any size. */
+static float flushed(float value)
+{
+    return fabsf(value) < 0x1p-126f ? 0 : value;
+}
+
+static float maybe_denormal(struct test_random *random)
+{
+    static const float values[] = { 1e-40f, 1e-45f, 0x1.fffffcp-127f, 0, 1e-3f, 1, 3e4f };
+    return values[(int)test_random_real(random, 0, 6.999)];
+}
+
+/* Runs a shader on `count` rows of `floats`, of which the first `inputs` hold such numbers, and on the same
+ * rows with zeros instead. Returns how many outputs differ. */
+static uint32_t outputs_that_differ(const uint32_t *code, size_t code_size, int floats, int inputs)
+{
+    enum { ROWS = 500, MOST = 48 };
+    static float rows[2][ROWS * MOST];
+    struct test_random random = { 56 };
+    memset(rows, 0, sizeof rows);
+    for (int i = 0; i < ROWS * floats; i++)
+        if (i % floats < inputs && (inputs == 3 || i % 4 < 3)) {
+            rows[0][i] = maybe_denormal(&random);
+            rows[1][i] = flushed(rows[0][i]);
+        }
+    for (int k = 0; k < 2; k++)
+        gpu_test_compute_alone(code, code_size, ROWS, rows[k], (size_t)ROWS * (size_t)floats * sizeof(float));
+    uint32_t differ = 0;
+    for (int i = 0; i < ROWS * floats; i++)
+        differ +=
+            (i % floats >= inputs || i % 4 == 3) && memcmp(&rows[0][i], &rows[1][i], sizeof(float)) != 0;
+    return differ;
+}
+
+/* Light that is brighter or darker by so little is the same light. */
+static void hard_56_denormals_are_encoded_as_zero(void **state)
+{
+    (void)state;
+    HARD_CASE_AT_MOST(56, "RGB9E5 texels that differ from those of 0",
+                      outputs_that_differ(encode_rgbe_comp, sizeof encode_rgbe_comp, 8, 3), 0);
+    HARD_CASE_AT_MOST(56, "48-bit colours that differ from those of 0",
+                      outputs_that_differ(encode_rgb48_comp, sizeof encode_rgb48_comp, 8, 3), 0);
+    HARD_CASE_AT_MOST(56, "light cells that differ from those of 0",
+                      outputs_that_differ(encode_light_comp, sizeof encode_light_comp, 48, 24), 0);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_43_weights_of_flat_depths_are_shares),
+        cmocka_unit_test(hard_56_denormals_are_encoded_as_zero),
+    };
+    return cmocka_run_group_tests_name("numbers", tests, NULL, NULL);
+}
