@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Emitters as lights: lamps over a floor whose light is known, whatever their size and number. */
+#include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
 
@@ -73,14 +74,16 @@ static const struct gi_test_point floor_points[POINTS] = {
     { { -1.3f, -0.05f, 0.1f }, { 0, 1, 0 } },
 };
 
-static void lamps_of_all_sizes_give_the_light_of_their_power(void **state)
+/* The smallest has a hundredth of a cell. */
+static void hard_49_lamps_of_all_sizes_give_the_light_of_their_power(void **state)
 {
     (void)state;
-    static const double sides[] = { 0.05, 0.2, 0.8 };
+    static const double sides[] = { 0.002, 0.2, 0.8, 0.05 };
+    const size_t count = getenv("SDFGI_TEST_FULL") ? 4 : 3;
     static struct gi_test t;
     const struct sdfgi_settings settings = emitter_settings();
     gi_test_open(&t, &settings);
-    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+    for (size_t i = 0; i < count; i++) {
         float found[POINTS][3];
         gi_test_restart(&t, &settings);
         add_floor(&t);
@@ -91,8 +94,98 @@ static void lamps_of_all_sizes_give_the_light_of_their_power(void **state)
             const double expected = shown_irradiance(sides[i], 20, floor_points[k].position),
                          ratio = (double)found[k][1] / expected;
             printf("lamp of %.2f m, point %d: %.3f W/m^2, ratio %.3f\n", sides[i], k, expected, ratio);
-            REQUIRE_NEAR(ratio, 1, 0.02);
+            HARD_CASE_AT_MOST(49, "light of lamps of 1/100 cell to 4 cells, off by", fabs(ratio - 1), 0.02);
         }
+    }
+    gi_test_close(&t);
+}
+
+/* ---- A lamp that slides */
+
+enum { SLIDE_POINTS = 9 };
+
+/* Light on the floor over that of a lamp at this place, in the mean of nine points. */
+static double slide_flux(struct gi_test *t, double side, const double offset[static 3])
+{
+    struct gi_test_point at[SLIDE_POINTS];
+    float found[SLIDE_POINTS][3];
+    double sum = 0, expected = 0;
+    for (int i = 0; i < SLIDE_POINTS; i++)
+        at[i] = (struct gi_test_point){ { 0.5f * (float)(i % 3 - 1), -0.05f, 0.5f * (float)(i / 3 - 1) },
+                                        { 0, 1, 0 } };
+    gi_test_irradiance(t, at, SLIDE_POINTS, found);
+    for (int i = 0; i < SLIDE_POINTS; i++) {
+        float beside[3];
+        for (int k = 0; k < 3; k++)
+            beside[k] = at[i].position[k] - (float)offset[k];
+        sum += (double)found[i][1];
+        expected += lamp_irradiance(side, 20, beside);
+    }
+    return sum / expected;
+}
+
+/* A small floor, so that light settles in few frames. */
+static sdfgi_instance start_slide(struct gi_test *t, double side)
+{
+    struct sdfgi_settings settings = emitter_settings();
+    settings.cell_rays = 32;
+    gi_test_restart(t, &settings);
+    light_add_box(t, (double[]){ -1, -0.6, -1 }, (double[]){ 1, -0.05, 1 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    const double u[3] = { side / 2, 0, 0 }, v[3] = { 0, 0, side / 2 };
+    return light_add(t, test_mesh_plane((double[]){ 0, HEIGHT, 0 }, u, v, 1), 0, (float)(20 / (side * side)));
+}
+
+struct slide {
+    double off, pop; /* the largest error, and the largest change of a step */
+};
+
+/* By a sixteenth of a cell a step. Over two cells, the size of an albedo block, all repeats. */
+static struct slide slide_lamp(struct gi_test *t, double side, const double direction[static 3], int steps)
+{
+    struct slide slide = { 0, 0 };
+    double before = 0;
+    const sdfgi_instance lamp = start_slide(t, side);
+    for (int i = 0; i <= steps; i++) {
+        double offset[3];
+        struct sdfgi_transform transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } };
+        for (int k = 0; k < 3; k++)
+            transform.translation[k] = offset[k] = direction[k] * CELL_M / 16 * i;
+        REQUIRE_CMP((int)sdfgi_instance_set_transform(t->gi, lamp, &transform), ==, (int)SDFGI_OK);
+        gi_test_converge(t, 400);
+        const double flux = slide_flux(t, side, offset);
+        slide.off = fmax(slide.off, fabs(flux - 1));
+        slide.pop = i > 0 ? fmax(slide.pop, fabs(flux / before - 1)) : 0;
+        before = flux;
+    }
+    printf("lamp of %.1f m slides along (%g %g %g): off by %.4f at most, %.4f a step\n", side, direction[0],
+           direction[1], direction[2], slide.off, slide.pop);
+    return slide;
+}
+
+static void require_steady(struct slide slide)
+{
+    HARD_CASE_AT_MOST(50, "light of a lamp of two cells that slides, off by", slide.off, 0.1);
+    HARD_CASE_AT_MOST(50, "change for a step of 1/16 cell, lamp of two cells", slide.pop, 0.05);
+}
+
+/* A lamp emits in the sub-voxels that it sets, and covers at most all of them: what its rim covers of a
+ * sub-voxel whose middle it misses is lost. In steps of a quarter sub-voxel that is 1/16 of a lamp of four
+ * sub-voxels, and half as much of one of eight. */
+static void hard_50_a_lamp_that_slides_keeps_its_light(void **state)
+{
+    (void)state;
+    static const double along[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 }, across[3] = { 0.7, -0.4, 0.6 };
+    const bool full = getenv("SDFGI_TEST_FULL") != NULL;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = emitter_settings();
+    gi_test_open(&t, &settings);
+    require_steady(slide_lamp(&t, 2 * CELL_M, along, full ? 32 : 5));
+    const struct slide small = slide_lamp(&t, CELL_M, along, full ? 32 : 4);
+    HARD_CASE_AT_MOST(50, "light of a lamp of one cell that slides, off by", small.off, 0.1);
+    HARD_CASE_AT_MOST(50, "change for a step of 1/16 cell, lamp of one cell", small.pop, 0.075);
+    if (full) {
+        require_steady(slide_lamp(&t, 2 * CELL_M, up, 32));
+        require_steady(slide_lamp(&t, 2 * CELL_M, across, 32));
     }
     gi_test_close(&t);
 }
@@ -245,7 +338,8 @@ static void lists_do_not_depend_on_the_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lamps_of_all_sizes_give_the_light_of_their_power),
+        cmocka_unit_test(hard_49_lamps_of_all_sizes_give_the_light_of_their_power),
+        cmocka_unit_test(hard_50_a_lamp_that_slides_keeps_its_light),
         cmocka_unit_test(nothing_comes_through_a_lampshade),
         cmocka_unit_test(more_lamps_than_a_list_takes_lose_nothing),
         cmocka_unit_test(nothing_is_there_where_nothing_emits),
