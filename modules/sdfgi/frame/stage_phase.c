@@ -58,8 +58,8 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
         work->count = target->piece->count;
     }
     switch (row->domain) {
-    case DOMAIN_BOX: /* threads take several cells each */
-        work->units = sdfgi_cell_box_cells(&work->box) * SDFGI_GROUP_LINEAR / row->group;
+    case DOMAIN_BOX:
+        work->units = sdfgi_cell_box_cells(&work->box) / (row->unit == UNIT_BLOCKS ? 8 : 1);
         break;
     case DOMAIN_DISTANCE_ROWS:
         work->units = layer_cells(n / 4 + work->count, n);
