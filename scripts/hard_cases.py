@@ -47,7 +47,7 @@ def worst_of(records):
 
 def table(worst):
     for number, case, promise in catalogue():
-        yield f"| {number} | **{case}**: {promise} | | | | |\n"
+        yield f"| {number} | **{case}**: {promise.removeprefix('restated: ')} | | | | |\n"
         figures = sorted(key for key in worst if key[0] == number)
         for key in figures:
             measured, sense, limit, file, test = worst[key]
