@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT
+ * Layouts of equal definition are compatible, so a pipeline made with those of one context runs with those
+ * of the next. Pipelines of one shader are told apart by its code alone: the library specialises none. */
+#include "shared_pipelines.h"
+
+#include "require.h"
+#include "test_memory.h"
+
+#include <stdlib.h>
+#include <vulkan/vulkan.h>
+
+enum { MOST = 64 };
+
+struct shader {
+    uint32_t *code;
+    size_t size;
+    VkShaderModule module; /* the newest with this code */
+    VkPipeline pipeline;
+};
+
+static struct shader shaders[MOST];
+static uint32_t shader_count;
+
+static struct shader *shader_of_code(const uint32_t *code, size_t size)
+{
+    for (uint32_t i = 0; i < shader_count; i++)
+        if (shaders[i].size == size && memcmp(shaders[i].code, code, size) == 0)
+            return &shaders[i];
+    REQUIRE_CMP(shader_count, <, (uint32_t)MOST);
+    struct shader *shader = &shaders[shader_count++];
+    *shader = (struct shader){ .code = test_array_alloc(size, 1), .size = size };
+    memcpy(shader->code, code, size);
+    return shader;
+}
+
+static struct shader *shader_of_module(VkShaderModule module)
+{
+    for (uint32_t i = 0; i < shader_count; i++)
+        if (shaders[i].module == module)
+            return &shaders[i];
+    require_fail(__FILE__, __LINE__, "a pipeline of a shader that nobody made");
+    return NULL;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL create_module(VkDevice device, const VkShaderModuleCreateInfo *info,
+                                                    const VkAllocationCallbacks *callbacks,
+                                                    VkShaderModule *out)
+{
+    const VkResult result = vkCreateShaderModule(device, info, callbacks, out);
+    for (uint32_t i = 0; i < shader_count; i++)
+        if (shaders[i].module == *out)
+            shaders[i].module = VK_NULL_HANDLE;
+    shader_of_code(info->pCode, info->codeSize)->module = *out;
+    return result;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                                     const VkComputePipelineCreateInfo *infos,
+                                                     const VkAllocationCallbacks *callbacks, VkPipeline *out)
+{
+    REQUIRE_CMP(count, ==, 1u);
+    REQUIRE_TRUE(infos->stage.pSpecializationInfo == NULL);
+    struct shader *shader = shader_of_module(infos->stage.module);
+    VkResult result = VK_SUCCESS;
+    if (!shader->pipeline)
+        result = vkCreateComputePipelines(device, cache, 1, infos, callbacks, &shader->pipeline);
+    *out = shader->pipeline;
+    return result;
+}
+
+static VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice device, VkPipeline pipeline,
+                                                   const VkAllocationCallbacks *callbacks)
+{
+    for (uint32_t i = 0; i < shader_count; i++)
+        if (shaders[i].pipeline == pipeline)
+            return;
+    vkDestroyPipeline(device, pipeline, callbacks);
+}
+
+static const struct {
+    const char *name;
+    PFN_vkVoidFunction function;
+} own[] = {
+    { "vkCreateShaderModule", (PFN_vkVoidFunction)create_module },
+    { "vkCreateComputePipelines", (PFN_vkVoidFunction)create_compute },
+    { "vkDestroyPipeline", (PFN_vkVoidFunction)destroy_pipeline },
+};
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
+{
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(own[i].name, name) == 0)
+            return own[i].function;
+    return vkGetDeviceProcAddr(device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL shared_pipelines_loader(VkInstance instance, const char *name)
+{
+    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
+        return (PFN_vkVoidFunction)get_device_proc_addr;
+    return vkGetInstanceProcAddr(instance, name);
+}
+
+void shared_pipelines_destroy(VkDevice device)
+{
+    for (uint32_t i = 0; i < shader_count; i++) {
+        vkDestroyPipeline(device, shaders[i].pipeline, NULL);
+        free(shaders[i].code);
+    }
+    shader_count = 0;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT
+ * A loader whose devices share compute pipelines: contexts of the library ask for the same ones over and
+ * over, and a software driver compiles each of them when it runs first. One device at a time. */
+#ifndef TEST_SHARED_PIPELINES_H
+#define TEST_SHARED_PIPELINES_H
+
+#include <vulkan/vulkan_core.h>
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL shared_pipelines_loader(VkInstance instance, const char *name);
+/* Before the device goes. */
+void shared_pipelines_destroy(VkDevice device);
+
+#endif

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: MIT
+ * Whatever single thing a host changes, settled light wakes, and settles to what a fresh context makes of the
+ * final state. */
+#include "light_scene.h"
+#include "require.h"
+#include "test_memory.h"
+#include "wake_fields.h"
+#include "wake_result.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* One change of one element of one field, or of one property. */
+struct host_change {
+    enum wake_object object;
+    uint32_t index;
+    bool new_first, cancels;
+    bool moves_origin, raises_cost;
+    uint32_t row; /* counts fields, then properties */
+    char text[256];
+};
+
+enum { ROWS_MOST = 128, CHANGES = 1000 };
+
+struct fuzz {
+    struct wake_device device;
+    struct wake_world world; /* what `living` has settled to */
+    struct wake_context living;
+    struct wake_result result; /* a fresh context's of `world` */
+    struct sdfgi_settings base;
+    struct test_random random;
+    uint32_t changes, failures, contexts;
+    uint32_t frames;
+    bool shown[ROWS_MOST]; /* a change of the row could be seen */
+};
+
+static bool is_full(void)
+{
+    return getenv("SDFGI_TEST_FULL") != NULL;
+}
+
+/* Settles in few frames. Few rays are no matter: they are the same in every cycle, and so is their noise. */
+static struct sdfgi_settings fuzz_settings(void)
+{
+    struct sdfgi_settings s = light_settings(32, 0.4f);
+    s.cascades = 2;
+    s.frames_to_converge = 1;
+    s.cell_rays = 32;
+    return s;
+}
+
+static uint32_t below(struct fuzz *f, uint32_t count)
+{
+    return (uint32_t)test_random_real(&f->random, 0, count);
+}
+
+/* ---- A change of a field */
+
+static void change_field(struct fuzz *f, uint32_t row, struct wake_world *after, struct host_change *change)
+{
+    const struct wake_field field = wake_field_get(row);
+    const struct wake_group *g = field.group;
+    const uint32_t object = g->first + below(f, g->end - g->first), element = below(f, field.part->count);
+    const double before = wake_field_read(&field, &f->device, after, object, element);
+    double value = before;
+    while (value == before)
+        value = (double)(float)field.part->values[below(f, field.part->value_count)];
+    wake_field_write(&field, &f->device, after, object, element, value);
+    change->object = g->object;
+    change->index = object;
+    change->moves_origin = g->object == WAKE_FRAME && strcmp(field.part->name, "origin") == 0;
+    snprintf(change->text, sizeof change->text, "%s[%u].%s[%u] from %g to %g", g->name, object,
+             field.part->name, element, before, value);
+}
+
+/* ---- A change of a property */
+
+static uint32_t property_count(void)
+{
+    uint32_t count = 0;
+    while (sdfgi_property_get_info(count))
+        count++;
+    return count;
+}
+
+/* One of the choices. */
+static void any_choice(struct fuzz *f, const struct sdfgi_property_info *info, char text[static 64])
+{
+    uint32_t count = 1;
+    for (const char *at = info->choices; (at = strchr(at, ',')); at++)
+        count++;
+    const char *at = info->choices;
+    for (uint32_t i = below(f, count); i > 0; i--)
+        at = strchr(at, ',') + 1;
+    snprintf(text, 64, "%.*s", (int)strcspn(at, ","), at);
+}
+
+/* Around what the settings were at first, so that costs stay about the same. */
+static void any_value(struct fuzz *f, const struct sdfgi_property_info *info, char text[static 64])
+{
+    static const double factors[] = { 0, 0.5, 1, 2 };
+    const double base = sdfgi_settings_get(&f->base, info->name);
+    const double wanted = base * factors[below(f, 4)] + (base == 0 && below(f, 2) ? 1 : 0);
+    const double value = fmin(fmax(wanted, info->minimum), info->maximum);
+    if (info->type == SDFGI_PROPERTY_BOOL)
+        snprintf(text, 64, "%s", below(f, 2) ? "true" : "false");
+    else if (info->choices[0])
+        any_choice(f, info, text);
+    else if (wanted == 0) /* the smallest there is may take forever */
+        sdfgi_settings_format(&f->base, info->name, text, 64);
+    else
+        snprintf(text, 64, info->type == SDFGI_PROPERTY_INT ? "%.0f" : "%.9g", value);
+}
+
+static uint64_t memory_of(const struct sdfgi_settings *settings)
+{
+    struct sdfgi_memory memory;
+    REQUIRE_CMP((int)sdfgi_estimate_memory(settings, 2, &memory), ==, (int)SDFGI_OK);
+    return memory.total_bytes;
+}
+
+static void change_property(struct fuzz *f, uint32_t row, struct wake_world *after,
+                            struct host_change *change)
+{
+    const struct sdfgi_property_info *info = sdfgi_property_get_info(row);
+    char before[64], text[64], error[200];
+    REQUIRE_TRUE(sdfgi_settings_format(&after->settings, info->name, before, sizeof before));
+    do {
+        any_value(f, info, text);
+        if (!sdfgi_settings_set(&after->settings, info->name, text, error, sizeof error))
+            require_fail(__FILE__, __LINE__, "%s", error);
+    } while (memcmp(&after->settings, &f->world.settings, sizeof after->settings) == 0 ||
+             memory_of(&after->settings) > 9 * memory_of(&f->base));
+    change->object = WAKE_SETTINGS;
+    change->raises_cost = 2 * memory_of(&after->settings) > 3 * memory_of(&f->base);
+    snprintf(change->text, sizeof change->text, "%s from %s to %s", info->name, before, text);
+}
+
+static uint32_t row_count(void)
+{
+    return wake_field_count() + property_count();
+}
+
+static struct host_change any_change(struct fuzz *f, uint32_t row, struct wake_world *after)
+{
+    struct host_change change = { .row = row, .new_first = below(f, 2), .cancels = below(f, 8) == 0 };
+    *after = f->world;
+    if (row < wake_field_count())
+        change_field(f, row, after, &change);
+    else
+        change_property(f, row - wake_field_count(), after, &change);
+    return change;
+}
+
+/* ---- Living and fresh */
+
+static void fresh_result(struct fuzz *f, const struct wake_world *world, struct wake_result *result)
+{
+    struct wake_context fresh;
+    wake_context_create(&fresh, &f->device, world);
+    wake_context_place_as(&fresh, &f->living);
+    wake_result_take(result, &f->device, &fresh, world);
+    f->device.t.gi = f->living.gi;
+    sdfgi_destroy(fresh.gi);
+    f->contexts++;
+}
+
+static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct gi_test *t = user;
+    REQUIRE_CMP((int)sdfgi_update(t->gi, cmd, &t->frame), ==, (int)SDFGI_OK);
+}
+
+/* The swapchain was out of date: the first update after the change never runs. */
+static void cancel_update(struct fuzz *f, const struct wake_world *world)
+{
+    f->device.t.gi = f->living.gi;
+    f->device.t.frame = world->frame;
+    gpu_test_record_and_drop(&f->device.t.gpu, record_update, &f->device.t);
+    sdfgi_cancel_update(f->living.gi);
+}
+
+/* What is wrong with the living context must not be told of each change that follows. */
+static void start_again(struct fuzz *f, const struct wake_world *world)
+{
+    struct wake_result unused;
+    sdfgi_destroy(f->living.gi);
+    wake_context_create(&f->living, &f->device, world);
+    wake_result_take(&unused, &f->device, &f->living, world);
+    wake_result_free(&unused);
+}
+
+/* Applies a change to the living context and compares it with `fresh`, which is filled in if it is of another
+ * place. */
+static void step(struct fuzz *f, const struct host_change *change, const struct wake_world *after,
+                 struct wake_result *fresh)
+{
+    struct wake_result found;
+    char text[WAKE_TEXT];
+    wake_context_follow(&f->living, &f->device, &f->world, after, change->object, change->index,
+                        change->new_first);
+    if (change->cancels)
+        cancel_update(f, after);
+    wake_result_take(&found, &f->device, &f->living, after);
+    if (!fresh->settles || !wake_result_placed_alike(&found, fresh)) {
+        wake_result_free(fresh);
+        fresh_result(f, after, fresh);
+    }
+    f->changes++;
+    f->frames += found.frames;
+    if (!wake_result_same(&found, fresh, !change->moves_origin, text)) {
+        f->failures++;
+        fprintf(stderr, "%u: %s%s%s: %s\n", f->changes, change->text, change->new_first ? ", new first" : "",
+                change->cancels ? ", cancelled once" : "", text);
+        start_again(f, after);
+    }
+    wake_result_free(&found);
+}
+
+/* Settings do not pile up: a change that costs more is taken back. In the short form all others stay. */
+static bool change_stays(struct fuzz *f, const struct host_change *change, const struct wake_result *fresh)
+{
+    const bool may = !change->raises_cost && !change->moves_origin && fresh->active;
+    return may && (!is_full() || below(f, 4) == 0);
+}
+
+/* A change, and with it taken back another, unless it stays. */
+static void change_and_back(struct fuzz *f, uint32_t row)
+{
+    struct wake_world after;
+    struct host_change change = any_change(f, row, &after);
+    struct wake_result fresh = { .settles = false };
+    step(f, &change, &after, &fresh);
+    f->shown[row] = f->shown[row] || wake_result_light_off(&fresh, &f->result) > 1;
+    const bool stays = change_stays(f, &change, &fresh);
+    const struct wake_world before = f->world;
+    f->world = after;
+    if (!stays) {
+        change.new_first = below(f, 2);
+        snprintf(change.text + strlen(change.text), sizeof change.text - strlen(change.text), ", and back");
+        step(f, &change, &before, &f->result);
+        f->world = before;
+        wake_result_free(&fresh);
+        return;
+    }
+    wake_result_free(&f->result);
+    f->result = fresh;
+}
+
+static void fuzz_open(struct fuzz *f, const struct sdfgi_settings *settings, uint32_t seed)
+{
+    memset(f, 0, sizeof *f);
+    f->random.state = seed;
+    f->base = *settings;
+    wake_device_open(&f->device);
+    wake_world_init(&f->world, &f->device, settings);
+    wake_context_create(&f->living, &f->device, &f->world);
+    wake_result_take(&f->result, &f->device, &f->living, &f->world);
+    REQUIRE_CMP(row_count(), <=, (uint32_t)ROWS_MOST);
+}
+
+static void fuzz_close(struct fuzz *f)
+{
+    sdfgi_destroy(f->living.gi);
+    wake_result_free(&f->result);
+    wake_device_close(&f->device);
+}
+
+/* ---- Tests */
+
+/* Fields of materials and meshes reach the library in one way, as new objects; so do properties that recreate
+ * everything. Of those the first ones stand for all. */
+static bool is_telling(uint32_t row)
+{
+    if (row >= wake_field_count())
+        return !sdfgi_property_get_info(row - wake_field_count())->recreates;
+    const struct wake_field field = wake_field_get(row);
+    const bool replaced = field.group->object == WAKE_MATERIAL || field.group->object == WAKE_MESH;
+    return !replaced || field.part - field.group->parts < 2;
+}
+
+/* A field that never shows would hide that it does not wake. */
+static void require_shown(const struct fuzz *f)
+{
+    for (uint32_t row = 0; row < wake_field_count(); row++) {
+        const struct wake_field field = wake_field_get(row);
+        if (field.part->shows && !f->shown[row])
+            require_fail(__FILE__, __LINE__, "no change of %s.%s could be seen", field.group->name,
+                         field.part->name);
+    }
+}
+
+static void finish(struct fuzz *f, const char *what)
+{
+    printf("%s: %u changes of %u fields and properties, %u fresh contexts, %.1f frames a change\n", what,
+           f->changes, row_count(), f->contexts, f->frames / (double)f->changes);
+    const uint32_t failures = f->failures;
+    fuzz_close(f);
+    REQUIRE_CMP(failures, ==, 0u);
+}
+
+/* Each row in turn, then rows at random. */
+static void every_change_wakes_settled_light(void **state)
+{
+    (void)state;
+    static struct fuzz f;
+    const struct sdfgi_settings settings = fuzz_settings();
+    fuzz_open(&f, &settings, 1);
+    for (uint32_t i = 0; i < row_count(); i++)
+        if (is_full() || is_telling(i))
+            change_and_back(&f, i);
+    while (is_full() && f.changes < CHANGES)
+        change_and_back(&f, below(&f, row_count()));
+    if (is_full())
+        require_shown(&f);
+    finish(&f, "probes");
+}
+
+/* Other settings to begin with. */
+static void every_change_wakes_light_of_cells(void **state)
+{
+    (void)state;
+    static struct fuzz f;
+    struct sdfgi_settings settings = fuzz_settings();
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    fuzz_open(&f, &settings, 2);
+    for (uint32_t i = 0; i < row_count(); i++)
+        if (is_telling(i))
+            change_and_back(&f, i);
+    finish(&f, "cells");
+}
+
+static void every_change_wakes_light_behind_depths(void **state)
+{
+    (void)state;
+    static struct fuzz f;
+    struct sdfgi_settings settings = fuzz_settings();
+    settings.visibility = SDFGI_VISIBILITY_PROBE_DEPTH;
+    settings.sdf_method = SDFGI_SDF_FLOOD;
+    fuzz_open(&f, &settings, 3);
+    for (uint32_t i = 0; i < row_count(); i++)
+        if (is_telling(i))
+            change_and_back(&f, i);
+    finish(&f, "depths");
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest one[] = { cmocka_unit_test(every_change_wakes_settled_light) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_change_wakes_settled_light),
+        cmocka_unit_test(every_change_wakes_light_of_cells),
+        cmocka_unit_test(every_change_wakes_light_behind_depths),
+    };
+    if (!is_full())
+        return cmocka_run_group_tests_name("wake", one, NULL, NULL);
+    return cmocka_run_group_tests_name("wake_full", tests, NULL, NULL);
+}
