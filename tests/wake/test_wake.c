@@ -345,15 +345,51 @@ static void every_change_wakes_light_behind_depths(void **state)
     finish(&f, "depths");
 }
 
+/* Nothing that gives light but a dim sky: what does not show at one exposure shows at another. */
+static void dim_the_world(struct wake_world *world)
+{
+    for (int i = 0; i < WAKE_LIGHTS; i++)
+        world->light_exists[i] = false;
+    for (int i = 0; i < WAKE_MATERIALS; i++)
+        memset(world->materials[i].emission, 0, sizeof world->materials[i].emission);
+    for (int k = 0; k < 3; k++)
+        world->sky.zenith[k] = world->sky.horizon[k] = world->sky.ground[k] = 0.02f;
+}
+
+static void light_that_an_exposure_hid_settles_once_it_shows(void **state)
+{
+    (void)state;
+    static struct fuzz f;
+    const struct sdfgi_settings settings = fuzz_settings();
+    struct host_change change = { .object = WAKE_FRAME };
+    struct wake_result fresh = { .settles = false };
+    snprintf(change.text, sizeof change.text, "frame.exposure from 1e-5 to 1");
+    wake_device_open(&f.device);
+    wake_world_init(&f.world, &f.device, &settings);
+    dim_the_world(&f.world);
+    f.world.frame.exposure = 1e-5f;
+    wake_context_create(&f.living, &f.device, &f.world);
+    wake_result_take(&f.result, &f.device, &f.living, &f.world);
+    struct wake_world after = f.world;
+    after.frame.exposure = 1;
+    step(&f, &change, &after, &fresh);
+    wake_result_free(&fresh);
+    finish(&f, "exposure");
+}
+
 int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    const struct CMUnitTest one[] = { cmocka_unit_test(every_change_wakes_settled_light) };
+    const struct CMUnitTest one[] = {
+        cmocka_unit_test(every_change_wakes_settled_light),
+        cmocka_unit_test(light_that_an_exposure_hid_settles_once_it_shows),
+    };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_change_wakes_settled_light),
         cmocka_unit_test(every_change_wakes_light_of_cells),
         cmocka_unit_test(every_change_wakes_light_behind_depths),
+        cmocka_unit_test(light_that_an_exposure_hid_settles_once_it_shows),
     };
     if (!is_full())
         return cmocka_run_group_tests_name("wake", one, NULL, NULL);

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Decides with which exposure light is stored. */
+/* Decides with which exposure light is stored. Light settles as far as the host's hint shows it: a brighter
+ * picture shows what was too dim to count. */
 static void plan_exposure(struct frame *frame, const struct frame_input *input)
 {
     struct volume_state *next = &frame->next;
@@ -16,6 +17,8 @@ static void plan_exposure(struct frame *frame, const struct frame_input *input)
     next->exposure = sdfgi_exposure_next(first ? NULL : &before, input->desc->exposure, brightest);
     frame->situation.rescales = !first && next->exposure.stored != before.stored;
     frame->rescale_power = next->exposure.stored - before.stored;
+    if (!first && next->exposure.hint > before.hint)
+        sdfgi_accumulation_invalidate(&next->accumulation);
 }
 
 /* A new seed makes everything new. A host that gives another one in each frame means none of them. */

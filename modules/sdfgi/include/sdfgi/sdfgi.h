@@ -310,7 +310,8 @@ struct sdfgi_frame_desc {
                        it: a number that is different in every frame changes nothing */
     float exposure; /* a hint: > 0, factor that brings what the picture shows near 1; 0: 1. Small formats
                        keep their precision, and light settles, down to 1/4096 of that. May change in every
-                       frame and by any factor: what is stored stays, or is rescaled by a power of two.
+                       frame and by any factor: what is stored stays, or is rescaled by a power of two,
+                       and goes on to settle where a far larger one shows what was too dim.
                        However large it is, the scene's brightest light fits. Light that lookups return
                        does not depend on it */
 };
