@@ -2,6 +2,7 @@
  * Whatever single thing a host changes, settled light wakes, and settles to what a fresh context makes of the
  * final state. */
 #include "light_scene.h"
+#include "random_setting.h"
 #include "require.h"
 #include "test_memory.h"
 #include "wake_fields.h"
@@ -60,7 +61,9 @@ static void change_field(struct fuzz *f, uint32_t row, struct wake_world *after,
 {
     const struct wake_field field = wake_field_get(row);
     const struct wake_group *g = field.group;
-    const uint32_t object = g->first + below(f, g->end - g->first), element = below(f, field.part->count);
+    /* The last of each kind of object has use for all of its fields. */
+    const uint32_t object = is_full() ? g->first + below(f, g->end - g->first) : g->end - 1,
+                   element = below(f, field.part->count);
     const double before = wake_field_read(&field, &f->device, after, object, element);
     double value = before;
     while (value == before)
@@ -75,70 +78,21 @@ static void change_field(struct fuzz *f, uint32_t row, struct wake_world *after,
 
 /* ---- A change of a property */
 
-static uint32_t property_count(void)
-{
-    uint32_t count = 0;
-    while (sdfgi_property_get_info(count))
-        count++;
-    return count;
-}
-
-/* One of the choices. */
-static void any_choice(struct fuzz *f, const struct sdfgi_property_info *info, char text[static 64])
-{
-    uint32_t count = 1;
-    for (const char *at = info->choices; (at = strchr(at, ',')); at++)
-        count++;
-    const char *at = info->choices;
-    for (uint32_t i = below(f, count); i > 0; i--)
-        at = strchr(at, ',') + 1;
-    snprintf(text, 64, "%.*s", (int)strcspn(at, ","), at);
-}
-
-/* Around what the settings were at first, so that costs stay about the same. */
-static void any_value(struct fuzz *f, const struct sdfgi_property_info *info, char text[static 64])
-{
-    static const double factors[] = { 0, 0.5, 1, 2 };
-    const double base = sdfgi_settings_get(&f->base, info->name);
-    const double wanted = base * factors[below(f, 4)] + (base == 0 && below(f, 2) ? 1 : 0);
-    const double value = fmin(fmax(wanted, info->minimum), info->maximum);
-    if (info->type == SDFGI_PROPERTY_BOOL)
-        snprintf(text, 64, "%s", below(f, 2) ? "true" : "false");
-    else if (info->choices[0])
-        any_choice(f, info, text);
-    else if (wanted == 0) /* the smallest there is may take forever */
-        sdfgi_settings_format(&f->base, info->name, text, 64);
-    else
-        snprintf(text, 64, info->type == SDFGI_PROPERTY_INT ? "%.0f" : "%.9g", value);
-}
-
-static uint64_t memory_of(const struct sdfgi_settings *settings)
-{
-    struct sdfgi_memory memory;
-    REQUIRE_CMP((int)sdfgi_estimate_memory(settings, 2, &memory), ==, (int)SDFGI_OK);
-    return memory.total_bytes;
-}
-
 static void change_property(struct fuzz *f, uint32_t row, struct wake_world *after,
                             struct host_change *change)
 {
     const struct sdfgi_property_info *info = sdfgi_property_get_info(row);
-    char before[64], text[64], error[200];
+    char before[RANDOM_SETTING_TEXT], text[RANDOM_SETTING_TEXT];
     REQUIRE_TRUE(sdfgi_settings_format(&after->settings, info->name, before, sizeof before));
-    do {
-        any_value(f, info, text);
-        if (!sdfgi_settings_set(&after->settings, info->name, text, error, sizeof error))
-            require_fail(__FILE__, __LINE__, "%s", error);
-    } while (memcmp(&after->settings, &f->world.settings, sizeof after->settings) == 0 ||
-             memory_of(&after->settings) > 9 * memory_of(&f->base));
+    random_setting_change(&f->random, row, &f->base, &after->settings, text);
     change->object = WAKE_SETTINGS;
-    change->raises_cost = 2 * memory_of(&after->settings) > 3 * memory_of(&f->base);
+    change->raises_cost = 2 * random_setting_memory(&after->settings) > 3 * random_setting_memory(&f->base);
     snprintf(change->text, sizeof change->text, "%s from %s to %s", info->name, before, text);
 }
 
 static uint32_t row_count(void)
 {
-    return wake_field_count() + property_count();
+    return wake_field_count() + random_setting_rows();
 }
 
 static struct host_change any_change(struct fuzz *f, uint32_t row, struct wake_world *after)

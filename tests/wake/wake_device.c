@@ -107,7 +107,7 @@ static void make_buffers(struct wake_device *device)
     device->buffers[WAKE_ROOM_INDICES] = gpu_test_buffer_device(
         gpu, 12 * (VkDeviceSize)room.triangle_count, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, room.indices);
     test_mesh_destroy(&room);
-    for (int i = WAKE_POSITIONS; i < WAKE_BUFFERS; i++) {
+    for (int i = WAKE_THINGS; i < WAKE_BUFFERS; i++) {
         device->buffers[i] = gpu_test_buffer_device(gpu, 4 * SPAN, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, NULL);
         write_buffer(device, (enum wake_buffer)i, 0);
     }

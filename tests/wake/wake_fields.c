@@ -64,7 +64,7 @@
     X(double,                position,        MANY, SEEN, -1.3, -0.2, 0.5, 1.4)                              \
     X(float,                 direction,       MANY, SEEN, -1, -0.4, 0.3, 0.8)                                \
     X(float,                 intensity,       MANY, SEEN, 0, 2, 5, 12)                                       \
-    X(float,                 range_m,         ONE,  SEEN, 0, 1.5, 3)                                         \
+    X(float,                 range_m,         ONE,  SEEN, 0, 1, 2)                                           \
     X(float,                 inner_angle_rad, ONE,  SEEN, 0, 0.2, 0.4)                                       \
     X(float,                 outer_angle_rad, ONE,  SEEN, 0.5, 0.8, 1.4)                                     \
     X(float,                 indirect_energy, ONE,  SEEN, 0, 0.5, 1, 2)                                      \
@@ -76,7 +76,7 @@
     X(float, ground,  MANY, SEEN, 0, 0.3, 1, 2)
 
 #define FRAME_FIELDS(X)                                                                                      \
-    X(double,   camera_position, MANY, SEEN,   0, 0.3, 2.3, -4.1)                                            \
+    X(double,   camera_position, MANY, SEEN,   0, 3.7, -4.1)                                                 \
     X(double,   origin,          MANY, UNSEEN, 0, 0.7, -120, 5000)                                           \
     X(uint32_t, seed,            ONE,  UNSEEN, 0, 1, 77)                                                     \
     X(float,    exposure,        ONE,  UNSEEN, 0, 1, 0.02, 1e-4, 300)
@@ -172,7 +172,7 @@ static const struct wake_group groups[] = {
           transform_parts),
     ALL("light", WAKE_LIGHT_EXISTS, 0, WAKE_LIGHTS, light_exists, exists_parts),
     ALL("instance", WAKE_INSTANCE_EXISTS, 1, WAKE_INSTANCES, instance_exists, exists_parts),
-    ALL("buffer", WAKE_BUFFER_CONTENT, WAKE_POSITIONS, WAKE_BUFFERS, contents.buffers, content_parts),
+    ALL("buffer", WAKE_BUFFER_CONTENT, WAKE_THINGS, WAKE_BUFFERS, contents.buffers, content_parts),
     ALL("texture", WAKE_TEXTURE_CONTENT, 0, WAKE_TEXTURES, contents.textures, content_parts),
 };
 

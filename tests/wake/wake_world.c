@@ -226,7 +226,7 @@ static void change_instance(const struct following *f, uint32_t i)
                        before->mobility == after->mobility;
     if (!f->after->instance_exists[i])
         return;
-    if (moves && f->new_first)
+    if (moves)
         OK(sdfgi_instance_set_transform(f->c->gi, f->c->instances[i], &after->transform));
     else
         replace_instance(f, i);
@@ -235,7 +235,7 @@ static void change_instance(const struct following *f, uint32_t i)
 static void change_light(const struct following *f, uint32_t i)
 {
     const bool was = f->before->light_exists[i], is = f->after->light_exists[i];
-    if (was && is && f->new_first) {
+    if (was && is) {
         OK(sdfgi_light_update(f->c->gi, f->c->lights[i], &f->after->lights[i]));
         return;
     }

@@ -8,19 +8,21 @@
 
 enum { WAKE_LIGHTS = 3, WAKE_MATERIALS = 4, WAKE_MESHES = 3, WAKE_INSTANCES = 4, WAKE_TEXTURES = 2 };
 
-/* Buffers that meshes read. Those of the room are first, so that no mesh of index 1 and above reads them. */
+/* Buffers that meshes read: those of the room, those that nothing reads at first, and those that things read.
+ */
 enum wake_buffer {
     WAKE_ROOM_POSITIONS,
     WAKE_ROOM_INDICES,
-    WAKE_POSITIONS,
-    WAKE_OTHER_POSITIONS,
+    WAKE_OTHER_UVS,
+    WAKE_OTHER_COLORS,
+    WAKE_UVS,
+    WAKE_COLORS,
     WAKE_INDICES,
     WAKE_OTHER_INDICES,
-    WAKE_UVS,
-    WAKE_OTHER_UVS,
-    WAKE_COLORS,
-    WAKE_OTHER_COLORS,
+    WAKE_OTHER_POSITIONS,
+    WAKE_POSITIONS,
     WAKE_BUFFERS,
+    WAKE_THINGS = WAKE_OTHER_UVS, /* the first that is not the room's */
 };
 
 /* What the host can change behind the library's back: versions of it. */
@@ -85,7 +87,7 @@ void wake_world_init(struct wake_world *world, const struct wake_device *device,
 void wake_context_create(struct wake_context *context, struct wake_device *device,
                          const struct wake_world *world);
 /* Does what a host does after a change from `before` to `after`, which differ in one object. `new_first`:
- * what is replaced goes after the new is there. */
+ * what is replaced goes after the new is there, where both ways are open. */
 void wake_context_follow(struct wake_context *context, struct wake_device *device,
                          const struct wake_world *before, const struct wake_world *after,
                          enum wake_object object, uint32_t index, bool new_first);
