@@ -35,5 +35,7 @@ uint32_t scroll_settle(struct gi_test *t);
  * The first returns how many elements differ, and says which. */
 uint64_t scroll_differences(struct gi_test *walked, struct gi_test *fresh, const char *what);
 void scroll_require_equal(struct gi_test *walked, struct gi_test *fresh, const char *what);
+/* The same without direct light. */
+void scroll_require_equal_but_light(struct gi_test *walked, struct gi_test *fresh, const char *what);
 
 #endif

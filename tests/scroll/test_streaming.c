@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Instances come, move and go while the camera walks: 10,000 operations leave the volumes of a fresh context,
- * and no memory behind. */
+ * and no memory behind. A host that does anything at random leaves none either. */
 #include "light_scene.h"
+
+#include "hard_case.h"
+#include "random_setting.h"
 #include "require.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
@@ -143,6 +146,246 @@ static void ten_thousand_operations_leave_no_trace(void **state)
     gi_test_close(&walked);
 }
 
+/* ---- A host at random */
+
+enum { LAMPS = 6, FRAMES_SHORT = 60, FRAMES_FULL = 2000, FRAMES_BETWEEN = 10 };
+
+struct random_host {
+    struct world world;
+    struct gi_test *t;
+    struct test_random random;
+    struct sdfgi_settings base, settings;
+    sdfgi_light lamps[LAMPS];
+    bool shines[LAMPS];
+    double camera[3];
+};
+
+static uint32_t below(struct random_host *h, uint32_t count)
+{
+    return (uint32_t)test_random_real(&h->random, 0, count);
+}
+
+static struct sdfgi_light_desc any_light(struct random_host *h)
+{
+    struct sdfgi_light_desc light = light_sun(0.3f, -0.8f, (float)test_random_real(&h->random, -1, 1), 3);
+    light.type = (enum sdfgi_light_type)below(h, 3);
+    for (int i = 0; i < 3; i++) {
+        light.position[i] = test_random_real(&h->random, -6, 6);
+        light.intensity[i] = (float)test_random_real(&h->random, 0, 20);
+    }
+    light.range_m = below(h, 2) ? 0 : (float)test_random_real(&h->random, 1, 9);
+    light.outer_angle_rad = (float)test_random_real(&h->random, 0.1, 1.5);
+    light.casts_shadow = below(h, 2);
+    return light;
+}
+
+static void change_lamp(struct random_host *h)
+{
+    const uint32_t i = below(h, LAMPS);
+    const struct sdfgi_light_desc light = any_light(h);
+    const bool goes = h->shines[i] && below(h, 3) == 0;
+    enum sdfgi_result result;
+    if (!h->shines[i])
+        result = sdfgi_light_create(h->t->gi, &light, &h->lamps[i]);
+    else
+        result = goes ? sdfgi_light_destroy(h->t->gi, h->lamps[i])
+                      : sdfgi_light_update(h->t->gi, h->lamps[i], &light);
+    REQUIRE_CMP((int)result, ==, (int)SDFGI_OK);
+    h->shines[i] = !goes;
+}
+
+static void change_sky(struct random_host *h)
+{
+    struct sdfgi_sky sky;
+    for (int i = 0; i < 3; i++) {
+        sky.zenith[i] = (float)test_random_real(&h->random, 0, 2);
+        sky.horizon[i] = (float)test_random_real(&h->random, 0, 2);
+        sky.ground[i] = (float)test_random_real(&h->random, 0, 1);
+    }
+    REQUIRE_CMP((int)sdfgi_set_sky(h->t->gi, &sky), ==, (int)SDFGI_OK);
+}
+
+/* Every property in its turn, but only what costs about as much. */
+static void change_setting(struct random_host *h)
+{
+    char text[RANDOM_SETTING_TEXT];
+    struct sdfgi_settings changed = h->settings;
+    random_setting_change(&h->random, below(h, random_setting_rows()), &h->base, &changed, text);
+    if (random_setting_memory(&changed) > 2 * random_setting_memory(&h->base))
+        return;
+    h->settings = changed;
+    REQUIRE_CMP((int)sdfgi_set_settings(h->t->gi, &h->settings), ==, (int)SDFGI_OK);
+}
+
+static void toggle(struct random_host *h)
+{
+    h->settings.enabled = !h->settings.enabled;
+    REQUIRE_CMP((int)sdfgi_set_settings(h->t->gi, &h->settings), ==, (int)SDFGI_OK);
+}
+
+static void change_frame(struct random_host *h)
+{
+    static const float exposures[] = { 0, 1, 0.01f, 1e-6f, 1000 };
+    h->t->frame.exposure = exposures[below(h, 5)];
+    h->t->frame.seed = below(h, 2);
+    h->t->frame.origin[below(h, 3)] = test_random_real(&h->random, -100, 100);
+}
+
+static void invalidate(struct random_host *h)
+{
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        low[i] = test_random_real(&h->random, -9, 9);
+        high[i] = low[i] + test_random_real(&h->random, 0, 4);
+    }
+    REQUIRE_CMP((int)sdfgi_invalidate_box(h->t->gi, low, high), ==, (int)SDFGI_OK);
+}
+
+/* Instances and the camera most of the time, settings seldom: those that recreate all leave nothing to test.
+ */
+static void do_anything(struct random_host *h)
+{
+    const uint32_t what = below(h, 64);
+    if (what < 40)
+        operate(&h->world, &h->random, h->camera);
+    else if (what < 52)
+        change_lamp(h);
+    else if (what < 55)
+        change_sky(h);
+    else if (what < 58)
+        change_frame(h);
+    else if (what < 60)
+        invalidate(h);
+    else if (what < 62)
+        toggle(h);
+    else
+        change_setting(h);
+}
+
+static void require_finite(struct random_host *h)
+{
+    static const float places[4][3] = { { 0, -2.15f, 0 }, { 1, 0.5f, -1 }, { -3, -2.15f, 2 }, { 7, 1, -8 } };
+    struct gi_test_point points[4] = { 0 };
+    float found[4][3];
+    for (int i = 0; i < 4; i++) {
+        points[i].normal[1] = 1;
+        for (int k = 0; k < 3; k++)
+            points[i].position[k] = (float)((double)places[i][k] - h->t->frame.origin[k]);
+    }
+    gi_test_lookup(h->t, sdfgi_get_descriptor_set(h->t->gi), NULL, points, 4, found);
+    for (int i = 0; i < 12; i++)
+        REQUIRE_TRUE(isfinite(found[i / 3][i % 3]) && found[i / 3][i % 3] >= 0);
+}
+
+/* Back to what it was at first; `held` then tells what the frames before have left. */
+static uint64_t held_at_rest(struct random_host *h)
+{
+    h->settings = h->base;
+    h->settings.enabled = false;
+    REQUIRE_CMP((int)sdfgi_set_settings(h->t->gi, &h->settings), ==, (int)SDFGI_OK);
+    gi_test_update(h->t, 4);
+    REQUIRE_CMP(held(h->t), ==, 0ul);
+    REQUIRE_TRUE(h->t->gi->backend.retired.first == NULL);
+    h->settings = h->base;
+    REQUIRE_CMP((int)sdfgi_set_settings(h->t->gi, &h->settings), ==, (int)SDFGI_OK);
+    gi_test_update(h->t, 4);
+    return held(h->t);
+}
+
+/* Pages of this process that are in memory. */
+static double resident_pages(void)
+{
+    unsigned long size = 0, resident = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    REQUIRE_TRUE(file != NULL);
+    REQUIRE_CMP(fscanf(file, "%lu %lu", &size, &resident), ==, 2);
+    fclose(file);
+    return (double)resident;
+}
+
+static uint32_t message_count(const struct gi_test *t)
+{
+    uint32_t count = 0;
+    for (int i = 0; i < SDFGI_MESSAGE_COUNT; i++)
+        count += t->messages[i];
+    return count;
+}
+
+static void host_open(struct random_host *h, struct gi_test *t)
+{
+    memset(h, 0, sizeof *h);
+    h->t = t;
+    h->random.state = 61;
+    h->base = scroll_settings(32);
+    h->base.min_cell_size_m = 0.5f;
+    h->base.ray_count = 25;
+    h->base.cell_rays = 16;
+    h->base.cell_rays_per_frame = 8192;
+    h->settings = h->base;
+    open_world(&h->world, t, &h->base);
+}
+
+static void host_frame(struct random_host *h)
+{
+    for (uint32_t left = below(h, 4); left > 0; left--)
+        do_anything(h);
+    scroll_stand(h->t, h->camera);
+    gi_test_update(h->t, 1);
+}
+
+/* The settled volumes of a host that did anything are those of a fresh context. */
+static void require_no_trace(struct random_host *h)
+{
+    static struct gi_test fresh;
+    static struct world same;
+    memset(h->t->frame.origin, 0, sizeof h->t->frame.origin);
+    h->t->frame.seed = 0;
+    gi_test_update(h->t, 2);
+    open_world(&same, &fresh, &h->base);
+    for (uint32_t i = 0; i < SLOTS; i++) {
+        same.slots[i] = h->world.slots[i];
+        if (same.slots[i].used)
+            create(&same, &same.slots[i]);
+    }
+    /* Where light cells are depends on no light, and their direct light does: it stays behind. */
+    scroll_stand(&fresh, h->camera);
+    scroll_place_as(&fresh, h->t);
+    scroll_settle(&fresh);
+    scroll_settle(h->t);
+    scroll_require_equal_but_light(h->t, &fresh, "after a random host");
+    gi_test_close(&fresh);
+}
+
+static void hard_61_a_host_at_random_leaves_no_trace(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static struct random_host h;
+    const uint32_t frames = scroll_is_full() ? FRAMES_FULL : FRAMES_SHORT;
+    double pages = 0;
+    host_open(&h, &t);
+    const uint64_t before = held_at_rest(&h);
+    for (uint32_t i = 0; i < frames; i++) {
+        host_frame(&h);
+        if (i % FRAMES_BETWEEN == 0)
+            require_finite(&h);
+        if (i == frames / 2) /* every pipeline has been made, and every pool has its size */
+            pages = resident_pages();
+    }
+    const double grown = resident_pages() / pages;
+    const uint64_t after = held_at_rest(&h);
+    printf("%u random frames: %u messages, memory %llu bytes before and %llu after, pages %.3f of those "
+           "halfway\n",
+           frames, message_count(&t), (unsigned long long)before, (unsigned long long)after, grown);
+    HARD_CASE_AT_LEAST(61, "random frames", frames, FRAMES_SHORT);
+    HARD_CASE_AT_MOST(61, "messages", message_count(&t), 0);
+    HARD_CASE_AT_MOST(61, "device memory after, over before", (double)after / (double)before, 1);
+    /* A tenth: the allocator's and the driver's pools breathe. */
+    HARD_CASE_AT_MOST(61, "resident pages at the end, over those halfway", grown, 1.1);
+    require_no_trace(&h);
+    gi_test_close(&t);
+}
+
 /* Something static is deleted before a camera at rest: its shadow and its bounce go, in frames, not in
  * cycles.
  */
@@ -179,6 +422,7 @@ int main(void)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_thousand_operations_leave_no_trace),
+        cmocka_unit_test(hard_61_a_host_at_random_leaves_no_trace),
         cmocka_unit_test(a_deleted_instance_loses_its_shadow),
     };
     return cmocka_run_group_tests_name("scroll_streaming", tests, NULL, NULL);

@@ -51,7 +51,7 @@
 
 #define TRANSFORM_FIELDS(X)                                                                                  \
     X(float,  basis,       MANY, SEEN, 0.25, 0.6, 1, -0.6)                                                   \
-    X(double, translation, MANY, SEEN, -1.1, -0.3, 0.4, 1.2)
+    X(double, translation, MANY, SEEN, -4.4, 4.4)
 
 #define INSTANCE_FIELDS(X)                                                                                   \
     X(sdfgi_mesh,             mesh,      MANY,  SEEN,   1, 2)                                                \
