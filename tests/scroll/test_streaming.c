@@ -148,7 +148,7 @@ static void ten_thousand_operations_leave_no_trace(void **state)
 
 /* ---- A host at random */
 
-enum { LAMPS = 6, FRAMES_SHORT = 60, FRAMES_FULL = 2000, FRAMES_BETWEEN = 10 };
+enum { LAMPS = 6, FRAMES_SHORT = 60, FRAMES_FULL = 1000, FRAMES_BETWEEN = 10 };
 
 struct random_host {
     struct world world;
