@@ -19,7 +19,7 @@ enum wake_type {
 /* A field of a structure. */
 struct wake_part {
     const char *name;
-    bool shows; /* some change of it can be seen in the light */
+    bool shows; /* some change of it changes volumes or light */
     enum wake_type type;
     size_t offset;
     uint32_t count; /* elements of an array, or 1 */

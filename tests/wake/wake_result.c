@@ -262,7 +262,8 @@ static double light_off(const struct wake_result *a, const struct wake_result *b
     return x == y ? 0 : isnan(off) ? (double)INFINITY : off;
 }
 
-double wake_result_light_off(const struct wake_result *a, const struct wake_result *b)
+/* Largest difference over what is allowed. */
+static double worst_off(const struct wake_result *a, const struct wake_result *b)
 {
     double worst = 0;
     for (int i = 0; i < 3 * WAKE_POINTS; i++)
@@ -275,8 +276,7 @@ static bool same_light(const struct wake_result *a, const struct wake_result *b,
     for (int i = 0; i < 3 * WAKE_POINTS; i++)
         if (light_off(a, b, i) > 1) {
             snprintf(text, WAKE_TEXT, "light of point %d, channel %d: %g, fresh %g, %.1f times off", i / 3,
-                     i % 3, (double)a->light[i / 3][i % 3], (double)b->light[i / 3][i % 3],
-                     wake_result_light_off(a, b));
+                     i % 3, (double)a->light[i / 3][i % 3], (double)b->light[i / 3][i % 3], worst_off(a, b));
             return false;
         }
     return true;

@@ -34,7 +34,5 @@ bool wake_result_placed_alike(const struct wake_result *a, const struct wake_res
  * made with the same exposure and origin. */
 bool wake_result_same(const struct wake_result *found, const struct wake_result *fresh, bool lit_alike,
                       char text[static WAKE_TEXT]);
-/* Largest difference of light at a point over what is allowed. */
-double wake_result_light_off(const struct wake_result *a, const struct wake_result *b);
 
 #endif
