@@ -53,19 +53,15 @@ bounce_light bounce_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, sdfgi_v
 bounce_light bounce_light_cell(uint cascade, ivec3 cell, vec3 normal, uint bits)
 {
     const vec3 first = sdfgi_first_from_cascade(cascade, vec3(cell) + 0.5);
-    const uint method = sdfgi_frame.visibility;
     for (uint c = cascade; c < sdfgi_frame.cascade_count; c++) {
         const vec3 pos = sdfgi_cascade_from_first(c, first);
         const ivec3 at = ivec3(floor(pos));
         if (c > cascade && !(sdfgi_cell_is_valid(c, at) && sdfgi_cell_is_light(c, at)))
             continue;
         const ivec3 cage = sdfgi_cage_of(c, pos);
-        const uint bits_here = method == SDFGI_SHADER_VISIBILITY_NONE
-                                   ? 0xffu
-                                   : (c == cascade ? bits : visibility_bits_of_cell(c, at));
-        const bounce_light sum = method == SDFGI_SHADER_VISIBILITY_PROBE_DEPTH
-                                     ? bounce_sum(c, cage, pos, normal, visibility_from_depths(c, cage, pos))
-                                     : bounce_sum(c, cage, pos, normal, visibility_from_bits(bits_here));
+        const uint bits_here = c == cascade ? bits : visibility_bits_of_cell(c, at);
+        const bounce_light sum =
+            bounce_sum(c, cage, pos, normal, visibility_of_cage(c, cage, pos, bits_here));
         if (sum.weight > 1e-6)
             return bounce_light(sum.estimate / sum.weight, sum.displayed / sum.weight, 1.0);
     }

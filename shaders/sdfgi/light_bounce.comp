@@ -62,6 +62,12 @@ surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, ve
     return light;
 }
 
+uint packed_light(surface_light light)
+{
+    return light.known ? min(sdfgi_rgbe_encode(light.displayed), SDFGI_SURFACE_UNKNOWN - 1u)
+                       : SDFGI_SURFACE_UNKNOWN;
+}
+
 void main()
 {
     const uint row = args.cascade + gl_WorkGroupID.y, cascade = visited_cascade(row);
@@ -80,24 +86,31 @@ void main()
     const uvec2 direct = light_cell_direct(slot);
 
     vec3 axes[6];
-    for (uint a = 0u; a < 6u; a++)
-        axes[a] = vec3(0.0);
+    uint arriving[6];
     for (uint a = 0u; a < 6u; a++) {
-        uint arriving = SDFGI_SURFACE_NONE;
-        if ((facing >> a & 1u) != 0u) {
-            const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(a));
-            const surface_light light = light_arriving(cascade, entry, cell, a, surface_normal(block, a));
-            axes[a] =
-                sdfgi_light_unpack_axis(direct, a) + bounce_gain(surface_albedo(block)) * light.estimate;
-            arriving = light.known ? min(sdfgi_rgbe_encode(light.displayed), SDFGI_SURFACE_UNKNOWN - 1u)
-                                   : SDFGI_SURFACE_UNKNOWN;
-            if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
-                counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
+        axes[a] = vec3(0.0);
+        arriving[a] = SDFGI_SURFACE_NONE;
+    }
+    /* Axes that surfaces face, one after another, and not all six under a condition: threads of a group look
+     * at as many as one of them has, and software drivers run what is under a condition in any case. */
+    for (uint left = facing; left != 0u; left &= left - 1u) {
+        const uint axis = uint(findLSB(left));
+        const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(axis));
+        const surface_light light = light_arriving(cascade, entry, cell, axis, surface_normal(block, axis));
+        const vec3 leaving =
+            sdfgi_light_unpack_axis(direct, axis) + bounce_gain(surface_albedo(block)) * light.estimate;
+        if (any(greaterThan(leaving, vec3(SDFGI_RGBE_MAX))))
+            counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
+        for (uint a = 0u; a < 6u; a++) {
+            axes[a] = a == axis ? leaving : axes[a];
+            arriving[a] = a == axis ? packed_light(light) : arriving[a];
         }
+    }
+    for (uint a = 0u; a < 6u; a++) {
         if (gathers())
-            sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + a, entry)] = arriving;
+            sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + a, entry)] = arriving[a];
         if (!gathers() || args.only_dirty != 0u)
-            sdfgi_surfaces[sdfgi_surface_index(cascade, entry, a)] = arriving;
+            sdfgi_surfaces[sdfgi_surface_index(cascade, entry, a)] = arriving[a];
     }
     light_fill_axes(facing, axes);
     const float rounding = sdfgi_random_unit(light_cell_hash(cascade, cell));

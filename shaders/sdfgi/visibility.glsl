@@ -79,15 +79,25 @@ float visibility_chebyshev(uint probe_index, vec3 dir, float range)
     return sdfgi_chebyshev(moments, range - sdfgi_frame.probe_bias - moments.x);
 }
 
-sdfgi_visibility visibility_from_depths(uint cascade, ivec3 cage, vec3 pos)
+float visibility_from_depth(uint cascade, ivec3 probe, vec3 pos)
 {
-    sdfgi_visibility v;
-    for (int k = 0; k < 8; k++) {
-        const ivec3 probe = cage + sdfgi_cage_corner(k);
-        const uint index = sdfgi_probe_index(cascade, probe);
-        const vec3 offset = sdfgi_metric_from_cells(pos - sdfgi_probe_position(probe, sdfgi_probes[index]));
-        const float range = length(offset);
-        v.of_probe[k] = range > 1e-4 ? visibility_chebyshev(index, offset / range, range) : 1.0;
+    const uint index = sdfgi_probe_index(cascade, probe);
+    const vec3 offset = sdfgi_metric_from_cells(pos - sdfgi_probe_position(probe, sdfgi_probes[index]));
+    const float range = length(offset);
+    return range > 1e-4 ? visibility_chebyshev(index, offset / range, range) : 1.0;
+}
+
+/* By the method of the settings; `bits` are those of the light cell at `pos`. Software drivers run both sides
+ * of a condition, but a loop only as often as it goes round. */
+sdfgi_visibility visibility_of_cage(uint cascade, ivec3 cage, vec3 pos, uint bits)
+{
+    const uint method = sdfgi_frame.visibility;
+    sdfgi_visibility v = visibility_from_bits(method == SDFGI_SHADER_VISIBILITY_CELL_MASK ? bits : 0xffu);
+    const int depths = method == SDFGI_SHADER_VISIBILITY_PROBE_DEPTH ? 8 : 0;
+    for (int k = 0; k < depths; k++) {
+        const float visible = visibility_from_depth(cascade, cage + sdfgi_cage_corner(k), pos);
+        for (int i = 0; i < 8; i++)
+            v.of_probe[i] = i == k ? visible : v.of_probe[i];
     }
     return v;
 }
