@@ -40,13 +40,15 @@ static bool is_full(void)
     return getenv("SDFGI_TEST_FULL") != NULL;
 }
 
-/* Settles in few frames. Few rays are no matter: they are the same in every cycle, and so is their noise. */
+/* Settles in few frames. Few rays are no matter: they are the same in every cycle, and so is their noise.
+ * Twice the feedback is 1: with more, light between surfaces hardly ever comes to an end. */
 static struct sdfgi_settings fuzz_settings(void)
 {
     struct sdfgi_settings s = light_settings(32, 0.4f);
     s.cascades = 2;
     s.frames_to_converge = 1;
     s.cell_rays = 32;
+    s.bounce_feedback = 0.5f;
     return s;
 }
 
@@ -135,6 +137,19 @@ static void cancel_update(struct fuzz *f, const struct wake_world *world)
     sdfgi_cancel_update(f->living.gi);
 }
 
+/* The state in which a change was not followed. */
+static void print_settings(const struct fuzz *f, const struct wake_world *world)
+{
+    const struct sdfgi_property_info *info;
+    fprintf(stderr, "  exposure %g, seed %u, camera %g %g %g", (double)world->frame.exposure,
+            world->frame.seed, world->frame.camera_position[0], world->frame.camera_position[1],
+            world->frame.camera_position[2]);
+    for (uint32_t i = 0; (info = sdfgi_property_get_info(i)); i++)
+        if (sdfgi_settings_get(&world->settings, info->name) != sdfgi_settings_get(&f->base, info->name))
+            fprintf(stderr, ", %s %g", info->name, sdfgi_settings_get(&world->settings, info->name));
+    fprintf(stderr, "\n");
+}
+
 /* What is wrong with the living context must not be told of each change that follows. */
 static void start_again(struct fuzz *f, const struct wake_world *world)
 {
@@ -167,6 +182,7 @@ static void step(struct fuzz *f, const struct host_change *change, const struct 
         f->failures++;
         fprintf(stderr, "%u: %s%s%s: %s\n", f->changes, change->text, change->new_first ? ", new first" : "",
                 change->cancels ? ", cancelled once" : "", text);
+        print_settings(f, after);
         start_again(f, after);
     }
     wake_result_free(&found);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "wake_result.h"
 
+#include "light_scene.h"
 #include "require.h"
 #include "test_memory.h"
 
@@ -15,8 +16,9 @@
 /* Points that are darker than this part of the brightest are compared with that part: what they see is the
  * light of a few cells, whose rounding no others make up for. */
 #define DARK_PART 0.05
-/* sdfgi_frame_desc::exposure promises light down to this over it. */
-#define DARK (1.0 / 4096)
+/* sdfgi_frame_desc::exposure promises light down to this over it: radiance. Lookups return pi times as much,
+ * and sdfgi_energy times that. */
+#define DARK (PI / 4096)
 
 enum { FRAMES_MOST = 400, FRAMES_IDLE = 3, FLOOR_POINTS = 25, WALL_POINTS = 12, AIR_POINTS = 27 };
 
@@ -138,7 +140,7 @@ void wake_result_take(struct wake_result *result, struct wake_device *device, st
     result->settings = world->settings;
     result->active = world->settings.enabled;
     const double exposure = world->frame.exposure > 0 ? (double)world->frame.exposure : 1;
-    result->dark = DARK / exposure;
+    result->dark = DARK / exposure * (double)world->settings.energy;
     result->settles = settle(result, device, result->active);
     if (result->active)
         copy_volumes(result, device);
