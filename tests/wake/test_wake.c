@@ -16,7 +16,7 @@ struct host_change {
     enum wake_object object;
     uint32_t index;
     bool new_first, cancels;
-    bool moves_origin, raises_cost;
+    bool moves_origin, moves_exposure, raises_cost;
     uint32_t row; /* counts fields, then properties */
     char text[256];
 };
@@ -32,6 +32,7 @@ struct fuzz {
     struct test_random random;
     uint32_t changes, failures, contexts;
     uint32_t frames;
+    bool rescaled;         /* light of `living` may have been stored with other exposures */
     bool shown[ROWS_MOST]; /* a change of the row changed something */
 };
 
@@ -74,6 +75,7 @@ static void change_field(struct fuzz *f, uint32_t row, struct wake_world *after,
     change->object = g->object;
     change->index = object;
     change->moves_origin = g->object == WAKE_FRAME && strcmp(field.part->name, "origin") == 0;
+    change->moves_exposure = g->object == WAKE_FRAME && strcmp(field.part->name, "exposure") == 0;
     snprintf(change->text, sizeof change->text, "%s[%u].%s[%u] from %g to %g", g->name, object,
              field.part->name, element, before, value);
 }
@@ -155,9 +157,18 @@ static void start_again(struct fuzz *f, const struct wake_world *world)
 {
     struct wake_result unused;
     sdfgi_destroy(f->living.gi);
+    f->rescaled = false;
     wake_context_create(&f->living, &f->device, world);
     wake_result_take(&unused, &f->device, &f->living, world);
     wake_result_free(&unused);
+}
+
+static enum wake_direct direct_after(struct fuzz *f, const struct host_change *change)
+{
+    f->rescaled = f->rescaled || change->moves_exposure;
+    if (change->moves_origin)
+        return WAKE_DIRECT_ANY;
+    return f->rescaled ? WAKE_DIRECT_ROUNDED : WAKE_DIRECT_EXACT;
 }
 
 /* Applies a change to the living context and compares it with `fresh`, which is filled in if it is of another
@@ -178,7 +189,7 @@ static void step(struct fuzz *f, const struct host_change *change, const struct 
     }
     f->changes++;
     f->frames += found.frames;
-    if (!wake_result_same(&found, fresh, !change->moves_origin, text)) {
+    if (!wake_result_same(&found, fresh, direct_after(f, change), text)) {
         f->failures++;
         fprintf(stderr, "%u: %s%s%s: %s\n", f->changes, change->text, change->new_first ? ", new first" : "",
                 change->cancels ? ", cancelled once" : "", text);
@@ -203,7 +214,7 @@ static void change_and_back(struct fuzz *f, uint32_t row)
     struct wake_result fresh = { .settles = false };
     char text[WAKE_TEXT];
     step(f, &change, &after, &fresh);
-    f->shown[row] = f->shown[row] || !wake_result_same(&fresh, &f->result, true, text);
+    f->shown[row] = f->shown[row] || !wake_result_same(&fresh, &f->result, WAKE_DIRECT_EXACT, text);
     const bool stays = change_stays(f, &change, &fresh);
     const struct wake_world before = f->world;
     f->world = after;
@@ -327,25 +338,52 @@ static void dim_the_world(struct wake_world *world)
         world->sky.zenith[k] = world->sky.horizon[k] = world->sky.ground[k] = 0.02f;
 }
 
+/* From an exposure that shows nothing of the world to one that does. */
+static void expose(struct fuzz *f, float exposure, const char *what)
+{
+    struct host_change change = { .object = WAKE_FRAME };
+    struct wake_result fresh = { .settles = false };
+    snprintf(change.text, sizeof change.text, "frame.exposure from 1e-5 to %g", (double)exposure);
+    f->world.frame.exposure = 1e-5f;
+    wake_context_create(&f->living, &f->device, &f->world);
+    wake_result_take(&f->result, &f->device, &f->living, &f->world);
+    struct wake_world after = f->world;
+    after.frame.exposure = exposure;
+    step(f, &change, &after, &fresh);
+    wake_result_free(&fresh);
+    finish(f, what);
+}
+
 static void light_that_an_exposure_hid_settles_once_it_shows(void **state)
 {
     (void)state;
     static struct fuzz f;
     const struct sdfgi_settings settings = fuzz_settings();
-    struct host_change change = { .object = WAKE_FRAME };
-    struct wake_result fresh = { .settles = false };
-    snprintf(change.text, sizeof change.text, "frame.exposure from 1e-5 to 1");
     wake_device_open(&f.device);
     wake_world_init(&f.world, &f.device, &settings);
     dim_the_world(&f.world);
-    f.world.frame.exposure = 1e-5f;
-    wake_context_create(&f.living, &f.device, &f.world);
-    wake_result_take(&f.result, &f.device, &f.living, &f.world);
-    struct wake_world after = f.world;
-    after.frame.exposure = 1;
-    step(&f, &change, &after, &fresh);
-    wake_result_free(&fresh);
-    finish(&f, "exposure");
+    expose(&f, 1, "a dim sky");
+}
+
+/* A lamp that shines into the sky has light stored with a low exposure, which leaves four bits to that of a
+ * dim one. */
+static void direct_light_that_an_exposure_hid_has_all_its_digits_once_it_shows(void **state)
+{
+    (void)state;
+    static struct fuzz f;
+    const struct sdfgi_settings settings = fuzz_settings();
+    wake_device_open(&f.device);
+    wake_world_init(&f.world, &f.device, &settings);
+    dim_the_world(&f.world);
+    struct sdfgi_light_desc *dim = &f.world.lights[SDFGI_LIGHT_POINT],
+                            *away = &f.world.lights[SDFGI_LIGHT_SPOT];
+    for (int k = 0; k < 3; k++) {
+        dim->intensity[k] = 0.002f;
+        away->intensity[k] = 20;
+        away->direction[k] = k == 1;
+    }
+    f.world.light_exists[SDFGI_LIGHT_POINT] = f.world.light_exists[SDFGI_LIGHT_SPOT] = true;
+    expose(&f, 300, "a dim lamp");
 }
 
 int main(void)
@@ -355,12 +393,14 @@ int main(void)
     const struct CMUnitTest one[] = {
         cmocka_unit_test(every_change_wakes_settled_light),
         cmocka_unit_test(light_that_an_exposure_hid_settles_once_it_shows),
+        cmocka_unit_test(direct_light_that_an_exposure_hid_has_all_its_digits_once_it_shows),
     };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_change_wakes_settled_light),
         cmocka_unit_test(every_change_wakes_light_of_cells),
         cmocka_unit_test(every_change_wakes_light_behind_depths),
         cmocka_unit_test(light_that_an_exposure_hid_settles_once_it_shows),
+        cmocka_unit_test(direct_light_that_an_exposure_hid_has_all_its_digits_once_it_shows),
     };
     if (!is_full())
         return cmocka_run_group_tests_name("wake", one, NULL, NULL);

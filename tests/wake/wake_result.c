@@ -20,7 +20,9 @@
  * and sdfgi_energy times that. */
 #define DARK (PI / 4096)
 
-enum { FRAMES_MOST = 400, FRAMES_IDLE = 3, FLOOR_POINTS = 25, WALL_POINTS = 12, AIR_POINTS = 27 };
+/* Borders of what lookups sample arrive last (modules/sdfgi/volume/blend.c): 12 cells at 0.03 a frame, after
+ * 32 frames for the rest. Light that settles beside them takes a few dozen. */
+enum { FRAMES_MOST = 500, FRAMES_IDLE = 3, FLOOR_POINTS = 25, WALL_POINTS = 12, AIR_POINTS = 27 };
 
 /* ---- Points: on the floor, along two walls, and in the air of the room and around it */
 
@@ -198,17 +200,39 @@ static bool same_words(const struct wake_result *a, const struct wake_result *b,
     return true;
 }
 
-/* Where light cells are and, if lit alike, their direct light: three words each. */
-static bool same_cells(const struct wake_result *a, const struct wake_result *b, bool lit_alike,
+/* Colours of shared exponent whose mantissas differ by one unit of the larger exponent at most. */
+static bool same_color(uint32_t a, uint32_t b)
+{
+    const int x = (int)(a >> 27), y = (int)(b >> 27), most = x > y ? x : y;
+    for (int shift = 0; shift < 27; shift += 9) {
+        const double p = ldexp(a >> shift & 511, x - most), q = ldexp(b >> shift & 511, y - most);
+        if (fabs(p - q) > 1)
+            return false;
+    }
+    return true;
+}
+
+/* A light cell's words: where it is, the colour of its direct light, and that of its axes. */
+static bool same_word(uint32_t a, uint32_t b, uint64_t word, enum wake_direct direct)
+{
+    if (word % 3 == 0 || direct == WAKE_DIRECT_EXACT)
+        return a == b;
+    if (direct == WAKE_DIRECT_ANY)
+        return true;
+    return word % 3 == 1 ? same_color(a, b) : a == b;
+}
+
+static bool same_cells(const struct wake_result *a, const struct wake_result *b, enum wake_direct direct,
                        char text[static WAKE_TEXT])
 {
-    const uint32_t *x = (const uint32_t *)(void *)a->data[RESOURCE_LIGHT_CELLS],
-                   *y = (const uint32_t *)(void *)b->data[RESOURCE_LIGHT_CELLS],
-                   *counters = (const uint32_t *)(void *)b->data[RESOURCE_COUNTERS];
-    for (uint32_t c = 0; c < a->settings.cascades; c++)
+    const uint32_t *counters = (const uint32_t *)(void *)b->data[RESOURCE_COUNTERS];
+    for (uint32_t c = 0; c < a->settings.cascades; c++) {
+        const uint32_t *x = (const uint32_t *)(void *)a->data[RESOURCE_LIGHT_CELLS] + 3 * c * a->room,
+                       *y = (const uint32_t *)(void *)b->data[RESOURCE_LIGHT_CELLS] + 3 * c * b->room;
         for (uint64_t i = 0; i < 3 * (uint64_t)counters[SDFGI_COUNTER_LIGHT_CELLS + c]; i++)
-            if (x[3 * c * a->room + i] != y[3 * c * b->room + i] && (lit_alike || i % 3 == 0))
-                return differ(text, RESOURCE_LIGHT_CELLS, i, x[3 * c * a->room + i], y[3 * c * b->room + i]);
+            if (!same_word(x[i], y[i], i, direct))
+                return differ(text, RESOURCE_LIGHT_CELLS, i, x[i], y[i]);
+    }
     return true;
 }
 
@@ -225,13 +249,13 @@ static bool same_depths(const struct wake_result *a, const struct wake_result *b
     return true;
 }
 
-static bool same_volumes(const struct wake_result *a, const struct wake_result *b, bool lit_alike,
+static bool same_volumes(const struct wake_result *a, const struct wake_result *b, enum wake_direct direct,
                          char text[static WAKE_TEXT])
 {
     for (size_t i = 0; i < COUNT(whole); i++)
         if (!same_words(a, b, whole[i], UINT32_MAX, text))
             return false;
-    if (!same_words(a, b, RESOURCE_PROBES, ~SDFGI_PROBE_NEW, text) || !same_cells(a, b, lit_alike, text))
+    if (!same_words(a, b, RESOURCE_PROBES, ~SDFGI_PROBE_NEW, text) || !same_cells(a, b, direct, text))
         return false;
     if (!a->settings.use_occlusion)
         return true;
@@ -284,8 +308,8 @@ static bool same_light(const struct wake_result *a, const struct wake_result *b,
     return true;
 }
 
-bool wake_result_same(const struct wake_result *found, const struct wake_result *fresh, bool lit_alike,
-                      char text[static WAKE_TEXT])
+bool wake_result_same(const struct wake_result *found, const struct wake_result *fresh,
+                      enum wake_direct direct, char text[static WAKE_TEXT])
 {
     if (!found->settles || !fresh->settles) {
         snprintf(text, WAKE_TEXT, "%s after %u frames, or it is not idle",
@@ -293,7 +317,8 @@ bool wake_result_same(const struct wake_result *found, const struct wake_result 
                  found->settles ? fresh->frames : found->frames);
         return false;
     }
-    if (found->active && !same_volumes(found, fresh, lit_alike && found->exposure == fresh->exposure, text))
+    const enum wake_direct known = found->exposure == fresh->exposure ? direct : WAKE_DIRECT_ANY;
+    if (found->active && !same_volumes(found, fresh, known, text))
         return false;
     return same_light(found, fresh, text);
 }

@@ -30,9 +30,15 @@ void wake_result_free(struct wake_result *result);
 void wake_context_place_as(struct wake_context *context, const struct wake_context *other);
 bool wake_result_placed_alike(const struct wake_result *a, const struct wake_result *b);
 
-/* Writes the first difference into `text` and returns false, if there is one. `lit_alike`: direct light was
- * made with the same exposure and origin. */
-bool wake_result_same(const struct wake_result *found, const struct wake_result *fresh, bool lit_alike,
-                      char text[static WAKE_TEXT]);
+/* How direct light of cells compares, which is made again only where lights or surfaces change. */
+enum wake_direct {
+    WAKE_DIRECT_EXACT,
+    WAKE_DIRECT_ROUNDED, /* it has been stored with another exposure: one unit of its colours */
+    WAKE_DIRECT_ANY,     /* it was made with another origin, so that positions were rounded differently */
+};
+
+/* Writes the first difference into `text` and returns false, if there is one. */
+bool wake_result_same(const struct wake_result *found, const struct wake_result *fresh,
+                      enum wake_direct direct, char text[static WAKE_TEXT]);
 
 #endif

@@ -140,7 +140,7 @@ static const struct need_row needs[NEED_COUNT] = {
                          "lookups read no depths around probes, or no change completes in this frame" },
     [NEED_MASKS] = { needs_masks, "light cells are listed, and their visibility bits are read",
                      "no visibility bits are read, or no light cells are listed in this frame" },
-    [NEED_DIRECT] = { needs_direct, "lights or the surfaces that they reach changed",
+    [NEED_DIRECT] = { needs_direct, "lights, their exposure or the surfaces that they reach changed",
                       "no light and no surface changed, there is no light, or cells wait for a later frame" },
     [NEED_LIGHT] = { needs_light, "light has not converged",
                      "light has converged, or no cell has new light in this frame" },

@@ -14,17 +14,18 @@ struct situation {
     bool from_nothing;     /* no cascade was complete before */
     bool list_grew;        /* light lists were lost: they are written again */
     bool rescales;         /* light is stored with another exposure than before */
+    bool gains_digits;     /* with a larger one: direct light is made again for the digits it had lost */
     bool lists_emitters;   /* something emits, and there is room for emitter lists */
     bool has_lights;
-    bool lights_changed;
-    bool relights;     /* light cells wait to be lit again */
-    bool light_waits;  /* light goes on in the next frame */
-    bool lists_stay;   /* some light list is not written anew */
-    bool cells;        /* light cells send rays of their own */
-    bool gathers;      /* they do so in this frame */
-    bool gathering;    /* their light follows what they gather, and the probes no more */
-    bool rays_missing; /* some of this frame's rays are not cached */
-    bool shows;        /* probes show in this frame what they have gathered */
+    bool lights_changed; /* or gain digits */
+    bool relights;       /* light cells wait to be lit again */
+    bool light_waits;    /* light goes on in the next frame */
+    bool lists_stay;     /* some light list is not written anew */
+    bool cells;          /* light cells send rays of their own */
+    bool gathers;        /* they do so in this frame */
+    bool gathering;      /* their light follows what they gather, and the probes no more */
+    bool rays_missing;   /* some of this frame's rays are not cached */
+    bool shows;          /* probes show in this frame what they have gathered */
     bool converged;
     bool raster, flood, occlusion, masks; /* methods that the settings choose */
 };

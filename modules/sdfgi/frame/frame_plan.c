@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Decides with which exposure light is stored. Light settles as far as the host's hint shows it: a brighter
- * picture shows what was too dim to count. */
+ * picture shows what was too dim to count, and a larger exposure stores digits that were lost. */
 static void plan_exposure(struct frame *frame, const struct frame_input *input)
 {
     struct volume_state *next = &frame->next;
@@ -17,7 +17,8 @@ static void plan_exposure(struct frame *frame, const struct frame_input *input)
     next->exposure = sdfgi_exposure_next(first ? NULL : &before, input->desc->exposure, brightest);
     frame->situation.rescales = !first && next->exposure.stored != before.stored;
     frame->rescale_power = next->exposure.stored - before.stored;
-    if (!first && next->exposure.hint > before.hint)
+    frame->situation.gains_digits = frame->situation.rescales && frame->rescale_power > 0;
+    if (!first && (next->exposure.hint > before.hint || frame->situation.gains_digits))
         sdfgi_accumulation_invalidate(&next->accumulation);
 }
 
@@ -42,7 +43,8 @@ static void take_input(struct frame *frame, const struct frame_input *input)
     sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
     take_seed(next, desc->seed, first);
-    frame->situation.lights_changed = first || (input->journal->notes & JOURNAL_LIGHTS);
+    frame->situation.lights_changed =
+        first || frame->situation.gains_digits || (input->journal->notes & JOURNAL_LIGHTS);
     if (first || (input->journal->notes & JOURNAL_MATERIALS))
         frame->uploads |= FRAME_UPLOAD_MATERIALS;
 }
