@@ -30,6 +30,7 @@ struct fuzz {
     struct wake_result result; /* a fresh context's of `world` */
     struct sdfgi_settings base;
     struct test_random random;
+    bool at_random; /* any object may change */
     uint32_t changes, failures, contexts;
     uint32_t frames;
     bool rescaled;         /* light of `living` may have been stored with other exposures */
@@ -65,7 +66,7 @@ static void change_field(struct fuzz *f, uint32_t row, struct wake_world *after,
     const struct wake_field field = wake_field_get(row);
     const struct wake_group *g = field.group;
     /* The last of each kind of object has use for all of its fields. */
-    const uint32_t object = is_full() ? g->first + below(f, g->end - g->first) : g->end - 1,
+    const uint32_t object = f->at_random ? g->first + below(f, g->end - g->first) : g->end - 1,
                    element = below(f, field.part->count);
     const double before = wake_field_read(&field, &f->device, after, object, element);
     double value = before;
@@ -292,6 +293,7 @@ static void every_change_wakes_settled_light(void **state)
     for (uint32_t i = 0; i < row_count(); i++)
         if (is_full() || is_telling(i))
             change_and_back(&f, i);
+    f.at_random = true;
     while (is_full() && f.changes < CHANGES)
         change_and_back(&f, below(&f, row_count()));
     finish(&f, "probes");

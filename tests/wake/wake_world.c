@@ -39,6 +39,8 @@ static void init_materials(struct wake_world *w, const struct wake_device *devic
     textured->emission_texture.view = device->textures[0].view;
     textured->albedo_texture.view = device->textures[1].view;
     masked->albedo_texture.view = device->textures[0].view;
+    masked->emission_texture.view = device->textures[1].view;
+    masked->emission[1] = 0.5f;
     masked->alpha_cutoff = 0.6f;
 }
 
