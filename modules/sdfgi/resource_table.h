@@ -14,7 +14,7 @@
  *             DERIVED: made again from the scene and from what is saved; SCRATCH: empty between frames
  *
  * FRAME, LIGHTS, MATERIALS  written by the host when anything in them changes
- * BITS .. NORMALS           valid until the cascade moves or its geometry changes
+ * BITS, DISTANCE, EMISSION, ALBEDO, NORMALS  valid until the cascade moves or its geometry changes
  * LIGHT                     outgoing light per light cell and axis, in the order of the list, and as long
  * LIGHT_CELLS               the light list: grows when it is too short; direct light is kept
  * LIGHT_BLOCKS              where in the list the light cells of a block are
@@ -55,11 +55,11 @@
     X(IRRADIANCE,  STORAGE, F16X4,           PROBES,  VOLUME, LOOKUP, TEXEL_COUNT(e),               SAVED)   \
     X(LIGHT_BLOCKS, STORAGE, U32X4,          LISTS,   VOLUME, LOOKUP, e->cells / 64 * e->cascades,  DERIVED) \
     X(SURFACES,    STORAGE, U32,             LISTS,   VOLUME, LOOKUP, 6 * ENTRY_COUNT(e),           SAVED)   \
+    X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->blocks * e->cascades,      DERIVED) \
     X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,             DERIVED) \
     X(MATERIALS,   STORAGE, MATERIAL_PARAMS, LISTS,   VOLUME, WORK,   SDFGI_MAX_MATERIALS,          DERIVED) \
     X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                   SCRATCH) \
     X(ALBEDO,      STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
-    X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED) \
     X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   RAY_COUNT(e),                 DERIVED) \

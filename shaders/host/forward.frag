@@ -10,7 +10,7 @@
 #include "host/host_shadow.glsl"
 #ifdef HOST_GI
 #define SDFGI_SET HOST_SET_GI
-#include "sdfgi.glsl"
+#include "sdfgi_reflection.glsl"
 #endif
 #ifdef HOST_GATHERED
 layout(set = HOST_SET_GI, binding = 0) uniform sampler2D irradiance_image;
@@ -90,18 +90,22 @@ brdf_surface surface_here(vec4 base_color, bool front_facing)
     return s;
 }
 
-vec3 indirect_irradiance(vec3 normal)
+/* Light that comes round corners: irradiance, and what the specular lobe reflects of it. */
+void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
 {
+    irradiance = reflection = vec3(0.0);
 #if defined(HOST_GI)
-    return sdfgi_irradiance(in_position, normal, frame.camera_position.xyz - in_position);
+    const vec3 to_eye = frame.camera_position.xyz - in_position;
+    const float roughness = s.specular > 0.0 ? sqrt(s.alpha) : 1.0;
+    const sdfgi_surface_light light = sdfgi_lighting(in_position, s.normal, to_eye, roughness);
+    irradiance = light.irradiance;
+    reflection = light.reflection * s.specular * brdf_specular_albedo(s);
 #elif defined(HOST_GATHERED)
-    return texelFetch(irradiance_image, ivec2(gl_FragCoord.xy), 0).rgb;
-#else
-    return vec3(0.0);
+    irradiance = texelFetch(irradiance_image, ivec2(gl_FragCoord.xy), 0).rgb;
 #endif
 }
 
-vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 emission)
+vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 reflection, vec3 emission)
 {
     const vec3 indirect = irradiance * s.diffuse * brdf_diffuse_transmission(s) / BRDF_PI;
     switch (frame.counts.z) {
@@ -112,7 +116,7 @@ vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 emission)
     case HOST_SHOW_IRRADIANCE:
         return irradiance;
     case HOST_SHOW_REFLECTION:
-        return vec3(0.0);
+        return reflection;
     case HOST_SHOW_NORMAL:
         return s.normal;
     case HOST_SHOW_DEPTH:
@@ -120,7 +124,7 @@ vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 emission)
     case HOST_SHOW_ALBEDO:
         return s.diffuse;
     default:
-        return direct + indirect + emission;
+        return direct + indirect + reflection + emission;
     }
 }
 
@@ -131,7 +135,7 @@ void main()
     brdf_surface s = surface_here(base_color, front_facing);
     const vec3 face = face_normal();
 
-    vec3 direct = vec3(0.0), irradiance = vec3(0.0);
+    vec3 direct = vec3(0.0), irradiance = vec3(0.0), reflection = vec3(0.0);
     vec3 emission = front_facing || material.emissive.w > 0.0 ? material_emission(in_uv) : vec3(0.0);
     const uint shown = frame.counts.z;
     if (material_has(HOST_MATERIAL_UNLIT)) {
@@ -140,9 +144,10 @@ void main()
     } else {
         if (shown <= HOST_SHOW_DIRECT)
             direct = light_from_suns(s, face) + light_from_punctual(s, face);
-        if (shown == HOST_SHOW_COLOR || shown == HOST_SHOW_DIFFUSE_INDIRECT || shown == HOST_SHOW_IRRADIANCE)
-            irradiance = indirect_irradiance(s.normal);
+        if (shown == HOST_SHOW_COLOR ||
+            (shown >= HOST_SHOW_DIFFUSE_INDIRECT && shown <= HOST_SHOW_REFLECTION))
+            indirect_light(s, irradiance, reflection);
     }
     const float alpha = material_has(HOST_MATERIAL_BLEND) ? base_color.a : 1.0;
-    out_radiance = vec4(shown_value(s, direct, irradiance, emission), alpha);
+    out_radiance = vec4(shown_value(s, direct, irradiance, reflection, emission), alpha);
 }

@@ -51,3 +51,24 @@ vec3 brdf_evaluate(brdf_surface s, vec3 light)
     const vec3 diffuse = s.diffuse * (brdf_diffuse_transmission(s) / BRDF_PI);
     return (diffuse + fresnel * (distribution * 0.5 / max(smith, 1e-9))) * n_l;
 }
+
+/* The specular lobe sends f0 x + y of even light to the viewer: the split-sum approximation (Karis 2013,
+ * "Real Shading in Unreal Engine 4"), as a fit (Karis 2014, "Physically Based Shading on Mobile"). */
+vec2 brdf_split_sum(float roughness, float n_v)
+{
+    const vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    const float a = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
+    return vec2(-1.04, 1.04) * a + r.zw;
+}
+
+/* Directional albedo of the specular lobe. Light that microfacets pass to one another is added as a lobe of
+ * its own (Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting"), so
+ * that white metal loses none. */
+vec3 brdf_specular_albedo(brdf_surface s)
+{
+    const vec2 sums = brdf_split_sum(sqrt(s.alpha), clamp(dot(s.normal, s.view), 0.0, 1.0));
+    const vec3 once = s.f0 * sums.x + sums.y;
+    const float rest = 1.0 - sums.x - sums.y;
+    const vec3 mean_fresnel = s.f0 + (1.0 - s.f0) / 21.0;
+    return once + rest * once * mean_fresnel / (1.0 - rest * mean_fresnel);
+}

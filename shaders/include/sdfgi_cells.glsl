@@ -59,9 +59,24 @@ uint sdfgi_surface_index(uint cascade, uint entry, uint axis)
     return (cascade * 6u + axis) * sdfgi_frame.light_cell_room + entry;
 }
 
-/* Irradiance of a light cell along a normal, times weight, in rgb; its weight in a. The axes along which
- * surfaces face are weighed by the squares of the normal's components. */
-vec4 sdfgi_cell_irradiance(uint cascade, uint entry, vec3 normal)
+/* What lookups read of a surface: the irradiance that arrives at it, or the radiance that leaves it. */
+const uint SDFGI_CELLS_ARRIVING = 0u;
+const uint SDFGI_CELLS_LEAVING = 1u;
+
+/* The light of the surface of a light cell that faces an axis in rgb, and 1 in a; 0 where there is none. */
+vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
+{
+    const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces[index];
+#ifdef SDFGI_REFLECTIONS
+    if (what == SDFGI_CELLS_LEAVING)
+        return arriving == SDFGI_SURFACE_NONE ? vec4(0.0) : vec4(sdfgi_rgbe_decode(sdfgi_light[index]), 1.0);
+#endif
+    return arriving < SDFGI_SURFACE_UNKNOWN ? vec4(sdfgi_rgbe_decode(arriving), 1.0) : vec4(0.0);
+}
+
+/* Light of a light cell along a normal, times weight, in rgb; its weight in a. The axes along which surfaces
+ * face are weighed by the squares of the normal's components. */
+vec4 sdfgi_cell_along(uint cascade, uint entry, vec3 normal, uint what)
 {
     vec4 sum = vec4(0.0);
     for (uint major = 0u; major < 3u; major++) {
@@ -70,23 +85,19 @@ vec4 sdfgi_cell_irradiance(uint cascade, uint entry, vec3 normal)
         if (abs(along) < 0.1)
             continue;
         const uint axis = 2u * major + (along < 0.0 ? 1u : 0u);
-        const uint packed = sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)];
-        if (packed < SDFGI_SURFACE_UNKNOWN)
-            sum += along * along * vec4(sdfgi_rgbe_decode(packed), 1.0);
+        sum += along * along * sdfgi_cell_surface(cascade, entry, axis, what);
     }
     return sum;
 }
 
 /* The same for a surface that is smaller than a cell, and faces along none of its cell's axes: the surfaces
  * around it stand for it, those that face away excepted. */
-vec4 sdfgi_cell_irradiance_around(uint cascade, uint entry, vec3 normal)
+vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
 {
     vec4 sum = vec4(0.0);
     for (uint axis = 0u; axis < 6u; axis++) {
         const float along = sdfgi_trace_component(normal, int(axis >> 1u)) * ((axis & 1u) == 0u ? 1.0 : -1.0);
-        const uint packed = sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)];
-        if (packed < SDFGI_SURFACE_UNKNOWN)
-            sum += max(along + 0.5, 0.0) * vec4(sdfgi_rgbe_decode(packed), 1.0);
+        sum += max(along + 0.5, 0.0) * sdfgi_cell_surface(cascade, entry, axis, what);
     }
     return sum;
 }
@@ -169,7 +180,7 @@ const uint SDFGI_CELLS_ORDER = 0x76534210u;
 
 /* Interpolates the light cells around a point in an empty cell. Those beyond an edge or a corner take part
  * only if a light cell that shares a face with the point's cell leads to them: others may be behind walls. */
-vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around)
+vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, uint what)
 {
     const ivec3 own = ivec3(floor(at));
     const vec3 off = at - vec3(own) - 0.5;
@@ -189,22 +200,22 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around)
         open |= beyond_face ? 0u : moved;
         const float weight = near.x * near.y * near.z + SDFGI_CELLS_LEAST_WEIGHT;
         if (around)
-            sum += weight * sdfgi_cell_irradiance_around(cascade, entry, normal);
+            sum += weight * sdfgi_cell_around(cascade, entry, normal, what);
         else
-            sum += weight * sdfgi_cell_irradiance(cascade, entry, normal);
+            sum += weight * sdfgi_cell_along(cascade, entry, normal, what);
     }
     return sum;
 }
 
-/* Irradiance over pi times exposure, times weight, in rgb, and its weight in a, at a surface point in the
- * cell space of a cascade. The weight is 0 if no light cell on the point's side of the surface is near. `eye`
- * leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
+/* Light of the surface at a point in the cell space of a cascade, times weight, in rgb, and its weight in a:
+ * radiance, or irradiance over pi, times exposure. The weight is 0 if no light cell on the point's side of
+ * the surface is near. `eye` leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
  *
  * A first try begins right above the surface. Where that finds nothing, in a niche or at a small thing,
  * others begin farther off and nearer to the viewer. A point in the air has no other places: what is near it
  * need not be on its side of a wall. But the surfaces around stand for one that the air's cell does not know.
  */
-vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye)
+vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
                high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
@@ -217,7 +228,7 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye)
         const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
         vec3 at = clamp(pos + sdfgi_cells_from_metric(above + towards), low, high);
         if (sdfgi_cells_find_open(cascade, normal, eye, at))
-            sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0);
+            sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0, what);
     }
     return sum;
 }

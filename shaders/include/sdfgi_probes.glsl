@@ -110,11 +110,12 @@ uint sdfgi_probes_around(uint cascade, ivec3 cage, vec3 pos)
     return sdfgi_probes_connected(seen, links);
 }
 
-/* Irradiance over pi times exposure, times weight, in rgb, and its weight in a; all 0 if no probe is
- * seen. A point at a surface is moved off it along its normal and, half as far, towards the viewer, who is
- * known to be on the open side (Majercik et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global
- * Illumination", section 3.2). */
-vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 eye)
+/* Irradiance over pi times exposure that arrives at a surface with the normal `towards`, times weight, in
+ * rgb, and its weight in a; all 0 if no probe is seen. `normal` is that of the surface at the point. A point
+ * at a surface is moved off it along its normal and, half as far, towards the viewer, who is known to be on
+ * the open side (Majercik et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global Illumination", section
+ * 3.2). */
+vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 towards, vec3 eye)
 {
     vec3 pos = surface;
     if (sdfgi_free_radius(cascade, pos) <= 0.0)
@@ -127,7 +128,7 @@ vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 eye)
             continue;
         const float weight = sdfgi_probe_weight_at(cascade, cage, k, pos, normal);
         const sdfgi_irradiance_texel texel =
-            sdfgi_irradiance_of_probe(cascade, cage + sdfgi_cage_corner(k), normal);
+            sdfgi_irradiance_of_probe(cascade, cage + sdfgi_cage_corner(k), towards);
         sum += vec4(texel.light, 1.0) * (weight * texel.confidence);
     }
     return sum.a > 1e-6 ? sum : vec4(0.0);

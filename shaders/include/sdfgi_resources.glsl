@@ -48,6 +48,11 @@
 #else
 #define SDFGI_ACCESS_SURFACES readonly
 #endif
+#ifdef SDFGI_WRITES_EMISSION
+#define SDFGI_ACCESS_EMISSION
+#else
+#define SDFGI_ACCESS_EMISSION readonly
+#endif
 
 /* All members are vec4-sized: std140 lays them out as C does. */
 layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_frame_buffer
@@ -106,6 +111,15 @@ layout(std430, set = SDFGI_SET,
        binding = SDFGI_BINDING_SURFACES) SDFGI_ACCESS_SURFACES buffer sdfgi_surfaces_buffer
 {
     uint sdfgi_surfaces[];
+};
+
+/* Emission of albedo blocks. x: RGB9E5 mean radiance of the block, seen from the side on which it emits most,
+ * in one of two units. y: 5 bits per axis, the fraction of that radiance which leaves along this axis, and
+ * two flags: see sdfgi_emission.glsl. */
+layout(std430, set = SDFGI_SET,
+       binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_EMISSION buffer sdfgi_emission_buffer
+{
+    uvec2 sdfgi_emission[];
 };
 
 #endif

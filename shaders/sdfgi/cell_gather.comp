@@ -60,7 +60,7 @@ ray_source source_of(uint cascade, uint surface)
 {
     const uint own = surface / 6u, axis = surface % 6u;
     const ivec3 cell = cells[own];
-    const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(axis));
+    const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
     const uint shift = sdfgi_random_hash(light_cell_hash(cascade, cell) + 6u * sdfgi_frame.seed + axis);
     const float distance = sdfgi_cell_distance(cascade, cell),
                 depth = clamp(distance - 0.5 / float(SDFGI_SUBVOXELS), 0.5, 1.0);
@@ -158,10 +158,10 @@ vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
 /* Emission of what a ray at random has hit. Rays towards emitters bring a share of it if it is listed. */
 vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit)
 {
-    if (!surfaces_emit())
+    if (!sdfgi_surfaces_emit())
         return vec3(0.0);
-    const uint block = surface_block_index(hit.cascade, hit.solid);
-    const vec3 emission = surface_emission(block, hit.axis);
+    const uint block = sdfgi_block_index(hit.cascade, hit.solid);
+    const vec3 emission = sdfgi_block_emission(block, hit.axis);
     if (emission == vec3(0.0) || hit.cascade != cascade || !surface_is_listed_emitter(block))
         return emission;
     const emitter e =

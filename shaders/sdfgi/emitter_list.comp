@@ -7,7 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define SDFGI_WRITES_SURFACE
+#define SDFGI_WRITES_EMISSION
 #define SDFGI_WRITES_EMITTERS
 #include "block_slices.glsl"
 #include "emitters.glsl"
@@ -49,7 +49,7 @@ uint key_of(uint block)
     float weights = 0.0;
     for (uint axis = 0u; axis < 6u; axis++)
         weights += float(emission.y >> (5u * axis) & 31u);
-    const float power = sdfgi_light_luminance(surface_unpack_radiance(emission)) * weights;
+    const float power = sdfgi_light_luminance(sdfgi_emission_radiance(emission)) * weights;
     return floatBitsToUint(power) & 0xffff0000u | sdfgi_random_hash(block) >> 16u;
 }
 
@@ -130,9 +130,9 @@ void store(uint place, uint block)
         all_areas += areas.x + areas.y;
     }
     sdfgi_emitters[word + 6u] =
-        floatBitsToUint(all_areas * sdfgi_light_luminance(surface_unpack_radiance(emission)));
-    sdfgi_emitters[word + 7u] = emission.y & SURFACE_IS_BRIGHT;
-    sdfgi_emission[index].y = emission.y | SURFACE_IS_LISTED;
+        floatBitsToUint(all_areas * sdfgi_light_luminance(sdfgi_emission_radiance(emission)));
+    sdfgi_emitters[word + 7u] = emission.y & SDFGI_EMISSION_IS_BRIGHT;
+    sdfgi_emission[index].y = emission.y | SDFGI_EMISSION_IS_LISTED;
 }
 
 void main()

@@ -3,7 +3,7 @@
  * order. One thread per block. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define SDFGI_WRITES_SURFACE
+#define SDFGI_WRITES_EMISSION
 #include "emitters.glsl"
 #include "workgroup.glsl"
 
@@ -29,7 +29,7 @@ void main()
     const uvec2 emission = sdfgi_emission[index];
     if (emission == uvec2(0u))
         return;
-    sdfgi_emission[index].y = emission.y & ~SURFACE_IS_LISTED;
+    sdfgi_emission[index].y = emission.y & ~SDFGI_EMISSION_IS_LISTED;
     if (emission.x != 0u && is_to_be_listed(block))
         sdfgi_scratch[SDFGI_SCRATCH_EMITTERS + atomicAdd(sdfgi_scratch[0], 1u)] = block;
 }

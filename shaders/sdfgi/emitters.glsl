@@ -35,7 +35,7 @@ uint emitter_shape_word(uint cascade, uint block)
 }
 
 /* The words of an emitter: its block, its shape, RGB9E5 radiance, the areas along the six axes as half
- * floats, the power that its axes emit in all, and SURFACE_IS_BRIGHT. */
+ * floats, the power that its axes emit in all, and SDFGI_EMISSION_IS_BRIGHT. */
 uint emitter_word(uint cascade, uint i)
 {
     return emitter_count_word(cascade) + 8u + uint(SDFGI_EMITTER_WORDS) * i;
@@ -76,7 +76,7 @@ uint emitter_of_block(uint cascade, uint block)
 
 struct emitter {
     vec3 low, high; /* corners, in cells */
-    uvec2 radiance; /* as blocks have it: surface_unpack_radiance */
+    uvec2 radiance; /* as blocks have it: sdfgi_emission_radiance */
     float areas[6]; /* in squares of a cell's width */
     float power;    /* luminance of the radiance times the sum of the areas */
 };
@@ -158,7 +158,7 @@ vec3 emitter_light(emitter e, vec3 pos, vec3 normal, vec3 point)
     const vec3 offset = sdfgi_metric_from_cells(point - pos);
     const float range = max(length(offset), 1e-3), nearest = max(range, EMITTER_NEAR);
     const vec3 dir = offset / range;
-    return surface_unpack_radiance(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) *
+    return sdfgi_emission_radiance(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) *
            emitter_area_towards(e, -dir) * max(dot(normal, dir), 0.0) / (nearest * nearest);
 }
 

@@ -95,7 +95,7 @@ void main()
      * at as many as one of them has, and software drivers run what is under a condition in any case. */
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint axis = uint(findLSB(left));
-        const uint block = surface_block_index(cascade, cell - sdfgi_axis_direction(axis));
+        const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
         const surface_light light = light_arriving(cascade, entry, cell, axis, surface_normal(block, axis));
         const vec3 leaving =
             sdfgi_light_unpack_axis(direct, axis) + bounce_gain(surface_albedo(block)) * light.estimate;

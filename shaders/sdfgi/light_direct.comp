@@ -71,7 +71,7 @@ surface surface_behind(ivec3 cell, uint axis)
 {
     const ivec3 step = sdfgi_axis_direction(axis);
     const float depth = clamp(sdfgi_cell_distance(args.cascade, cell), 0.5, 1.0);
-    const uint block = surface_block_index(args.cascade, cell - step);
+    const uint block = sdfgi_block_index(args.cascade, cell - step);
     const vec3 position = sdfgi_position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
     return surface(position, surface_normal(block, axis), block);
 }

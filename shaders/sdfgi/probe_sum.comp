@@ -22,7 +22,7 @@ shared vec3 ray_light[MAX_RAYS];
 
 vec3 emission_behind(uint cascade, ivec3 cell, uint axis)
 {
-    return surface_emission(surface_block_index(cascade, cell - sdfgi_axis_direction(axis)), axis);
+    return sdfgi_block_emission(sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis)), axis);
 }
 
 /* Emission of the surface at a light cell that faces along an axis. If none does, the mean of the others
@@ -58,7 +58,7 @@ bool hit_light(uint code, vec3 dir, out vec3 light)
     if (!sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, entry))
         return false;
     light = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(cascade, entry, axis)]);
-    if (surfaces_emit())
+    if (sdfgi_surfaces_emit())
         light += cell_emission(cascade, entry, sdfgi_cell_from_texel(cascade, texel), axis);
     return true;
 }

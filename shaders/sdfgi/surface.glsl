@@ -5,6 +5,7 @@
 #define SDFGI_SURFACE_GLSL
 
 #include "pass.glsl"
+#include "../include/sdfgi_emission.glsl"
 #include "../lib/rgbe.glsl"
 
 #ifdef SDFGI_WRITES_SURFACE
@@ -20,15 +21,6 @@ layout(std430, set = SDFGI_SET_WORK,
     uint sdfgi_albedo[];
 };
 
-/* x: RGB9E5 mean radiance of the block, seen from the side on which it emits most, over SURFACE_BRIGHT_UNIT
- * or SURFACE_DIM_UNIT. y: 5 bits per axis, the fraction of that radiance which leaves along this axis, and
- * SURFACE_IS_BRIGHT and SURFACE_IS_LISTED. */
-layout(std430, set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_EMISSION) SDFGI_ACCESS_SURFACE buffer sdfgi_emission_buffer
-{
-    uvec2 sdfgi_emission[];
-};
-
 /* Three mean normals: of the triangles whose dominant axis is x, y and z. Each has ten bits, two slopes of 5
  * bits in
  * [-1, 1]. If there are no such triangles, the first slope is SURFACE_NO_NORMAL. */
@@ -39,8 +31,6 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 const uint SURFACE_NO_NORMAL = 31u;
-const uint SURFACE_IS_BRIGHT = 0x40000000u;
-const uint SURFACE_IS_LISTED = 0x80000000u; /* the block is in its cascade's list of emitters */
 
 /* Mean unit normal of the triangles whose dominant axis is `axis`, turned to that side. False if the block
  * has no such triangles. */
@@ -94,47 +84,17 @@ vec3 surface_albedo(uint block)
     return vec3(packed & 1023u, packed >> 10u & 1023u, packed >> 20u) / SDFGI_ALBEDO_STEPS;
 }
 
-/* False if nothing in the scene emits: the emission of blocks need not be read. */
-bool surfaces_emit()
-{
-    return sdfgi_frame.emission_scale > 0.0;
-}
-
-/* Nine bits are kept of 0.03 to SDFGI_EMISSION_MOST in the first unit, and of 5e-10 to 1 in the
- * second. */
-const float SURFACE_BRIGHT_UNIT = 2048.0, SURFACE_DIM_UNIT = 1.0 / 65536.0;
-
 /* Radiance and the packed sides. */
 uvec2 surface_pack_emission(vec3 radiance, uint sides)
 {
     const bool bright = max(radiance.r, max(radiance.g, radiance.b)) >= 0.5;
-    const float unit = bright ? SURFACE_BRIGHT_UNIT : SURFACE_DIM_UNIT;
-    return uvec2(sdfgi_rgbe_encode(radiance / unit), sides | (bright ? SURFACE_IS_BRIGHT : 0u));
-}
-
-vec3 surface_unpack_radiance(uvec2 packed)
-{
-    return sdfgi_rgbe_decode(packed.x) *
-           ((packed.y & SURFACE_IS_BRIGHT) != 0u ? SURFACE_BRIGHT_UNIT : SURFACE_DIM_UNIT);
+    const float unit = bright ? SDFGI_EMISSION_BRIGHT_UNIT : SDFGI_EMISSION_DIM_UNIT;
+    return uvec2(sdfgi_rgbe_encode(radiance / unit), sides | (bright ? SDFGI_EMISSION_IS_BRIGHT : 0u));
 }
 
 bool surface_is_listed_emitter(uint block)
 {
-    return (sdfgi_emission[block].y & SURFACE_IS_LISTED) != 0u;
-}
-
-/* Emitted radiance times exposure towards `axis`. */
-vec3 surface_emission(uint block, uint axis)
-{
-    const uvec2 packed = sdfgi_emission[block];
-    return surface_unpack_radiance(packed) * (float(packed.y >> (5u * axis) & 31u) / 31.0) *
-           sdfgi_frame.emission_scale;
-}
-
-/* Index in these buffers of the albedo block that holds a cell. */
-uint surface_block_index(uint cascade, ivec3 cell)
-{
-    return sdfgi_albedo_block_index(cascade, cell) + cascade * sdfgi_albedo_block_count();
+    return (sdfgi_emission[block].y & SDFGI_EMISSION_IS_LISTED) != 0u;
 }
 
 #endif

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_SURFACE
+#define SDFGI_WRITES_EMISSION
 #define SDFGI_WRITES_EMITTERS
 #include "accumulators.glsl"
 #include "block_slices.glsl"
