@@ -128,6 +128,7 @@ struct gpu_image {
     VkImage handle;
     VkImageView view;
     VkDeviceMemory memory;
+    uint64_t size;
 };
 
 enum gpu_placement { GPU_DEVICE_LOCAL, GPU_HOST_READ };
@@ -142,7 +143,7 @@ VkResult gpu_buffer_zero(const struct gpu_device *device, const struct gpu_buffe
 /* Makes what the device wrote to a host-visible buffer visible to the host. */
 VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer);
 
-/* A 2D array image, device local, with a view of all layers. */
+/* A 2D image, or an array if there are several layers, device local, with a view of all layers. */
 VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
                         uint32_t width, uint32_t height, uint32_t layers, VkImageUsageFlags usage,
                         const char *name);

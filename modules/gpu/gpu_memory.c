@@ -122,21 +122,23 @@ VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu
 static VkResult image_view(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
                            uint32_t layers)
 {
-    return device->fn.CreateImageView(device->handle,
-                                      &(VkImageViewCreateInfo){
-                                          .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                          .image = image->handle,
-                                          .viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
-                                          .format = format,
-                                          .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers },
-                                      },
-                                      device->callbacks, &image->view);
+    return device->fn.CreateImageView(
+        device->handle,
+        &(VkImageViewCreateInfo){
+            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+            .image = image->handle,
+            .viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+            .format = format,
+            .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers },
+        },
+        device->callbacks, &image->view);
 }
 
 static VkResult image_back(const struct gpu_device *device, struct gpu_image *image)
 {
     VkMemoryRequirements needs;
     device->fn.GetImageMemoryRequirements(device->handle, image->handle, &needs);
+    image->size = needs.size;
     uint32_t type;
     const VkResult result = allocate(device, &needs, GPU_DEVICE_LOCAL, &image->memory, &type);
     if (result != VK_SUCCESS)

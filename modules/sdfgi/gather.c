@@ -1,64 +1,184 @@
 /* SPDX-License-Identifier: MIT
- * sdfgi_gather. */
+ * sdfgi_gather, and the functions of view.h: light of pictures. */
 #include "context.h"
+
+#include "view/picture.h"
 
 #include "shaders/shared/bindings.h"
 
-/* Sizes that no image has, or that take more workgroups than a dispatch may. */
-static struct problem size_problem(const struct sdfgi *gi, const struct work *work)
-{
-    struct problem p = { "" };
-    const VkPhysicalDeviceLimits *limits = &gi->backend.device.limits;
-    const unsigned most = limits->maxImageDimension2D, width = work->args.gather.width,
-                   height = work->args.gather.height;
-    if (width > most || height > most)
-        sdfgi_problem_add(&p, "%s is %u, must be at most maxImageDimension2D = %u",
-                          width > most ? "width" : "height", width > most ? width : height, most);
-    const struct work_groups groups = sdfgi_work_groups(work, &gi->volume.resources->extent, 1);
-    if (groups.x > limits->maxComputeWorkGroupCount[0] || groups.y > limits->maxComputeWorkGroupCount[1])
-        sdfgi_problem_add(&p, "%u x %u pixels take more workgroups than maxComputeWorkGroupCount", width,
-                          height);
-    return p;
-}
-
-static void record(struct sdfgi *gi, VkCommandBuffer cmd, const struct view *view, const struct work *work)
+static void begin(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view)
 {
     struct pass_recorder *rec = &gi->recorder;
     sdfgi_pass_recorder_begin(rec, &gi->backend, gi->volume.resources, cmd);
     sdfgi_pass_bind_resources(rec, VK_PIPELINE_BIND_POINT_COMPUTE);
     gpu_bind_set(&rec->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, gi->backend.pipelines.layouts[PASS_SET_VIEW],
                  SDFGI_SET_VIEW, view->sets[sdfgi_backend_slot(&gi->backend)]);
-    sdfgi_pass_record(rec, work);
-    sdfgi_pass_recorder_end(rec);
 }
 
 static void report(struct sdfgi *gi, enum pass pass)
 {
     struct pass_report *line = &gi->passes[pass];
+    const struct pass_tally *tally = &gi->recorder.tally[pass];
+    if (tally->dispatches == 0)
+        return;
     line->reason = sdfgi_need_reason(sdfgi_pass_row(pass)->need);
-    line->tally.dispatches += gi->recorder.tally[pass].dispatches;
-    line->tally.units += gi->recorder.tally[pass].units;
+    line->tally.dispatches += tally->dispatches;
+    line->tally.units += tally->units;
 }
 
 enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc)
 {
     if (!sdfgi_is_active(gi))
         return SDFGI_OK;
-    struct problem problem = sdfgi_view_gather_problem(desc);
+    struct problem problem = sdfgi_picture_problem(desc);
+    if (!cmd)
+        sdfgi_problem_add(&problem, "cmd is null");
+    if (!problem.text[0])
+        sdfgi_picture_check_size(&problem, &gi->backend.device.limits, desc->width, desc->height);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_gather");
+    const struct work work = sdfgi_picture_work(desc);
+    VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
+    struct sdfgi_view *view =
+        result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
+    if (!view)
+        return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_gather");
+    const struct view_pictures pictures = { .depth = desc->depth,
+                                            .normal = desc->normal,
+                                            .input_layout = desc->input_layout,
+                                            .diffuse = desc->output };
+    sdfgi_view_write_set(&gi->backend, view, &pictures);
+    begin(gi, cmd, view);
+    sdfgi_pass_record(&gi->recorder, &work);
+    sdfgi_pass_recorder_end(&gi->recorder);
+    report(gi, work.pass);
+    return SDFGI_OK;
+}
+
+/* ---- Views of the host's */
+
+enum sdfgi_result sdfgi_view_create(sdfgi *gi, const struct sdfgi_view_desc *desc, sdfgi_view **out)
+{
+    struct problem problem = { "" };
+    if (desc->width == 0 || desc->height == 0)
+        sdfgi_problem_add(&problem, "%s is 0", desc->width == 0 ? "width" : "height");
+    if ((unsigned)desc->diffuse > SDFGI_GATHER_QUARTER)
+        sdfgi_problem_add(&problem, "diffuse is %d, must be one of enum sdfgi_gather_resolution",
+                          (int)desc->diffuse);
+    sdfgi_picture_check_size(&problem, &gi->backend.device.limits, desc->width, desc->height);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_view_create");
+    if (gi->backend.hooks.device_lost)
+        return SDFGI_ERROR_DEVICE_LOST;
+    VkResult result;
+    struct sdfgi_view *view = sdfgi_view_make(&gi->backend, desc, &result);
+    if (!view)
+        return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_view_create");
+    view->next = gi->views.of_host;
+    gi->views.of_host = view;
+    *out = view;
+    return SDFGI_OK;
+}
+
+void sdfgi_view_destroy(sdfgi *gi, sdfgi_view *view)
+{
+    if (view)
+        sdfgi_views_retire(&gi->backend, &gi->views, view);
+}
+
+void sdfgi_view_get_images(const sdfgi_view *view, struct sdfgi_view_images *images)
+{
+    *images = (struct sdfgi_view_images){ view->diffuse.view,
+                                          view->reflects ? view->reflection.view : VK_NULL_HANDLE };
+}
+
+/* The resolve's diffuse light as a gather into the view's own picture. */
+static struct sdfgi_gather_desc gather_of(const struct sdfgi_view *view, const struct sdfgi_resolve_desc *d)
+{
+    struct sdfgi_gather_desc gather = { .depth = d->depth,
+                                        .normal = d->normal,
+                                        .output = view->diffuse.view,
+                                        .input_layout = d->input_layout,
+                                        .width = view->desc.width,
+                                        .height = view->desc.height,
+                                        .background_depth = d->background_depth,
+                                        .resolution = view->desc.diffuse,
+                                        .scale = d->scale };
+    for (int i = 0; i < 16; i++)
+        gather.inverse_view_projection[i] = d->inverse_view_projection[i];
+    return gather;
+}
+
+/* True if the scene and the host call for reflections. */
+static bool wants_reflections(const struct sdfgi *gi, const struct sdfgi_resolve_desc *desc)
+{
+    return desc->roughness && gi->scene.smooth > 0;
+}
+
+/* Pipelines and memory. */
+static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct sdfgi_resolve_desc *desc,
+                        enum pass gather)
+{
+    VkResult result = sdfgi_pipelines_require(&gi->backend, gather, 0);
+    if (result != VK_SUCCESS || !wants_reflections(gi, desc))
+        return result;
+    for (int i = PASS_REFLECT_TILES; i <= PASS_REFLECT_FILTER && result == VK_SUCCESS; i++)
+        result = sdfgi_pipelines_require(&gi->backend, (enum pass)i, 0);
+    return result == VK_SUCCESS ? sdfgi_view_add_reflection(&gi->backend, view) : result;
+}
+
+static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const struct work *gather)
+{
+    struct pass_recorder *rec = &gi->recorder;
+    struct work tiles = *gather, rays = *gather, filter[2] = { *gather, *gather };
+    tiles.pass = PASS_REFLECT_TILES;
+    rays.pass = PASS_REFLECT_RAYS;
+    filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;
+    filter[0].args.gather.filter_step = 1;
+    filter[1].args.gather.filter_step = SDFGI_RAYS_TAPS;
+    if (!view->reflection_ready) {
+        gpu_image_to_general(&rec->gpu, &view->reflection, 1);
+        gpu_image_to_general(&rec->gpu, &view->filtered, 1);
+    }
+    view->reflection_ready = true;
+    sdfgi_pass_close(rec);
+    gpu_use(&rec->gpu, GPU_USAGE_TRANSFER, 0, VIEW_BIT(TILES));
+    gpu_fill(&rec->gpu, &view->tiles, 0, sizeof(uint32_t) * SDFGI_TILES_HEADER, 0);
+    sdfgi_pass_record(rec, &tiles);
+    sdfgi_pass_record_indirect(rec, &rays, &view->tiles, 0);
+    for (int run = 0; run < 2; run++)
+        sdfgi_pass_record_indirect(rec, &filter[run], &view->tiles, 0);
+    sdfgi_pass_close(rec);
+}
+
+enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd,
+                                     const struct sdfgi_resolve_desc *desc)
+{
+    if (!sdfgi_is_active(gi))
+        return SDFGI_OK;
+    const struct sdfgi_gather_desc gather = gather_of(view, desc);
+    struct problem problem = sdfgi_picture_problem(&gather);
     if (!cmd)
         sdfgi_problem_add(&problem, "cmd is null");
     if (problem.text[0])
-        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_gather");
-    const struct work work = sdfgi_view_gather_work(desc);
-    problem = size_problem(gi, &work);
-    if (problem.text[0])
-        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_gather");
-    VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
-    struct view *view = result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
-    if (!view)
-        return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_gather");
-    sdfgi_view_write_set(&gi->backend, view, desc);
-    record(gi, cmd, view, &work);
-    report(gi, work.pass);
+        return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_view_resolve");
+    const struct work work = sdfgi_picture_work(&gather);
+    const VkResult result = prepare(gi, view, desc, work.pass);
+    if (result != VK_SUCCESS)
+        return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_view_resolve");
+    const struct view_pictures pictures = { desc->depth, desc->normal, desc->roughness, desc->input_layout,
+                                            view->diffuse.view };
+    sdfgi_view_write_set(&gi->backend, view, &pictures);
+    begin(gi, cmd, view);
+    if (!view->diffuse_ready)
+        gpu_image_to_general(&gi->recorder.gpu, &view->diffuse, 1);
+    view->diffuse_ready = true;
+    sdfgi_pass_record(&gi->recorder, &work);
+    view->reflects = wants_reflections(gi, desc);
+    if (view->reflects)
+        record_reflections(gi, view, &work);
+    sdfgi_pass_recorder_end(&gi->recorder);
+    for (int pass = work.pass; pass < PASS_COUNT; pass++)
+        report(gi, (enum pass)pass);
     return SDFGI_OK;
 }

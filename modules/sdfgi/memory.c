@@ -10,7 +10,7 @@ const char *sdfgi_memory_category_name(enum sdfgi_memory_category category)
     static const char *const names[SDFGI_MEMORY_CATEGORY_COUNT] = {
         [SDFGI_MEMORY_VOLUMES] = "volumes",   [SDFGI_MEMORY_PROBES] = "probes",
         [SDFGI_MEMORY_SCRATCH] = "scratch",   [SDFGI_MEMORY_LISTS] = "lists",
-        [SDFGI_MEMORY_READBACK] = "readback",
+        [SDFGI_MEMORY_READBACK] = "readback", [SDFGI_MEMORY_VIEWS] = "views",
     };
     return (unsigned)category < SDFGI_MEMORY_CATEGORY_COUNT ? names[category] : "";
 }

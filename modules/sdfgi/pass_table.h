@@ -15,7 +15,8 @@
  *   args    its push constants: struct sdfgi_<args>_args of shaders/shared/args.h, or none
  *   group   elements of the domain that a workgroup takes, such as SDFGI_GROUP_* of shared/constants.h
  *   set     beside LOOKUP and WORK: MESH (and MATERIAL), VIEW, or NONE
- *   reads   resources, as bits; R(NAME) | ...  FRAME is read by all. What a pass writes may be left out
+ *   reads   resources, as bits; R(NAME) | ..., and V(NAME) of what a view owns. FRAME is read by all. What
+ *           a pass writes may be left out
  *   writes  likewise
  * tests/layout/test_pass_table.c compares reads and writes with the compiled shaders.
  */
@@ -96,10 +97,17 @@
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \
-      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS))                                                  \
+      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE))                                     \
     X(GATHER_SPARSE, COMPUTE, gather_sparse, PIXELS, GATHER_SPARSE, OWN, DEMAND,                             \
       TILES, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |                            \
-      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS))
+      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE))                                     \
+    X(REFLECT_TILES, COMPUTE, reflect_tiles, PIXELS, REFLECTIONS, OWN, DEMAND,                               \
+      PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, V(DIFFUSE), V(REFLECTION) | V(TILES))                        \
+    X(REFLECT_RAYS, COMPUTE, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                                 \
+      TILE_LIST, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) | R(LIGHT) |             \
+      R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | V(TILES), V(REFLECTION))                                 \
+    X(REFLECT_FILTER, COMPUTE, reflect_filter, PIXELS, REFLECTIONS, OWN, DEMAND,                             \
+      TILE_LIST, gather, 1, VIEW, V(TILES) | V(DIFFUSE), V(REFLECTION) | V(FILTERED))
 /* clang-format on */
 
 enum pass {

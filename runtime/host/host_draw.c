@@ -164,35 +164,35 @@ static void draw_sky(struct host_renderer *renderer, VkCommandBuffer cmd)
 
 /* What all draws of a kind share. */
 static void bind_forward(const struct host_renderer *renderer, struct host_draw_context *draw,
-                         enum host_forward kind, VkDescriptorSet frame_set)
+                         enum host_forward kind, const struct host_slot *slot)
 {
     const VkDescriptorSet gi_sets[HOST_FORWARD_COUNT] = {
         [HOST_FORWARD_GI] = host_gi_set(renderer->gi),
-        [HOST_FORWARD_GATHERED] = renderer->irradiance_set,
+        [HOST_FORWARD_GATHERED] = slot->light_set,
     };
     vkCmdBindDescriptorSets(draw->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw->layout, HOST_SET_FRAME, 1,
-                            &frame_set, 0, NULL);
+                            &slot->set, 0, NULL);
     if (kind != HOST_FORWARD_PLAIN)
         vkCmdBindDescriptorSets(draw->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw->layout, HOST_SET_GI, 1,
                                 &gi_sets[kind], 0, NULL);
     push_clip(draw, &renderer->camera.clip[0][0]);
 }
 
-void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set)
+void host_draw_forward(struct host_renderer *renderer, const struct host_slot *slot)
 {
     const struct host_scene *scene = renderer->scene;
     const struct host_pipelines *pipelines = &renderer->pipelines;
     const enum host_forward kind = host_forward_kind(renderer, false);
-    struct host_draw_context draw = draw_begin(renderer, cmd, kind, renderer->camera.origin);
+    struct host_draw_context draw = draw_begin(renderer, slot->cmd, kind, renderer->camera.origin);
     struct host_frustum frustum;
     camera_frustum(&renderer->camera, &frustum);
 
     /* The sky first: its pipeline has the plain layout, which disturbs the GI set. */
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines->layouts[HOST_FORWARD_PLAIN],
-                            HOST_SET_FRAME, 1, &frame_set, 0, NULL);
+    vkCmdBindDescriptorSets(slot->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                            pipelines->layouts[HOST_FORWARD_PLAIN], HOST_SET_FRAME, 1, &slot->set, 0, NULL);
     if (renderer->shown == HOST_AOV_COLOR)
-        draw_sky(renderer, cmd);
-    bind_forward(renderer, &draw, kind, frame_set);
+        draw_sky(renderer, slot->cmd);
+    bind_forward(renderer, &draw, kind, slot);
 
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) &&
@@ -205,8 +205,8 @@ void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDe
         renderer->shown <= HOST_AOV_DIFFUSE_INDIRECT ? sort_blended(renderer, &frustum) : 0;
     const enum host_forward blended_kind = host_forward_kind(renderer, true);
     if (blended > 0 && blended_kind != kind) {
-        draw = draw_begin(renderer, cmd, blended_kind, renderer->camera.origin);
-        bind_forward(renderer, &draw, blended_kind, frame_set);
+        draw = draw_begin(renderer, slot->cmd, blended_kind, renderer->camera.origin);
+        bind_forward(renderer, &draw, blended_kind, slot);
     }
     for (uint32_t i = 0; i < blended; i++) {
         const uint32_t instance = renderer->blend_order[i];

@@ -209,14 +209,14 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
     vkCmdEndRenderPass(cmd);
 
     /* Look up its light. */
-    if (!host_lookup_record(renderer, cmd)) {
+    if (!host_lookup_record(renderer, slot)) {
         vkEndCommandBuffer(cmd);
         return false;
     }
 
     /* Shade it, and nothing else. */
     pass_begin(renderer, cmd, renderer->passes.forward, targets->forward, &targets->hdr);
-    host_draw_forward(renderer, cmd, slot->set);
+    host_draw_forward(renderer, slot);
     vkCmdEndRenderPass(cmd);
     return true;
 }

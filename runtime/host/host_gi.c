@@ -227,9 +227,22 @@ bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_
     return gi_check(gi, sdfgi_update(gi->context, cmd, frame), "recording an update");
 }
 
-bool host_gi_gather(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc)
+sdfgi_view *host_gi_view_create(struct host_gi *gi, const struct sdfgi_view_desc *desc)
 {
-    return gi_check(gi, sdfgi_gather(gi->context, cmd, desc), "looking up light");
+    sdfgi_view *view = NULL;
+    gi_check(gi, sdfgi_view_create(gi->context, desc, &view), "creating a view");
+    return view;
+}
+
+void host_gi_view_destroy(struct host_gi *gi, sdfgi_view *view)
+{
+    sdfgi_view_destroy(gi->context, view);
+}
+
+bool host_gi_resolve(struct host_gi *gi, sdfgi_view *view, VkCommandBuffer cmd,
+                     const struct sdfgi_resolve_desc *desc)
+{
+    return gi_check(gi, sdfgi_view_resolve(gi->context, view, cmd, desc), "looking up light");
 }
 
 bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings)

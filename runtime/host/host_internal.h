@@ -192,14 +192,18 @@ VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
 /* VK_NULL_HANDLE while lookups give nothing. */
 VkDescriptorSet host_gi_set(const struct host_gi *gi);
 bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame);
-bool host_gi_gather(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc);
+/* NULL on failure. */
+sdfgi_view *host_gi_view_create(struct host_gi *gi, const struct sdfgi_view_desc *desc);
+void host_gi_view_destroy(struct host_gi *gi, sdfgi_view *view);
+bool host_gi_resolve(struct host_gi *gi, sdfgi_view *view, VkCommandBuffer cmd,
+                     const struct sdfgi_resolve_desc *desc);
 bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings);
 void host_gi_get_settings(const struct host_gi *gi, struct sdfgi_settings *settings);
 void host_gi_get_report(const struct host_gi *gi, struct sdfgi_report *report);
 
 /* ---- Pipelines (host_passes.c, host_pipeline.c) ----------------------------------------------------- */
 
-/* What the forward shader knows of GI: nothing, the lookup, or an image of what was looked up before. */
+/* What the forward shader knows of GI: nothing, the lookup, or pictures of what was looked up before. */
 enum host_forward { HOST_FORWARD_PLAIN, HOST_FORWARD_GI, HOST_FORWARD_GATHERED, HOST_FORWARD_COUNT };
 
 struct host_passes {
@@ -207,9 +211,9 @@ struct host_passes {
 };
 
 struct host_pipelines {
-    VkDescriptorSetLayout frame_layout, post_layout, irradiance_layout;
-    VkPipelineLayout layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI or irradiance]; plain also for
-                                                     all but forward */
+    VkDescriptorSetLayout frame_layout, post_layout, light_layout;
+    VkPipelineLayout layouts[HOST_FORWARD_COUNT]; /* sets frame, material[, GI or its pictures]; plain also
+                                                     for all but forward */
     VkPipelineLayout post_pipeline_layout;
     VkPipeline prepass[HOST_CULL_COUNT];
     /* Those that the scene needs, once they are wanted. */
@@ -304,11 +308,13 @@ struct host_slot {
     bool in_flight;
     struct host_buffer frame, lights, layers;
     VkDescriptorSet set;
+    VkDescriptorSet light_set; /* pictures of the view; none if there is no view */
 };
 
 struct host_targets {
     struct host_image hdr, depth, normal, picture;
-    struct host_image irradiance; /* none if lookups are made where surfaces are shaded */
+    VkImageView roughness; /* the alpha of `normal`, as red */
+    sdfgi_view *view;      /* NULL if lookups are made where surfaces are shaded */
     VkFramebuffer prepass, forward, picture_framebuffer;
 };
 
@@ -339,7 +345,6 @@ struct host_renderer {
     struct host_slot slots[HOST_SLOTS];
     VkDescriptorPool pool;
     VkDescriptorSet post_set;
-    VkDescriptorSet irradiance_set; /* of its target */
     VkSampler nearest;
     struct host_buffer exposure;
     struct host_sampler sampler;
@@ -382,11 +387,13 @@ void host_draw_instance(struct host_renderer *renderer, struct host_draw_context
 void host_draw_shadow(struct host_renderer *renderer, VkCommandBuffer cmd, const struct host_frustum *frustum,
                       const double origin[3], const float *clip);
 void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd);
-void host_draw_forward(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set);
+void host_draw_forward(struct host_renderer *renderer, const struct host_slot *slot);
 void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height);
 
-/* Fills the image of irradiance, if there is one, from what the prepass has drawn. */
-bool host_lookup_record(struct host_renderer *renderer, VkCommandBuffer cmd);
+/* Resolves the view, if there is one, from what the prepass has drawn. */
+bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot);
+/* Makes the view of a picture of this size, unless lookups are made where surfaces are shaded. */
+bool host_lookup_init(struct host_renderer *renderer, uint32_t width, uint32_t height);
 
 void host_sampler_finish(struct host_renderer *renderer);
 

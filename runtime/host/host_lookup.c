@@ -25,17 +25,38 @@ enum host_lookup host_lookup_from_name(const char *name)
     return HOST_LOOKUP_COUNT;
 }
 
-/* The last frame's shaders have read the image; what they read may go. The forward pass reads it even where
- * no gather writes it: shaders that show a part of the light alone leave out what they read. */
-static void image_prepare(VkCommandBuffer cmd, const struct host_image *image)
+bool host_lookup_init(struct host_renderer *renderer, uint32_t width, uint32_t height)
 {
-    static const VkImageLayout layouts[] = { VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL };
-    static const VkPipelineStageFlags stages[] = { VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
-                                                       VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT };
-    static const VkAccessFlags accesses[] = { VK_ACCESS_SHADER_READ_BIT,
-                                              VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT };
-    host_image_barrier(cmd, image->image, 0, 1, layouts, stages, accesses);
+    static const enum sdfgi_gather_resolution resolutions[HOST_LOOKUP_COUNT] = {
+        [HOST_LOOKUP_FULL] = SDFGI_GATHER_FULL,
+        [HOST_LOOKUP_HALF] = SDFGI_GATHER_HALF,
+        [HOST_LOOKUP_QUARTER] = SDFGI_GATHER_QUARTER,
+    };
+    const struct sdfgi_view_desc desc = { width, height, resolutions[renderer->lookup] };
+    if (renderer->lookup == HOST_LOOKUP_FORWARD)
+        return true;
+    renderer->targets.view = host_gi_view_create(renderer->gi, &desc);
+    return renderer->targets.view != NULL;
+}
+
+/* Gives the forward pass the view's pictures. One that there is not is never read. */
+static void pictures_bind(const struct host_renderer *renderer, struct host_slot *slot)
+{
+    struct sdfgi_view_images images;
+    sdfgi_view_get_images(renderer->targets.view, &images);
+    const VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
+    const VkDescriptorImageInfo infos[] = {
+        { renderer->nearest, images.diffuse, layout },
+        { renderer->nearest, images.reflection ? images.reflection : images.diffuse, layout },
+    };
+    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                         .dstSet = slot->light_set,
+                                         .descriptorCount = HOST_COUNT(infos),
+                                         .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                         .pImageInfo = infos };
+    struct host_frame_data *frame = slot->frame.mapped;
+    vkUpdateDescriptorSets(renderer->device->device, 1, &write, 0, NULL);
+    frame->camera_position[3] = images.reflection ? 1.0f : 0.0f;
 }
 
 /* Columns. A clip position (x, y, z, 1) becomes (z camera + near (x right tan_x - y up tan_y + forward), z).
@@ -51,30 +72,17 @@ static void fill_inverse(const struct host_camera_frame *camera, float m[static 
     m[11] = 1.0f;
 }
 
-static bool is_shown(enum host_aov aov)
+bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot)
 {
-    return aov == HOST_AOV_COLOR || aov == HOST_AOV_DIFFUSE_INDIRECT || aov == HOST_AOV_IRRADIANCE;
-}
-
-bool host_lookup_record(struct host_renderer *renderer, VkCommandBuffer cmd)
-{
-    static const enum sdfgi_gather_resolution resolutions[HOST_LOOKUP_COUNT] = {
-        [HOST_LOOKUP_FULL] = SDFGI_GATHER_FULL,
-        [HOST_LOOKUP_HALF] = SDFGI_GATHER_HALF,
-        [HOST_LOOKUP_QUARTER] = SDFGI_GATHER_QUARTER,
-    };
     const struct host_targets *targets = &renderer->targets;
     if (host_forward_kind(renderer, false) != HOST_FORWARD_GATHERED)
         return true;
-    image_prepare(cmd, &targets->irradiance);
-    if (!is_shown(renderer->shown))
-        return true;
-    struct sdfgi_gather_desc desc = { .depth = targets->depth.view,
-                                      .normal = targets->normal.view,
-                                      .output = targets->irradiance.view,
-                                      .width = targets->irradiance.width,
-                                      .height = targets->irradiance.height,
-                                      .resolution = resolutions[renderer->lookup] };
+    struct sdfgi_resolve_desc desc = { .depth = targets->depth.view,
+                                       .normal = targets->normal.view,
+                                       .roughness = targets->roughness };
     fill_inverse(&renderer->camera, desc.inverse_view_projection);
-    return host_gi_gather(renderer->gi, cmd, &desc);
+    if (!host_gi_resolve(renderer->gi, targets->view, slot->cmd, &desc))
+        return false;
+    pictures_bind(renderer, slot);
+    return true;
 }

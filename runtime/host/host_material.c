@@ -97,6 +97,8 @@ static void gi_fill(const struct gltf_scene *gltf, const struct gltf_material *m
     /* To the library an alpha of 0 means 1, and there is no cutoff beyond 1. */
     out->gi.alpha = m->alpha_cutoff > 1.0f ? FLT_MIN : fminf(fmaxf(m->base_color[3], FLT_MIN), 1.0f);
     out->gi.double_sided_emission = m->double_sided;
+    if (!(out->flags & HOST_MATERIAL_LAMBERT))
+        out->gi.smoothness = out->flags & HOST_MATERIAL_SURFACE_MAP ? 1.0f : 1.0f - m->roughness;
     if (out->shadow_test)
         out->gi.alpha_cutoff = m->alpha_mode == GLTF_ALPHA_BLEND ? 0.5f : fminf(m->alpha_cutoff, 1.0f);
     if (out->flags & HOST_MATERIAL_BASE_MAP)

@@ -200,6 +200,8 @@ static bool layouts_create(struct host_device *device, VkDescriptorSetLayout mat
                                                     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                                     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER };
+    static const VkDescriptorType light_types[] = { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER };
     static const VkDescriptorType post_types[] = { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER };
     const VkPushConstantRange draw = { VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
@@ -210,10 +212,11 @@ static bool layouts_create(struct host_device *device, VkDescriptorSetLayout mat
                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->frame_layout) ||
         !set_layout_create(device, post_types, HOST_COUNT(post_types),
                            VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->post_layout) ||
-        !set_layout_create(device, post_types, 1, VK_SHADER_STAGE_FRAGMENT_BIT, &p->irradiance_layout))
+        !set_layout_create(device, light_types, HOST_COUNT(light_types), VK_SHADER_STAGE_FRAGMENT_BIT,
+                           &p->light_layout))
         return false;
     const VkDescriptorSetLayout sets[] = { p->frame_layout, material_layout, gi_layout },
-                                gathered[] = { p->frame_layout, material_layout, p->irradiance_layout };
+                                gathered[] = { p->frame_layout, material_layout, p->light_layout };
     return pipeline_layout_create(device, sets, 2, draw, &p->layouts[HOST_FORWARD_PLAIN]) &&
            pipeline_layout_create(device, sets, 3, draw, &p->layouts[HOST_FORWARD_GI]) &&
            pipeline_layout_create(device, gathered, 3, draw, &p->layouts[HOST_FORWARD_GATHERED]) &&
@@ -387,5 +390,5 @@ void host_pipelines_finish(struct host_device *device, struct host_pipelines *p)
     vkDestroyPipelineLayout(vk, p->post_pipeline_layout, NULL);
     vkDestroyDescriptorSetLayout(vk, p->frame_layout, NULL);
     vkDestroyDescriptorSetLayout(vk, p->post_layout, NULL);
-    vkDestroyDescriptorSetLayout(vk, p->irradiance_layout, NULL);
+    vkDestroyDescriptorSetLayout(vk, p->light_layout, NULL);
 }

@@ -66,10 +66,7 @@ static bool target_images(struct host_renderer *r)
            target_image(r, VK_FORMAT_R16G16B16A16_SFLOAT, color, r->supersample, &t->normal) &&
            target_image(r, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, r->supersample,
                         &t->depth) &&
-           target_image(r, VK_FORMAT_R8G8B8A8_UNORM, color, 1, &t->picture) &&
-           (r->lookup == HOST_LOOKUP_FORWARD ||
-            target_image(r, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT, r->supersample,
-                         &t->irradiance));
+           target_image(r, VK_FORMAT_R8G8B8A8_UNORM, color, 1, &t->picture);
 }
 
 static void post_set_write(struct host_renderer *renderer)
@@ -94,23 +91,24 @@ static void post_set_write(struct host_renderer *renderer)
     vkUpdateDescriptorSets(renderer->device->device, HOST_COUNT(writes), writes, 0, NULL);
 }
 
-static void irradiance_set_write(struct host_renderer *renderer)
+static bool roughness_view(struct host_renderer *renderer)
 {
-    const VkDescriptorImageInfo image = { renderer->nearest, renderer->targets.irradiance.view,
-                                          VK_IMAGE_LAYOUT_GENERAL };
-    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                         .dstSet = renderer->irradiance_set,
-                                         .descriptorCount = 1,
-                                         .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                         .pImageInfo = &image };
-    if (renderer->lookup != HOST_LOOKUP_FORWARD)
-        vkUpdateDescriptorSets(renderer->device->device, 1, &write, 0, NULL);
+    const VkImageViewCreateInfo info = { .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                         .image = renderer->targets.normal.image,
+                                         .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                         .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                         .components = { .r = VK_COMPONENT_SWIZZLE_A },
+                                         .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 } };
+    return host_check(renderer->device,
+                      vkCreateImageView(renderer->device->device, &info, NULL, &renderer->targets.roughness),
+                      "creating an image view");
 }
 
 bool host_targets_init(struct host_renderer *renderer)
 {
     struct host_targets *t = &renderer->targets;
-    if (!target_images(renderer))
+    if (!target_images(renderer) || !roughness_view(renderer) ||
+        !host_lookup_init(renderer, t->hdr.width, t->hdr.height))
         return false;
     const VkImageView prepass[] = { t->normal.view, t->depth.view },
                       forward[] = { t->hdr.view, t->depth.view };
@@ -120,7 +118,6 @@ bool host_targets_init(struct host_renderer *renderer)
                             &t->picture_framebuffer))
         return false;
     post_set_write(renderer);
-    irradiance_set_write(renderer);
     return true;
 }
 
@@ -135,7 +132,8 @@ void host_targets_finish(struct host_renderer *renderer)
     host_image_destroy(renderer->device, &t->normal);
     host_image_destroy(renderer->device, &t->depth);
     host_image_destroy(renderer->device, &t->picture);
-    host_image_destroy(renderer->device, &t->irradiance);
+    vkDestroyImageView(device, t->roughness, NULL);
+    host_gi_view_destroy(renderer->gi, t->view);
     *t = (struct host_targets){ 0 };
     renderer->has_frame = false;
 }
@@ -147,10 +145,10 @@ static bool pool_create(struct host_renderer *renderer)
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS },
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * HOST_SLOTS + 1 },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * HOST_SLOTS + 2 },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * HOST_SLOTS + 1 },
     };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                              .maxSets = HOST_SLOTS + 2,
+                                              .maxSets = 2 * HOST_SLOTS + 1,
                                               .poolSizeCount = HOST_COUNT(sizes),
                                               .pPoolSizes = sizes };
     return host_check(renderer->device,
@@ -221,7 +219,9 @@ static bool slot_init(struct host_renderer *renderer, struct host_slot *slot)
                             &slot->frame) ||
         !host_buffer_create(device, light_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->lights) ||
         !host_buffer_create(device, layer_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->layers) ||
-        !set_allocate(renderer, renderer->pipelines.frame_layout, &slot->set))
+        !set_allocate(renderer, renderer->pipelines.frame_layout, &slot->set) ||
+        (renderer->lookup != HOST_LOOKUP_FORWARD &&
+         !set_allocate(renderer, renderer->pipelines.light_layout, &slot->light_set)))
         return false;
     frame_set_write(renderer, slot);
     return true;
@@ -257,9 +257,7 @@ static bool post_init(struct host_renderer *renderer)
                       "creating a sampler") &&
            host_buffer_create(renderer->device, 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true,
                               &renderer->exposure) &&
-           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set) &&
-           (renderer->lookup == HOST_LOOKUP_FORWARD ||
-            set_allocate(renderer, renderer->pipelines.irradiance_layout, &renderer->irradiance_set));
+           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set);
 }
 
 static bool scratch_init(struct host_renderer *renderer)

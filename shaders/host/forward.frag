@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Forward shading: direct light with shadows, emission, and the library's indirect light. With HOST_GI it is
- * looked up here, with HOST_GATHERED it is read from a picture of it. Outgoing radiance of a Lambertian
+ * looked up here, with HOST_GATHERED it is read from pictures of it. Outgoing radiance of a Lambertian
  * surface is albedo * E / pi for an irradiance E. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,6 +14,7 @@
 #endif
 #ifdef HOST_GATHERED
 layout(set = HOST_SET_GI, binding = 0) uniform sampler2D irradiance_image;
+layout(set = HOST_SET_GI, binding = 1) uniform sampler2D reflection_image;
 #endif
 
 layout(push_constant) uniform host_push_block
@@ -101,7 +102,11 @@ void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
     irradiance = light.irradiance;
     reflection = light.reflection * s.specular * brdf_specular_albedo(s);
 #elif defined(HOST_GATHERED)
-    irradiance = texelFetch(irradiance_image, ivec2(gl_FragCoord.xy), 0).rgb;
+    const ivec2 pixel = ivec2(gl_FragCoord.xy);
+    irradiance = texelFetch(irradiance_image, pixel, 0).rgb;
+    reflection =
+        frame.camera_position.w > 0.0 ? texelFetch(reflection_image, pixel, 0).rgb : irradiance / BRDF_PI;
+    reflection *= s.specular * brdf_specular_albedo(s);
 #endif
 }
 

@@ -67,7 +67,7 @@ struct host_sun_data {
 };
 
 struct host_frame_data {
-    HOST_VEC4(camera_position);
+    HOST_VEC4(camera_position); /* w: 1 if there is a picture of reflections */
     HOST_VEC4(camera_forward);
     HOST_VEC4(camera_right); /* times the tangent of half the horizontal angle of view */
     HOST_VEC4(camera_up);    /* times that of the vertical one */

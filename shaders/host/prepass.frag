@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Depth and normal prepass: holes of masked materials, and the normal for screen-space consumers. */
+ * Depth and normal prepass: holes of masked materials, and normal and roughness for screen-space consumers.
+ */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host/host_material.glsl"
@@ -20,5 +21,6 @@ void main()
     if (material_has(HOST_MATERIAL_MASK) && material_base_color(in_uv, in_color).a < material.surface.w)
         discard;
     const bool front_facing = gl_FrontFacing == (push.params.x > 0.0);
-    out_normal = vec4(material_normal(in_uv, in_normal, in_tangent, front_facing), 1.0);
+    const float roughness = material_has(HOST_MATERIAL_LAMBERT) ? 1.0 : material_surface(in_uv).y;
+    out_normal = vec4(material_normal(in_uv, in_normal, in_tangent, front_facing), roughness);
 }

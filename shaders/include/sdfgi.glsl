@@ -23,8 +23,9 @@ vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
     if (sdfgi_frame.cascade_count == 0u)
         return vec3(0.0);
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    return to_watts * sdfgi_lookup(sdfgi_lookup_query(
-                          SDFGI_LOOKUP_SURFACE, sdfgi_first_from_position(position), normal, normal, to_eye));
+    const sdfgi_lookup_query query =
+        sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_first_from_position(position), normal, normal, to_eye);
+    return to_watts * sdfgi_lookup(query).rgb;
 }
 
 /* The same in the air, for particles and fog: the irradiance of a small surface that faces `direction`. The
@@ -34,8 +35,9 @@ vec3 sdfgi_irradiance_air(vec3 position, vec3 direction)
     if (sdfgi_frame.cascade_count == 0u)
         return vec3(0.0);
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    return to_watts * sdfgi_lookup(sdfgi_lookup_query(SDFGI_LOOKUP_AIR, sdfgi_first_from_position(position),
-                                                      direction, direction, vec3(0.0)));
+    const sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_AIR, sdfgi_first_from_position(position),
+                                                        direction, direction, vec3(0.0));
+    return to_watts * sdfgi_lookup(query).rgb;
 }
 
 #endif

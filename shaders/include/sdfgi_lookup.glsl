@@ -47,8 +47,9 @@ vec4 sdfgi_lookup_cascade(uint cascade, vec3 pos, sdfgi_lookup_query query)
     return light;
 }
 
-/* Light times exposure, of all cascades and of what lies beyond them. */
-vec3 sdfgi_lookup(sdfgi_lookup_query query)
+/* Light times exposure, of all cascades and of what lies beyond them, in rgb; 1 in a, or 0 where nothing is
+ * known. */
+vec4 sdfgi_lookup(sdfgi_lookup_query query)
 {
     vec3 result = vec3(0.0);
     float rest = 1.0;    /* weight that the cascades so far have left */
@@ -69,7 +70,7 @@ vec3 sdfgi_lookup(sdfgi_lookup_query query)
                                           sdfgi_frame.sky_ground);
     /* What no cascade has answered, although it lies within one, is not outside: the others stand for it. */
     const float answered = 1.0 - rest + outside;
-    return answered > 1e-3 ? (result + outside * sky) / answered : vec3(0.0);
+    return answered > 1e-3 ? vec4((result + outside * sky) / answered, 1.0) : vec4(0.0);
 }
 
 #endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Reflections, beside what sdfgi.glsl gives: include this file instead of that one. Light that arrives from
- * the directions of a reflection comes in three tiers by roughness. Smooth surfaces send a ray and read the
- * light cells that it hits; rough ones show irradiance; between the two, probes answer for a direction.
- * Neighbouring tiers blend. */
+ * Reflections, beside what sdfgi.glsl gives: include this file instead of that one. Smooth surfaces send a
+ * ray and read the light cells that it hits, the roughest ones show irradiance, and the two blend between. */
 #ifndef SDFGI_REFLECTION_GLSL
 #define SDFGI_REFLECTION_GLSL
 
@@ -20,17 +18,14 @@
 #define SDFGI_REFLECTION_START 0.45
 /* Metres: the distance of the sky. */
 #define SDFGI_REFLECTION_SKY_M 65504.0
-/* Roughness at which sharp reflections begin to blend into medium ones, and medium into rough; and where each
- * blend ends. */
-#define SDFGI_REFLECTION_SHARP  vec2(0.2, 0.5)
-#define SDFGI_REFLECTION_MEDIUM vec2(0.6, 0.9)
 
-/* ---- Sharp: rays */
+/* ---- Rays */
 
 /* A surface that a ray hit. */
 struct sdfgi_reflection_hit {
     vec3 pos; /* just below the surface, in cell space of cascade 0 */
     uint axis;
+    float distance_m;
     float weight;
 };
 
@@ -59,7 +54,7 @@ void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at,
 {
     const vec3 below = at - 0.01 * vec3(sdfgi_axis_direction(hit.axis));
     const sdfgi_reflection_hit surface =
-        sdfgi_reflection_hit(sdfgi_first_from_cascade(cascade, below), hit.axis, weight);
+        sdfgi_reflection_hit(sdfgi_first_from_cascade(cascade, below), hit.axis, distance_m, weight);
     if (ray.first.weight <= 0.0)
         ray.first = surface;
     else if (ray.second.weight < weight)
@@ -73,7 +68,7 @@ void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at,
  * counts by its weight at what it hit: nothing jumps while cascades move. */
 sdfgi_reflection_ray sdfgi_reflection_trace(vec3 pos_first, vec3 normal, vec3 dir)
 {
-    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0);
+    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
     float rest = 1.0, start_m = 0.0, off_m = 0.0;
     for (uint c = 0u; c < sdfgi_frame.cascade_count && rest > 1e-3; c++) {
@@ -101,7 +96,7 @@ sdfgi_reflection_ray sdfgi_reflection_trace(vec3 pos_first, vec3 normal, vec3 di
     return ray;
 }
 
-/* ---- Tiers */
+/* ---- By roughness */
 
 /* The direction about which the lobe of a rough surface gathers most of its light: between mirror direction
  * and normal (Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section
@@ -113,32 +108,38 @@ vec3 sdfgi_reflection_direction(vec3 normal, vec3 to_eye, float roughness)
     return normalize(mix(normal, mirror, smoothness * (sqrt(smoothness) + roughness * roughness)));
 }
 
-/* Weights of the tiers at a roughness: sharp, medium, rough. They add up to 1. */
-vec3 sdfgi_reflection_tiers(float roughness)
+/* How much rays count at a roughness; the rest of a reflection is irradiance over pi. */
+float sdfgi_reflection_ray_share(float roughness)
 {
-    const float below_sharp = smoothstep(SDFGI_REFLECTION_SHARP.x, SDFGI_REFLECTION_SHARP.y, roughness),
-                below_medium = smoothstep(SDFGI_REFLECTION_MEDIUM.x, SDFGI_REFLECTION_MEDIUM.y, roughness);
-    return vec3(1.0 - below_sharp, below_sharp * (1.0 - below_medium), below_sharp * below_medium);
+    return 1.0 - smoothstep(SDFGI_RAYS_BLEND, SDFGI_RAYS_END, roughness);
+}
+
+/* The query for the light that leaves a surface that a ray hit. */
+sdfgi_lookup_query sdfgi_reflection_leaving(sdfgi_reflection_hit hit, vec3 dir)
+{
+    const vec3 normal = vec3(sdfgi_axis_direction(hit.axis));
+    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.pos, normal, normal, -dir * hit.distance_m);
+}
+
+/* All light that a ray meets, times exposure. `rough` stands for surfaces of which nothing is known. One
+ * loop, so that drivers compile the lookup once. */
+vec3 sdfgi_reflection_light(sdfgi_reflection_ray ray, vec3 dir, vec3 rough)
+{
+    vec3 light = ray.light;
+    sdfgi_reflection_hit hit = ray.first;
+    for (uint i = 0u; i < 2u && hit.weight > 0.0; i++) {
+        const vec4 leaving = sdfgi_lookup(sdfgi_reflection_leaving(hit, dir));
+        light += hit.weight * (leaving.a > 0.0 ? leaving.rgb : rough);
+        hit = ray.second;
+    }
+    return light;
 }
 
 struct sdfgi_surface_light {
     vec3 irradiance;  /* as sdfgi_irradiance has it */
     vec3 reflection;  /* radiance, W/(m^2 sr): the mean over the specular lobe */
-    float distance_m; /* to what is reflected sharply; SDFGI_REFLECTION_SKY_M: the sky */
+    float distance_m; /* to what rays meet; SDFGI_REFLECTION_SKY_M: the sky; 0: no ray */
 };
-
-/* The query of a number at a surface point, and its weight in the reflection. */
-sdfgi_lookup_query sdfgi_reflection_query(uint i, sdfgi_lookup_query surface, vec3 dir,
-                                          sdfgi_reflection_ray ray)
-{
-    if (i == 0u)
-        return surface;
-    if (i == 1u)
-        return sdfgi_lookup_query(SDFGI_LOOKUP_AIR, surface.pos, surface.normal, dir, surface.to_eye);
-    const vec3 pos = i == 2u ? ray.first.pos : ray.second.pos;
-    const vec3 normal = vec3(sdfgi_axis_direction(i == 2u ? ray.first.axis : ray.second.axis));
-    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, pos, normal, normal, -dir * ray.distance_m);
-}
 
 /* Light that arrives at a surface point with unit normal, and what of it the surface reflects towards the
  * viewer: the mean over the lobe of the microfacet distribution GGX with alpha = roughness^2, roughness in
@@ -149,30 +150,31 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
     sdfgi_surface_light result = sdfgi_surface_light(vec3(0.0), vec3(0.0), 0.0);
     if (sdfgi_frame.cascade_count == 0u)
         return result;
-    const sdfgi_lookup_query surface =
-        sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_first_from_position(position), normal, normal, to_eye);
-    const vec3 dir = sdfgi_reflection_direction(normal, to_eye, roughness),
-               tiers = sdfgi_reflection_tiers(roughness);
-    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0);
+    const vec3 pos = sdfgi_first_from_position(position),
+               dir = sdfgi_reflection_direction(normal, to_eye, roughness);
+    const float share = sdfgi_reflection_ray_share(roughness);
+    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
-    if (tiers.x > 0.0)
-        ray = sdfgi_reflection_trace(surface.pos, normal, dir);
-    result.reflection = tiers.x * ray.light;
-    result.distance_m = ray.distance_m;
-    const vec4 weights = vec4(tiers.z, tiers.y, tiers.x * ray.first.weight, tiers.x * ray.second.weight);
-    /* One loop, so that drivers compile the lookup once. */
-    for (uint i = 0u; i < 4u; i++) {
-        const float weight = weights[i];
-        if (weight <= 0.0 && i > 0u)
-            continue;
-        const vec3 light = sdfgi_lookup(sdfgi_reflection_query(i, surface, dir, ray));
-        result.reflection += weight * light;
+    if (share > 0.0)
+        ray = sdfgi_reflection_trace(pos, normal, dir);
+    vec3 rough = vec3(0.0), light = ray.light;
+    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, normal, normal, to_eye);
+    float weight = 1.0;
+    /* The surface first, then what the ray hit. One loop, so that drivers compile the lookup once. */
+    for (uint i = 0u; i < 3u && weight > 0.0; i++) {
+        const vec4 found = sdfgi_lookup(query);
         if (i == 0u)
-            result.irradiance = light * 3.14159265;
+            rough = found.rgb;
+        else
+            light += weight * (found.a > 0.0 ? found.rgb : rough);
+        const sdfgi_reflection_hit hit = i == 0u ? ray.first : ray.second;
+        weight = hit.weight;
+        query = sdfgi_reflection_leaving(hit, dir);
     }
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    result.irradiance *= scale;
-    result.reflection *= scale;
+    result.irradiance = rough * (scale * 3.14159265);
+    result.reflection = mix(rough, light, share) * scale;
+    result.distance_m = ray.distance_m;
     return result;
 }
 

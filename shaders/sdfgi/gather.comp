@@ -2,7 +2,7 @@
  * Indirect diffuse irradiance of a whole picture, from its depths and normals. A thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "picture.glsl"
+#include "picture_gather.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
 
@@ -14,7 +14,7 @@ void main()
     picture_surface s;
     const bool is_surface = picture_surface_at(pixel, s);
     const vec3 irradiance = is_surface ? picture_irradiance(s) : vec3(0.0);
-    imageStore(output_image, pixel, vec4(irradiance, 1.0));
+    imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
     if (is_surface)
         picture_mark(s, gl_LocalInvocationIndex);
 }

@@ -13,7 +13,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#include "picture.glsl"
+#include "picture_gather.glsl"
 
 layout(local_size_x = SDFGI_SAMPLES_X, local_size_y = SDFGI_SAMPLES_Y) in;
 
@@ -51,8 +51,8 @@ ivec2 sample_pixel(uint index)
 
 void sample_store(uint index, bool is_surface, picture_surface s, vec3 light)
 {
-    sample_surface[index] = is_surface ? uvec4(floatBitsToUint(s.pos), packSnorm4x8(vec4(s.normal, 0.0)))
-                                       : uvec4(0u);
+    sample_surface[index] =
+        is_surface ? uvec4(floatBitsToUint(s.pos), packSnorm4x8(vec4(s.normal, 0.0))) : uvec4(0u);
     sample_light[index] = uvec2(packHalf2x16(light.xy), packHalf2x16(vec2(light.z, 0.0)));
 }
 
@@ -125,7 +125,7 @@ void pixel_interpolate(ivec2 at)
         }
         irradiance = m.sum / m.weight;
     }
-    imageStore(output_image, pixel, vec4(irradiance, 1.0));
+    imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
 }
 
 /* Neighbouring threads take neighbouring pixels. */
@@ -152,7 +152,7 @@ void look_up(bool is_sample, uint index)
     if (is_sample && is_surface)
         picture_mark(s, index);
     if (!is_sample)
-        imageStore(output_image, pixel, vec4(irradiance, 1.0));
+        imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
 }
 
 void main()
@@ -160,7 +160,8 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         listed_count = 0u;
     /* First samples, then listed pixels. A loop, so that drivers compile the lookup once. */
-    [[dont_unroll]] for (uint part = 0u; part < 2u; part++) {
+    [[dont_unroll]] for (uint part = 0u; part < 2u; part++)
+    {
         const uint count = part == 0u ? SAMPLES : listed_count;
         for (uint i = gl_LocalInvocationIndex; i < count; i += SAMPLES)
             look_up(part == 0u, i);

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * What gathers of a picture share: its images, and the surface that a pixel shows. */
+ * What passes over a picture share: what the host has drawn, and the surface that a pixel shows. */
 #ifndef SDFGI_PICTURE_GLSL
 #define SDFGI_PICTURE_GLSL
 
-#define SDFGI_WRITES_SEEN
-#include "seen.glsl"
-#include "../include/sdfgi.glsl"
-#include "../lib/random.glsl"
 #include "../shared/args.h"
+#include "../shared/bindings.h"
 
 /* The largest half float. Brighter light would be stored as infinity. */
 #define PICTURE_BRIGHTEST 65504.0
@@ -16,10 +13,8 @@ layout(push_constant) uniform sdfgi_push
 {
     sdfgi_gather_args args;
 };
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_DEPTH) uniform sampler2D depth_image;
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_NORMAL) uniform sampler2D normal_image;
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_GATHER_OUTPUT,
-       rgba16f) uniform writeonly image2D output_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DEPTH) uniform sampler2D depth_image;
+layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_NORMAL) uniform sampler2D normal_image;
 
 struct picture_surface {
     vec3 pos, normal, to_eye; /* `to_eye` leads towards the viewer */
@@ -54,44 +49,6 @@ bool picture_surface_at(ivec2 pixel, out picture_surface s)
     s.pixel_m = 2.0 * sqrt(max(dot(right, right), dot(down, down)));
     const float length2 = dot(normal, normal);
     return length2 > 1e-20 && picture_is_finite(length2) && picture_is_finite(dot(s.pos, s.pos));
-}
-
-/* Marks a light cell in front of a surface as seen. */
-bool picture_mark_in(uint cascade, vec3 pos, vec3 normal)
-{
-    uint entry;
-    bool found = false;
-    for (int i = 1; i <= 3 && !found; i++) {
-        const vec3 at = pos + sdfgi_cells_from_metric(float(i) * SDFGI_CELLS_OFF_SURFACE * normal);
-        const ivec3 cell = ivec3(floor(at));
-        found = sdfgi_cell_is_valid(cascade, cell) && sdfgi_cell_entry(cascade, cell, entry);
-    }
-    const uint bit = 1u << (entry & 31u);
-    if (found && (atomicOr(sdfgi_seen[seen_word(cascade, entry)], bit) & bit) == 0u)
-        counter_add(SDFGI_COUNTER_CELLS_SEEN + cascade, 1u);
-    return found;
-}
-
-/* Marks what a lookup at a surface reads, for one pixel of 64, another one in every frame: `lane` is one of
- * 64 or more. A light cell is many pixels wide. */
-void picture_mark(picture_surface s, uint lane)
-{
-    const uint turn =
-        sdfgi_random_hash(sdfgi_frame.first_sample + gl_WorkGroupID.x + 4099u * gl_WorkGroupID.y);
-    if ((lane & 63u) != (turn & 63u) || sdfgi_frame.cycle_visits == 0u || sdfgi_frame.cascade_count == 0u)
-        return;
-    const vec3 first = sdfgi_first_from_position(s.pos);
-    for (uint c = 0u; c < sdfgi_frame.cascade_count; c++) {
-        const vec3 pos = sdfgi_cascade_from_first(c, first);
-        if (sdfgi_lookup_cascade_weight(c, pos) > 0.0 && picture_mark_in(c, pos, s.normal))
-            return;
-    }
-}
-
-/* As the output holds it. */
-vec3 picture_irradiance(picture_surface s)
-{
-    return min(sdfgi_irradiance(s.pos, s.normal, s.to_eye) * args.scale, vec3(PICTURE_BRIGHTEST));
 }
 
 #endif

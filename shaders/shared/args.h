@@ -125,9 +125,10 @@ struct sdfgi_gather_args {
     vec4 inverse_view_projection[4]; /* columns */
     uint width, height;
     float background_depth;
-    uint step;   /* gather_sparse: pixels from one sample to the next, a power of two */
-    float scale; /* factor on the output */
+    uint step;        /* gather_sparse: pixels from one sample to the next, a power of two */
+    float scale;      /* factor on the output */
+    uint filter_step; /* reflect_filter: pixels from tap to tap */
 };
-SDFGI_ASSERT_SIZE(sdfgi_gather_args, 84);
+SDFGI_ASSERT_SIZE(sdfgi_gather_args, 88);
 
 #endif

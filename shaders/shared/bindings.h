@@ -51,9 +51,14 @@
 #define SDFGI_BINDING_MATERIAL_ALBEDO   0
 #define SDFGI_BINDING_MATERIAL_EMISSION 1
 
-/* VIEW: the images of a gather. */
-#define SDFGI_BINDING_GATHER_DEPTH  0
-#define SDFGI_BINDING_GATHER_NORMAL 1
-#define SDFGI_BINDING_GATHER_OUTPUT 2
+/* VIEW: the pictures of a gather or a resolve. Those that passes write have bits in the pass table: see
+ * enum view_resource. */
+#define SDFGI_BINDING_VIEW_DEPTH      0
+#define SDFGI_BINDING_VIEW_NORMAL     1
+#define SDFGI_BINDING_VIEW_ROUGHNESS  2
+#define SDFGI_BINDING_VIEW_DIFFUSE    3
+#define SDFGI_BINDING_VIEW_REFLECTION 4
+#define SDFGI_BINDING_VIEW_TILES      5
+#define SDFGI_BINDING_VIEW_FILTERED   6
 
 #endif

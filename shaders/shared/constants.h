@@ -105,6 +105,16 @@
 #define SDFGI_GROUP_EMITTERS    128 /* threads that list the emitters of a cascade */
 #define SDFGI_GROUP_PIXELS      8   /* 8x8: one thread per pixel */
 
+/* Roughness from which on reflections by rays blend into irradiance, and where rays end. */
+#define SDFGI_RAYS_BLEND 0.4
+#define SDFGI_RAYS_END   0.7
+/* Pixels along a side of the square over which the rays of a rough surface are spread. */
+#define SDFGI_RAYS_SIDE 8
+/* The filter takes the mean over squares of so many pixels a side, and then over as many of these squares. */
+#define SDFGI_RAYS_TAPS 4
+/* Words of the tile list of a view before the tiles: three of indirect arguments, and a count. */
+#define SDFGI_TILES_HEADER 4
+
 /* gather_sparse: a workgroup looks up so many samples, one a thread, and fills the squares between them. Its
  * list of pixels must fit 16 KiB, and 128 threads are what every device has. */
 #define SDFGI_SAMPLES_X       16
@@ -117,9 +127,9 @@
 #define SDFGI_VOXEL_PART_CELLS (1u << 20)
 
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h). */
-#define SDFGI_ACCUM_ALBEDO           0 /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
-#define SDFGI_ACCUM_EMISSION         3 /* per channel 2 planes: sum of radiance times area, 64 bits */
-#define SDFGI_ACCUM_EMISSION_COVERED 9 /* area that emitters cover of columns, in 1/SDFGI_AREA_STEPS */
+#define SDFGI_ACCUM_ALBEDO           0  /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
+#define SDFGI_ACCUM_EMISSION         3  /* per channel 2 planes: sum of radiance times area, 64 bits */
+#define SDFGI_ACCUM_EMISSION_COVERED 9  /* area that emitters cover of columns, in 1/SDFGI_AREA_STEPS */
 #define SDFGI_ACCUM_EMISSION_FACING  10 /* a bit per axis +x -x +y -y +z -z from which emission is seen */
 #define SDFGI_ACCUM_NORMAL           11 /* per dominant axis 3 planes: count, sums of two slopes */
 #define SDFGI_ACCUM_EMISSION_AREA    20 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
@@ -128,14 +138,14 @@
 #define SDFGI_AREA_STEPS             65535.0
 /* Radiance in units of stored emission, W/(m^2 sr) unless something is brighter than the last of these: the
  * step of sums, the weight of their upper word, the most. The sun's disc has 2e7; 1e-4 are 1,678 steps. */
-#define SDFGI_EMISSION_STEP          (1.0 / 16777216.0)
-#define SDFGI_EMISSION_UPPER         256.0
-#define SDFGI_EMISSION_MOST          67108864.0
-#define SDFGI_SLOPE_STEPS            127.0
+#define SDFGI_EMISSION_STEP  (1.0 / 16777216.0)
+#define SDFGI_EMISSION_UPPER 256.0
+#define SDFGI_EMISSION_MOST  67108864.0
+#define SDFGI_SLOPE_STEPS    127.0
 /* Samples of a dominant axis, and area that emitters cover, beyond which a block takes no more: three times
  * the former times SDFGI_ALBEDO_STEPS, and some threads' worth of the latter, fit 32 bits. */
-#define SDFGI_ACCUM_MOST_SAMPLES     (1u << 20)
-#define SDFGI_ACCUM_MOST_COVERED     (1u << 29)
+#define SDFGI_ACCUM_MOST_SAMPLES (1u << 20)
+#define SDFGI_ACCUM_MOST_COVERED (1u << 29)
 
 /* Lights. */
 #define SDFGI_LIGHT_KIND_DIRECTIONAL 0u

@@ -18,10 +18,10 @@ SDFGI_ASSERT_SIZE(sdfgi_dirty_box, 32);
 /* Cell space of a cascade: (0, 0, 0) is its low corner, one unit is one cell along each axis; a cell is as
  * high as y_scale times its width. Metric lengths inside a cascade are counted in cell widths. */
 struct sdfgi_cascade_params {
-    vec3 origin_rel; /* low corner in metres relative to the host's origin */
-    float cell_m;    /* width of a cell in metres */
-    ivec3 wrap;      /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
-    uint seen_first; /* entries [seen_first, seen_end) of the light list whose seen cells are visited, too */
+    vec3 origin_rel;  /* low corner in metres relative to the host's origin */
+    float cell_m;     /* width of a cell in metres */
+    ivec3 wrap;       /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
+    uint seen_first;  /* entries [seen_first, seen_end) of the light list whose seen cells are visited, too */
     ivec3 probe_wrap; /* slot of probe (0, 0, 0), in [0, probes_per_side) */
     uint seen_end;
     vec3 from_first; /* cell space = from_first + from_first_scale * cell space of cascade 0 */
@@ -72,12 +72,12 @@ struct sdfgi_frame_params {
     uint light_cell_room; /* entries of the light list per cascade */
     uint visibility;      /* SDFGI_SHADER_VISIBILITY_* */
     uint seed;
-    uint rays_per_frame;   /* rays of a probe in a frame */
-    uint first_sample;     /* this frame's first sample in the sample cycle */
-    uint cycle_samples;    /* samples of a probe in a sample cycle */
-    uint cycle_visits;     /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
+    uint rays_per_frame; /* rays of a probe in a frame */
+    uint first_sample;   /* this frame's first sample in the sample cycle */
+    uint cycle_samples;  /* samples of a probe in a sample cycle */
+    uint cycle_visits;   /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
     uint lists_emitters; /* 1: something emits, and emitters are listed */
-    float dark; /* light times exposure that counts as dark */
+    float dark;          /* light times exposure that counts as dark */
     uint padding_3, padding_4;
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 9 * 16);

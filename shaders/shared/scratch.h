@@ -20,8 +20,7 @@
 /* Cells of the largest part that is voxelised at once. */
 SDFGI_FUNCTION uint sdfgi_scratch_part_cells(uint bits)
 {
-    const uint cells = 1u << (3u * bits), least = SDFGI_VOXEL_PART_CELLS,
-               part = cells / SDFGI_VOXEL_PARTS;
+    const uint cells = 1u << (3u * bits), least = SDFGI_VOXEL_PART_CELLS, part = cells / SDFGI_VOXEL_PARTS;
     return cells < least ? cells : part > least ? part : least;
 }
 

@@ -226,7 +226,7 @@ static void twenty_gathers_in_a_frame_give_twenty_pictures_twice(void **state)
         require_pictures(&p, expected);
     }
     uint32_t views = 0;
-    for (const struct view *view = t.gi->views.first; view; view = view->next)
+    for (const struct sdfgi_view *view = t.gi->views.of_gathers; view; view = view->next)
         views++;
     REQUIRE_CMP(views, ==, (uint32_t)PICTURES);
     pictures_close(&p);

@@ -94,7 +94,7 @@ static bool needs_light(const struct situation *s)
     return bounces(s) || (!s->converged && needs_list(s));
 }
 
-/* A gather is not planned with the frame: the host asks for it afterwards. */
+/* A gather or a resolve is not planned with the frame: the host asks for it afterwards. */
 static bool needs_rescale(const struct situation *s)
 {
     return s->rescales;
@@ -156,10 +156,13 @@ static const struct need_row needs[NEED_COUNT] = {
                       "no light cell has new light, or sdfgi_surface_light is probes" },
     [NEED_RESCALE] = { needs_rescale, "light is stored with another exposure",
                        "light is stored with the same exposure as before" },
-    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather",
-                      "the host did not call sdfgi_gather at full resolution" },
-    [NEED_GATHER_SPARSE] = { needs_gather, "the host called sdfgi_gather at half or quarter resolution",
-                             "the host did not call sdfgi_gather at half or quarter resolution" },
+    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather or resolved a view",
+                      "the host called for no picture at full resolution" },
+    [NEED_GATHER_SPARSE] = { needs_gather, "the host called for a picture at half or quarter resolution",
+                             "the host called for no picture at half or quarter resolution" },
+    [NEED_REFLECTIONS] = { needs_gather,
+                           "a material is smooth, and the host resolved a view with reflections",
+                           "no material is smooth, or the host resolved no view with reflections" },
 };
 
 struct situation_needs sdfgi_frame_needs(const struct situation *situation)

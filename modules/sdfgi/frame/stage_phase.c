@@ -93,7 +93,8 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
     case DOMAIN_CASCADE:
         work->units = e->blocks;
         break;
-    case DOMAIN_INSTANCES: /* the recorder counts triangles */
+    case DOMAIN_INSTANCES:
+    case DOMAIN_TILE_LIST: /* the recorder counts triangles */
         break;
     case DOMAIN_LIGHT_CELLS:
     case DOMAIN_ALL_LIGHT_CELLS:

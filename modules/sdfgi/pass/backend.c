@@ -33,8 +33,30 @@ void sdfgi_backend_buffer_finish(struct backend *backend, struct gpu_buffer *buf
     gpu_buffer_finish(&backend->device, buffer);
 }
 
+VkResult sdfgi_backend_image_init(struct backend *backend, struct gpu_image *image, VkFormat format,
+                                  uint32_t width, uint32_t height, VkImageUsageFlags usage,
+                                  enum sdfgi_memory_category category, const char *name)
+{
+    const VkResult result = gpu_image_init(&backend->device, image, format, width, height, 1, usage, name);
+    if (result != VK_SUCCESS)
+        return result;
+    backend->held.bytes[category] += image->size;
+    backend->held.total_bytes += image->size;
+    return VK_SUCCESS;
+}
+
+void sdfgi_backend_image_finish(struct backend *backend, struct gpu_image *image,
+                                enum sdfgi_memory_category category)
+{
+    if (image->handle) {
+        backend->held.bytes[category] -= image->size;
+        backend->held.total_bytes -= image->size;
+    }
+    gpu_image_finish(&backend->device, image);
+}
+
 VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
-                                   const VkDescriptorPoolSize sizes[static 2],
+                                   const VkDescriptorPoolSize *sizes, uint32_t count,
                                    VkDescriptorPoolCreateFlags flags, VkDescriptorPool *pool)
 {
     return backend->device.fn.CreateDescriptorPool(
@@ -42,7 +64,7 @@ VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
         &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                        .flags = flags,
                                        .maxSets = sets,
-                                       .poolSizeCount = 2,
+                                       .poolSizeCount = count,
                                        .pPoolSizes = sizes },
         backend->device.callbacks, pool);
 }

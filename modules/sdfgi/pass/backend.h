@@ -40,6 +40,13 @@ VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *b
 void sdfgi_backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
                                  enum sdfgi_memory_category category);
 
+/* Likewise a 2D image. */
+VkResult sdfgi_backend_image_init(struct backend *backend, struct gpu_image *image, VkFormat format,
+                                  uint32_t width, uint32_t height, VkImageUsageFlags usage,
+                                  enum sdfgi_memory_category category, const char *name);
+void sdfgi_backend_image_finish(struct backend *backend, struct gpu_image *image,
+                                enum sdfgi_memory_category category);
+
 /* Sampler, layouts, and the pipelines of rows that are made with the context. */
 VkResult sdfgi_pipelines_init(struct backend *backend);
 void sdfgi_pipelines_finish(struct backend *backend);
@@ -49,9 +56,9 @@ VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32
 VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
                                 VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline);
 
-/* A pool for `sets` descriptor sets, with room for descriptors of two types in all. */
+/* A pool for `sets` descriptor sets, with room for descriptors of `count` types in all. */
 VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
-                                   const VkDescriptorPoolSize sizes[static 2],
+                                   const VkDescriptorPoolSize *sizes, uint32_t count,
                                    VkDescriptorPoolCreateFlags flags, VkDescriptorPool *pool);
 /* One set from a pool. */
 VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,

@@ -97,16 +97,30 @@ static void dispatch(struct pass_recorder *r, const struct work *work)
     gpu_dispatch(&r->gpu, groups.x, groups.y, groups.z);
 }
 
-void sdfgi_pass_record(struct pass_recorder *r, const struct work *work)
+static void begin_item(struct pass_recorder *r, const struct work *work)
 {
     const struct pass_row *row = sdfgi_pass_row(work->pass);
     assert(work->kind == WORK_PASS && row->domain != DOMAIN_INSTANCES);
     sdfgi_pass_open(r, work);
     if (row->args_size > 0)
         gpu_push(&r->gpu, r->backend->pipelines.layouts[row->set], row->args_size, &work->args);
-    dispatch(r, work);
     r->tally[work->pass].dispatches++;
     r->tally[work->pass].units += work->units;
+}
+
+void sdfgi_pass_record(struct pass_recorder *r, const struct work *work)
+{
+    begin_item(r, work);
+    dispatch(r, work);
+}
+
+void sdfgi_pass_record_indirect(struct pass_recorder *r, const struct work *work,
+                                const struct gpu_buffer *arguments, uint64_t offset)
+{
+    const struct pass_row *row = sdfgi_pass_row(work->pass);
+    begin_item(r, work);
+    gpu_use(&r->gpu, GPU_USAGE_INDIRECT, row->reads, row->writes);
+    gpu_dispatch_indirect(&r->gpu, arguments, offset);
 }
 
 void sdfgi_pass_record_clear(struct pass_recorder *r, const struct work *work)

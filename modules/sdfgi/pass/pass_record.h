@@ -34,8 +34,11 @@ void sdfgi_pass_open(struct pass_recorder *r, const struct work *work);
 /* Closes what is open. */
 void sdfgi_pass_close(struct pass_recorder *r);
 
-/* An item of any domain but DOMAIN_INSTANCES. */
+/* An item of any domain but DOMAIN_INSTANCES and DOMAIN_TILE_LIST. */
 void sdfgi_pass_record(struct pass_recorder *r, const struct work *work);
+/* An item whose size a view's buffer holds, at `offset`. */
+void sdfgi_pass_record_indirect(struct pass_recorder *r, const struct work *work,
+                                const struct gpu_buffer *arguments, uint64_t offset);
 void sdfgi_pass_record_clear(struct pass_recorder *r, const struct work *work);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "pass_rows.h"
 
+#include "shaders/shared/bindings.h"
+
 #define ARGS_SIZE(name) sizeof(((union work_args *)0)->name)
 enum {
     SIZE_none = 0,
@@ -21,6 +23,7 @@ enum {
 
 static const struct pass_row rows[PASS_COUNT] = {
 #define R(id) RESOURCE_BIT(id)
+#define V(id) VIEW_BIT(id)
 #define ROW(id, kind_, shader, unit_, need_, phase_, made_, domain_, args_, group_, set_, reads_, writes_)   \
     [PASS_##id] = {                                                                                          \
         .name = #shader,                                                                                     \
@@ -40,6 +43,7 @@ static const struct pass_row rows[PASS_COUNT] = {
     SDFGI_PASSES(ROW)
 #undef ROW
 #undef R
+#undef V
 };
 
 const char *sdfgi_pass_unit_name(enum pass_unit unit)

@@ -39,6 +39,7 @@ enum need {
     NEED_RESCALE,
     NEED_GATHER,
     NEED_GATHER_SPARSE,
+    NEED_REFLECTIONS,
     NEED_COUNT,
 };
 
@@ -107,5 +108,7 @@ const struct pass_row *sdfgi_pass_row(enum pass pass);
 const char *sdfgi_pass_unit_name(enum pass_unit unit);
 
 #define RESOURCE_BIT(id) (UINT64_C(1) << RESOURCE_##id)
+/* What a view owns follows the resources of volumes, in the order of its bindings. */
+#define VIEW_BIT(id) (UINT64_C(1) << (RESOURCE_COUNT + SDFGI_BINDING_VIEW_##id))
 
 #endif

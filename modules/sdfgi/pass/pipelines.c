@@ -94,12 +94,17 @@ static VkResult material_layout(struct backend *backend)
 static VkResult view_layout(struct backend *backend)
 {
     const VkSampler *nearest = &backend->pipelines.nearest;
-    const VkDescriptorSetLayoutBinding bindings[3] = {
-        binding(SDFGI_BINDING_GATHER_DEPTH, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
-        binding(SDFGI_BINDING_GATHER_NORMAL, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
-        binding(SDFGI_BINDING_GATHER_OUTPUT, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL),
+    const VkDescriptorSetLayoutBinding bindings[] = {
+        binding(SDFGI_BINDING_VIEW_DEPTH, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
+        binding(SDFGI_BINDING_VIEW_NORMAL, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
+        binding(SDFGI_BINDING_VIEW_ROUGHNESS, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nearest),
+        binding(SDFGI_BINDING_VIEW_DIFFUSE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL),
+        binding(SDFGI_BINDING_VIEW_REFLECTION, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL),
+        binding(SDFGI_BINDING_VIEW_TILES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, NULL),
+        binding(SDFGI_BINDING_VIEW_FILTERED, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL),
     };
-    return set_layout(&backend->device, bindings, 3, &backend->pipelines.view);
+    return set_layout(&backend->device, bindings, sizeof bindings / sizeof *bindings,
+                      &backend->pipelines.view);
 }
 
 static VkResult pipeline_layout(struct backend *backend, enum pass_set beside)

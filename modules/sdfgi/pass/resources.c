@@ -39,7 +39,7 @@ static VkResult create_pool(const struct backend *backend, uint32_t sets, uint32
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
     };
-    return sdfgi_backend_pool_create(backend, sets, sizes, 0, pool);
+    return sdfgi_backend_pool_create(backend, sets, sizes, 2, 0, pool);
 }
 
 static VkResult create_sets(const struct backend *backend, VkDescriptorPool *pool,

@@ -69,6 +69,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
                    cascades = (uint32_t)e->cascades, n = 8 * ((uint32_t)e->probes_per_side - 1);
     switch (sdfgi_pass_row(work->pass)->domain) {
     case DOMAIN_INSTANCES:
+    case DOMAIN_TILE_LIST:
         break;
     case DOMAIN_BOX:
         return in_rows(groups_for(sdfgi_cell_box_cells(&work->box), group));

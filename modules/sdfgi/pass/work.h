@@ -39,6 +39,7 @@ enum domain {
     DOMAIN_ALL_LIGHT_CELLS,  /* `count` entries of the light lists of all cascades */
     DOMAIN_STORED_LIGHT,     /* axes of light cells, and texels of probes, of all cascades */
     DOMAIN_PIXELS,           /* of a picture */
+    DOMAIN_TILE_LIST,        /* tiles of a picture that a list names: indirect */
     DOMAIN_TILES,            /* of a picture, between SDFGI_SAMPLES_X x SDFGI_SAMPLES_Y samples */
 };
 

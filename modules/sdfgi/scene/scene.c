@@ -6,6 +6,8 @@
 #include "scene_check.h"
 #include "scene_sets.h"
 
+#include "shaders/shared/constants.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -109,6 +111,11 @@ static bool emits(const struct sdfgi_material_desc *desc)
     return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
 }
 
+static bool is_smooth(const struct sdfgi_material_desc *desc)
+{
+    return 1 - desc->smoothness < (float)SDFGI_RAYS_END;
+}
+
 /* Sums of emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material
  * that is brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised
  * anew for that. */
@@ -142,6 +149,7 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
     }
     sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
     scene->emissive += emits(desc);
+    scene->smooth += is_smooth(desc);
     fit_emission_unit(scene, desc);
     out->id = id;
     return SDFGI_OK;
@@ -161,6 +169,7 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
     }
     sdfgi_scene_sets_retire(scene, material->set);
     scene->emissive -= emits(&material->desc);
+    scene->smooth -= is_smooth(&material->desc);
     sdfgi_pool_remove(&scene->materials, handle.id);
     return SDFGI_OK;
 }

@@ -50,6 +50,7 @@ struct scene {
     VkSampler samplers[ADDRESS_MODES][ADDRESS_MODES]; /* by mode of u, v; null until a texture needs it */
     struct sdfgi_sky sky;
     uint32_t emissive;   /* materials that emit */
+    uint32_t smooth;     /* materials that reflect more than irradiance */
     float most_emission; /* of any material so far */
     float emission_unit; /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;

@@ -18,7 +18,7 @@ static VkResult add_pool(struct scene *scene)
         { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * SETS_PER_POOL },
     };
     const VkResult result =
-        sdfgi_backend_pool_create(scene->backend, SETS_PER_POOL, sizes,
+        sdfgi_backend_pool_create(scene->backend, SETS_PER_POOL, sizes, 2,
                                   VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT, &pool->handle);
     if (result != VK_SUCCESS) {
         sdfgi_hooks_free(&scene->backend->hooks, pool);

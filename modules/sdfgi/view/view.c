@@ -3,122 +3,170 @@
 
 #include "shaders/shared/bindings.h"
 
-#include <math.h>
-#include <string.h>
+#include <stddef.h>
 
-enum { GATHER_IMAGES = 3 };
-
-/* ---- Views */
+enum { MAX_BINDINGS = 7, TILE = SDFGI_GROUP_PIXELS };
 
 static VkResult create_pool(const struct backend *backend, VkDescriptorPool *pool)
 {
     const uint32_t sets = backend->retired.frames_in_flight;
     const VkDescriptorPoolSize sizes[] = {
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * sets },
-        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 3 * sets },
+        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3 * sets },
+        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets },
     };
-    return sdfgi_backend_pool_create(backend, sets, sizes, 0, pool);
+    return sdfgi_backend_pool_create(backend, sets, sizes, 3, 0, pool);
 }
 
-static void destroy(struct backend *backend, struct view *view)
+static VkResult create_picture(struct backend *backend, const struct sdfgi_view *view,
+                               struct gpu_image *image, const char *name)
 {
+    return sdfgi_backend_image_init(
+        backend, image, VK_FORMAT_R16G16B16A16_SFLOAT, view->desc.width, view->desc.height,
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+        SDFGI_MEMORY_VIEWS, name);
+}
+
+static void destroy(struct gpu_retired *item, void *user)
+{
+    struct backend *backend = user;
+    struct sdfgi_view *view = (struct sdfgi_view *)item;
+    sdfgi_backend_image_finish(backend, &view->diffuse, SDFGI_MEMORY_VIEWS);
+    sdfgi_backend_image_finish(backend, &view->reflection, SDFGI_MEMORY_VIEWS);
+    sdfgi_backend_image_finish(backend, &view->filtered, SDFGI_MEMORY_VIEWS);
+    sdfgi_backend_buffer_finish(backend, &view->tiles, SDFGI_MEMORY_VIEWS);
     backend->device.fn.DestroyDescriptorPool(backend->device.handle, view->pool, backend->device.callbacks);
     sdfgi_hooks_free(&backend->hooks, view);
 }
 
-static struct view *create(struct backend *backend, VkResult *result)
+_Static_assert(offsetof(struct sdfgi_view, retired) == 0, "destroy() finds the view by its first member");
+
+struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_view_desc *desc,
+                                   VkResult *result)
 {
-    struct view *view = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *view);
-    *result = view ? create_pool(backend, &view->pool) : VK_ERROR_OUT_OF_HOST_MEMORY;
+    struct sdfgi_view *view = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *view);
+    *result = VK_ERROR_OUT_OF_HOST_MEMORY;
+    if (!view)
+        return NULL;
+    view->desc = *desc;
+    *result = create_pool(backend, &view->pool);
     for (uint32_t f = 0; f < backend->retired.frames_in_flight && *result == VK_SUCCESS; f++)
         *result = sdfgi_backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
+    if (*result == VK_SUCCESS && desc->width > 0)
+        *result = create_picture(backend, view, &view->diffuse, "sdfgi diffuse");
     if (*result == VK_SUCCESS)
         return view;
-    if (view)
-        destroy(backend, view);
+    destroy(&view->retired, backend);
     return NULL;
+}
+
+/* A list of all tiles. */
+static uint64_t tiles_size(const struct sdfgi_view_desc *desc)
+{
+    const uint64_t x = (desc->width + TILE - 1) / TILE, y = (desc->height + TILE - 1) / TILE;
+    return sizeof(uint32_t) * (SDFGI_TILES_HEADER + x * y);
+}
+
+VkResult sdfgi_view_add_reflection(struct backend *backend, struct sdfgi_view *view)
+{
+    VkResult result = VK_SUCCESS;
+    if (!view->reflection.handle)
+        result = create_picture(backend, view, &view->reflection, "sdfgi reflection");
+    if (result == VK_SUCCESS && !view->filtered.handle)
+        result = create_picture(backend, view, &view->filtered, "sdfgi filtered");
+    if (result == VK_SUCCESS && !view->tiles.handle)
+        result = sdfgi_backend_buffer_init(backend, &view->tiles, tiles_size(&view->desc),
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                           GPU_DEVICE_LOCAL, SDFGI_MEMORY_VIEWS, "sdfgi tiles");
+    return result;
+}
+
+/* ---- Those of a context */
+
+static void finish_list(struct backend *backend, struct sdfgi_view **first)
+{
+    for (struct sdfgi_view *view = *first, *next; view; view = next) {
+        next = view->next;
+        destroy(&view->retired, backend);
+    }
+    *first = NULL;
 }
 
 void sdfgi_views_finish(struct backend *backend, struct views *views)
 {
-    for (struct view *view = views->first, *next; view; view = next) {
-        next = view->next;
-        destroy(backend, view);
-    }
-    views->first = NULL;
+    finish_list(backend, &views->of_gathers);
+    finish_list(backend, &views->of_host);
 }
 
-struct view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result)
+struct sdfgi_view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result)
 {
-    struct view **link = &views->first;
+    struct sdfgi_view **link = &views->of_gathers;
     *result = VK_SUCCESS;
     for (uint32_t i = 0; i < views->used; i++)
         link = &(*link)->next;
     if (!*link)
-        *link = create(backend, result);
+        *link = sdfgi_view_make(backend, &(struct sdfgi_view_desc){ 0 }, result);
     views->used += *link != NULL;
     return *link;
 }
 
-/* ---- Stage 8, diffuse, as a screen pass */
-
-struct problem sdfgi_view_gather_problem(const struct sdfgi_gather_desc *d)
+void sdfgi_views_retire(struct backend *backend, struct views *views, struct sdfgi_view *view)
 {
-    struct problem p = { "" };
-    if (!d->depth || !d->normal || !d->output)
-        sdfgi_problem_add(&p, "%s is null", !d->depth ? "depth" : !d->normal ? "normal" : "output");
-    if (d->width == 0 || d->height == 0)
-        sdfgi_problem_add(&p, "%s is 0", d->width == 0 ? "width" : "height");
-    if ((unsigned)d->resolution > SDFGI_GATHER_QUARTER)
-        sdfgi_problem_add(&p, "resolution is %d, must be one of enum sdfgi_gather_resolution",
-                          (int)d->resolution);
-    sdfgi_problem_floats(&p, "inverse_view_projection", d->inverse_view_projection, 16, -INFINITY, INFINITY);
-    sdfgi_problem_floats(&p, "scale", &d->scale, 1, 0, INFINITY);
-    static const float zero[16];
-    if (memcmp(zero, d->inverse_view_projection, sizeof zero) == 0)
-        sdfgi_problem_add(&p, "inverse_view_projection is 0");
-    return p;
+    struct sdfgi_view **link = &views->of_host;
+    while (*link && *link != view)
+        link = &(*link)->next;
+    if (!*link)
+        return;
+    *link = view->next;
+    gpu_retire(&backend->retired, &view->retired, destroy, backend);
 }
 
-void sdfgi_view_write_set(const struct backend *backend, const struct view *view,
-                          const struct sdfgi_gather_desc *d)
+/* ---- Descriptors */
+
+struct writes {
+    VkWriteDescriptorSet items[MAX_BINDINGS];
+    VkDescriptorImageInfo images[MAX_BINDINGS];
+    uint32_t count;
+};
+
+static void add_image(struct writes *w, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                      VkImageView image, VkImageLayout layout)
 {
-    const VkImageLayout layout = d->input_layout ? d->input_layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkDescriptorImageInfo images[GATHER_IMAGES] = {
-        [SDFGI_BINDING_GATHER_DEPTH] = { VK_NULL_HANDLE, d->depth, layout },
-        [SDFGI_BINDING_GATHER_NORMAL] = { VK_NULL_HANDLE, d->normal, layout },
-        [SDFGI_BINDING_GATHER_OUTPUT] = { VK_NULL_HANDLE, d->output, VK_IMAGE_LAYOUT_GENERAL },
-    };
-    VkWriteDescriptorSet writes[GATHER_IMAGES];
-    for (uint32_t i = 0; i < GATHER_IMAGES; i++)
-        writes[i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = view->sets[sdfgi_backend_slot(backend)],
-            .dstBinding = i,
-            .descriptorCount = 1,
-            .descriptorType = i == SDFGI_BINDING_GATHER_OUTPUT ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                                               : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-            .pImageInfo = &images[i],
-        };
-    backend->device.fn.UpdateDescriptorSets(backend->device.handle, GATHER_IMAGES, writes, 0, NULL);
+    if (!image)
+        return;
+    w->images[w->count] = (VkDescriptorImageInfo){ VK_NULL_HANDLE, image, layout };
+    w->items[w->count] = (VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                                 .dstSet = set,
+                                                 .dstBinding = binding,
+                                                 .descriptorCount = 1,
+                                                 .descriptorType = type,
+                                                 .pImageInfo = &w->images[w->count] };
+    w->count++;
 }
 
-struct work sdfgi_view_gather_work(const struct sdfgi_gather_desc *d)
+void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view *view,
+                          const struct view_pictures *p)
 {
-    static const uint32_t steps[] = {
-        [SDFGI_GATHER_FULL] = 1, [SDFGI_GATHER_HALF] = 2, [SDFGI_GATHER_QUARTER] = SDFGI_SAMPLE_STEP_MAX
-    };
-    struct work work = {
-        .pass = d->resolution == SDFGI_GATHER_FULL ? PASS_GATHER : PASS_GATHER_SPARSE,
-        .indirect = WORK_DIRECT,
-        .units = (uint64_t)d->width * d->height,
-        .args.gather = { .width = d->width,
-                         .height = d->height,
-                         .background_depth = d->background_depth,
-                         .step = steps[d->resolution],
-                         .scale = d->scale > 0 ? d->scale : 1 },
-    };
-    memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,
-           sizeof work.args.gather.inverse_view_projection);
-    return work;
+    const VkDescriptorType in = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                           out = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    const VkImageLayout layout = p->input_layout ? p->input_layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkDescriptorSet set = view->sets[sdfgi_backend_slot(backend)];
+    const VkDescriptorBufferInfo tiles = { view->tiles.handle, 0, VK_WHOLE_SIZE };
+    struct writes w = { .count = 0 };
+    add_image(&w, set, SDFGI_BINDING_VIEW_DEPTH, in, p->depth, layout);
+    add_image(&w, set, SDFGI_BINDING_VIEW_NORMAL, in, p->normal, layout);
+    add_image(&w, set, SDFGI_BINDING_VIEW_ROUGHNESS, in, p->roughness, layout);
+    add_image(&w, set, SDFGI_BINDING_VIEW_DIFFUSE, out, p->diffuse, VK_IMAGE_LAYOUT_GENERAL);
+    add_image(&w, set, SDFGI_BINDING_VIEW_REFLECTION, out, view->reflection.view, VK_IMAGE_LAYOUT_GENERAL);
+    add_image(&w, set, SDFGI_BINDING_VIEW_FILTERED, out, view->filtered.view, VK_IMAGE_LAYOUT_GENERAL);
+    if (view->tiles.handle)
+        w.items[w.count++] = (VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                                     .dstSet = set,
+                                                     .dstBinding = SDFGI_BINDING_VIEW_TILES,
+                                                     .descriptorCount = 1,
+                                                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                     .pBufferInfo = &tiles };
+    backend->device.fn.UpdateDescriptorSets(backend->device.handle, w.count, w.items, 0, NULL);
 }

@@ -1,34 +1,55 @@
 /* SPDX-License-Identifier: MIT
- * Views: what belongs to one picture. A view holds the descriptor sets of its gather, one for each frame in
- * flight. */
-#ifndef SDFGI_VIEW_H
-#define SDFGI_VIEW_H
+ * Views: what belongs to one picture. A view holds the pictures that it resolves, and the descriptor sets of
+ * its passes, one for each frame in flight. Gathers into pictures of the host's use views without pictures.
+ */
+#ifndef SDFGI_VIEW_VIEW_H
+#define SDFGI_VIEW_VIEW_H
 
 #include "core/problem.h"
 #include "pass/pass_record.h"
+#include "pass/resources.h"
 
-struct view {
+struct sdfgi_view {
+    struct gpu_retired retired;
+    struct sdfgi_view_desc desc;
     VkDescriptorPool pool;
     VkDescriptorSet sets[SDFGI_MAX_FRAMES_IN_FLIGHT];
-    struct view *next;
+    struct gpu_image diffuse;
+    struct gpu_image reflection, filtered; /* these, and the tiles, once a resolve has asked for them */
+    struct gpu_buffer tiles;
+    bool diffuse_ready, reflection_ready; /* in their layout */
+    bool reflects;                        /* the last resolve made reflections */
+    struct sdfgi_view *next;
 };
 
-/* Views are made when a frame asks for more pictures than any frame before. */
+/* Those of gathers are made when a frame asks for more pictures than any frame before. */
 struct views {
-    struct view *first;
-    uint32_t used; /* in this frame */
+    struct sdfgi_view *of_gathers;
+    uint32_t used; /* of these, in this frame */
+    struct sdfgi_view *of_host;
 };
 
 void sdfgi_views_finish(struct backend *backend, struct views *views);
-/* The next view of this frame, or NULL and a reason. */
-struct view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result);
+/* The next view for a gather in this frame, or NULL and a reason. */
+struct sdfgi_view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result);
 
-/* What is wrong with the description. */
-struct problem sdfgi_view_gather_problem(const struct sdfgi_gather_desc *desc);
-/* Writes the pictures of a gather into the view's set of this frame. */
-void sdfgi_view_write_set(const struct backend *backend, const struct view *view,
-                          const struct sdfgi_gather_desc *desc);
-/* The gather as an item of work. */
-struct work sdfgi_view_gather_work(const struct sdfgi_gather_desc *desc);
+/* A view with a picture of diffuse light, if the description has a size. */
+struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_view_desc *desc,
+                                   VkResult *result);
+/* Adds what reflections need, unless it is there. */
+VkResult sdfgi_view_add_reflection(struct backend *backend, struct sdfgi_view *view);
+/* Destroys a view of the host's once no frame in flight can use it. */
+void sdfgi_views_retire(struct backend *backend, struct views *views, struct sdfgi_view *view);
+
+/* Pictures that the passes of a view read and write, as the host names them. */
+struct view_pictures {
+    VkImageView depth, normal, roughness; /* roughness: VK_NULL_HANDLE for none */
+    VkImageLayout input_layout;
+    VkImageView diffuse;
+};
+
+/* Writes the pictures into the view's set of this frame. */
+void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view *view,
+                          const struct view_pictures *pictures);
 
 #endif

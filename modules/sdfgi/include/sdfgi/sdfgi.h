@@ -107,6 +107,7 @@ enum sdfgi_memory_category {
     SDFGI_MEMORY_SCRATCH,  /* flood pointers, accumulators, occupancy: shared by all cascades */
     SDFGI_MEMORY_LISTS,    /* light cells, lights, materials, counters, indirect arguments */
     SDFGI_MEMORY_READBACK, /* counters and timestamps, host visible */
+    SDFGI_MEMORY_VIEWS,    /* pictures of views: not in the estimate */
     SDFGI_MEMORY_CATEGORY_COUNT,
 };
 
@@ -205,6 +206,8 @@ struct sdfgi_material_desc {
     float emission[3];          /* radiance, W/(m^2 sr), >= 0; 0: none, with a texture too */
     float alpha_cutoff;         /* [0, 1]: samples with alpha below it are holes; 0: there are none */
     bool double_sided_emission; /* false: emits from the front side only; see front_face */
+    float smoothness;           /* [0, 1]: 1 - roughness where the material is smoothest; 0: matt. Views make
+                                   reflections only while a material calls for them */
     struct sdfgi_texture albedo_texture;   /* RGB times albedo, A times alpha */
     struct sdfgi_texture emission_texture; /* RGB times emission */
 };
@@ -442,4 +445,6 @@ SDFGI_API void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report);
 #ifdef __cplusplus
 }
 #endif
+
+#include <sdfgi/view.h>
 #endif

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT
+ * Views: what belongs to one picture. A view holds the pictures of light that it resolves, and what it needs
+ * to make them. Each eye and each part of a split screen has a view of its own; all views of a context share
+ * its volumes, so that an update serves them all. Include sdfgi.h. */
+#ifndef SDFGI_VIEW_H
+#define SDFGI_VIEW_H
+
+#ifndef SDFGI_H
+#error "include sdfgi/sdfgi.h"
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sdfgi_view sdfgi_view;
+
+struct sdfgi_view_desc {
+    uint32_t width, height;               /* pixels: 1 to the device's maxImageDimension2D */
+    enum sdfgi_gather_resolution diffuse; /* at which diffuse light is looked up; 0: SDFGI_GATHER_FULL */
+};
+
+/* Creates a view: its picture of diffuse light takes 8 bytes a pixel. A picture of reflections, as large, is
+ * added by the first sdfgi_view_resolve that asks for it while a material is smooth. */
+SDFGI_API enum sdfgi_result sdfgi_view_create(sdfgi *gi, const struct sdfgi_view_desc *desc,
+                                              sdfgi_view **out);
+
+/* Destroys a view once no frame in flight can use it. NULL is accepted. sdfgi_destroy destroys all views. */
+SDFGI_API void sdfgi_view_destroy(sdfgi *gi, sdfgi_view *view);
+
+/* What the host has drawn of the picture. Depth and normal as in struct sdfgi_gather_desc. */
+struct sdfgi_resolve_desc {
+    VkImageView depth, normal;
+    VkImageView roughness; /* any sampled float, red: roughness in [0, 1]; VK_NULL_HANDLE: no reflections. A
+                              view of the normals that maps alpha to red will do */
+    VkImageLayout input_layout;        /* of these; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
+    float inverse_view_projection[16]; /* as in struct sdfgi_gather_desc */
+    float background_depth;            /* pixels with exactly this depth get 0 */
+    float scale;                       /* factor on light, >= 0 and finite; 0 means 1 */
+};
+
+/* Records the resolve of a picture into `cmd`, after sdfgi_update in the same queue. Synchronisation is that
+ * of sdfgi_gather, and so is what it does while GI is not active. Reflections are made only while a material
+ * with a `smoothness` above 0 is registered: rays run only in tiles of 8 x 8 pixels that show something
+ * smooth. */
+SDFGI_API enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd,
+                                               const struct sdfgi_resolve_desc *desc);
+
+/* Pictures of a view, R16G16B16A16_SFLOAT in VK_IMAGE_LAYOUT_GENERAL, as the last resolve has left them. They
+ * live as long as the view. */
+struct sdfgi_view_images {
+    VkImageView diffuse;    /* rgb: irradiance E, W/m^2, not times albedo */
+    VkImageView reflection; /* rgb: radiance, W/(m^2 sr), the mean over the specular lobe: times the
+                               directional albedo of the specular BRDF it is reflected light. a: metres to
+                               what is reflected, 65504 for the sky, 0 where a surface is too rough for a ray.
+                               VK_NULL_HANDLE: the last resolve made none; all surfaces reflect E / pi */
+};
+
+SDFGI_API void sdfgi_view_get_images(const sdfgi_view *view, struct sdfgi_view_images *images);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT
+ * Sends a ray from each pixel of the listed tiles, and reads the light that leaves what it hits. The rays of
+ * neighbouring pixels are spread over the lobe of a rough surface; reflect_filter takes their mean. Which
+ * part of the lobe a pixel samples depends on its place in the picture alone, so that nothing flickers while
+ * the camera rests. A workgroup per tile, a thread per pixel. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../include/sdfgi_reflection.glsl"
+#include "../lib/random.glsl"
+#include "picture_reflect.glsl"
+
+layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
+
+/* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
+ * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
+ */
+vec3 lobe_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
+{
+    const vec3 side =
+        normalize(abs(normal.y) < 0.9 ? vec3(-normal.z, 0.0, normal.x) : vec3(0.0, normal.z, -normal.y));
+    const mat3 frame = mat3(side, cross(normal, side), normal);
+    const vec3 view = normalize(to_eye) * frame;
+    const vec3 stretched = normalize(vec3(view.xy * alpha, max(view.z, 1e-3)));
+    const float turn = 6.2831853 * point.x, z = (1.0 - point.y) * (1.0 + stretched.z) - stretched.z;
+    const vec3 cap = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(turn), sin(turn)), z) + stretched;
+    const vec3 facet = normalize(vec3(cap.xy * alpha, max(cap.z, 1e-6)));
+    const vec3 dir = reflect(-view, facet);
+    /* A facet may send light into the surface: its neighbours send it out again. */
+    return normalize(frame * vec3(dir.xy, max(abs(dir.z), 1e-3)));
+}
+
+/* Every square of SDFGI_RAYS_SIDE pixels a side, wherever it begins, holds each point of the pattern once. */
+vec2 pattern_point(ivec2 pixel)
+{
+    const uint side = uint(SDFGI_RAYS_SIDE), i = (uint(pixel.x) % side) + side * (uint(pixel.y) % side);
+    return sdfgi_random_r2(i, 0u);
+}
+
+void reflect_pixel(ivec2 pixel)
+{
+    picture_surface s;
+    float roughness;
+    if (!picture_reflects(pixel, s, roughness))
+        return;
+    const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
+    const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
+    const vec3 dir = lobe_direction(s.normal, s.to_eye, roughness * roughness, pattern_point(pixel));
+    const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), s.normal, dir);
+    const vec3 light = scale * sdfgi_reflection_light(ray, dir, rough);
+    imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));
+}
+
+void main()
+{
+    for (uint i = gl_WorkGroupID.x; i < sdfgi_tiles[TILES_COUNT]; i += gl_NumWorkGroups.x)
+        reflect_pixel(picture_listed(i));
+}
