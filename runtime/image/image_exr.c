@@ -78,18 +78,22 @@ static int channel_slot(const char *name)
     return strcmp(name, "Y") == 0 ? 0 : -1;
 }
 
+/* Channels that are not read count as well. The library chooses its routine for three or four channels among
+ * those that have samples on a line, and then takes all channels for whole ones. */
 static bool check_channels(const exr_attr_chlist_t *list, uint32_t *channels, char *error, size_t error_size)
 {
     uint32_t found = 0;
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *entry = &list->entries[i];
-        const int slot = channel_slot(entry->name.str);
+        const char *const name = entry->name.str;
+        const int slot = channel_slot(name);
+        if (entry->x_sampling != 1 || entry->y_sampling != 1)
+            return base_text_error(error, error_size, "channel %s is subsampled", name);
         if (slot < 0)
             continue;
-        if (entry->x_sampling != 1 || entry->y_sampling != 1 || entry->pixel_type == EXR_PIXEL_UINT)
-            return base_text_error(error, error_size,
-                                   "channel %s is an integer or subsampled, expected half or float",
-                                   entry->name.str);
+        if (entry->pixel_type == EXR_PIXEL_UINT)
+            return base_text_error(error, error_size, "channel %s is an integer, expected half or float",
+                                   name);
         found |= 1u << slot;
     }
     const bool grey = (found & 7) == 1, colour = (found & 7) == 7;

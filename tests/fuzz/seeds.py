@@ -117,7 +117,8 @@ def exr(width, height, channels, compression, chunks, lines):
         return name + b"\0" + kind + b"\0" + struct.pack("<i", len(value)) + value
 
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    listed = b"".join(n + b"\0" + struct.pack("<iBxxxii", kind, 0, 1, 1) for n, kind in channels) + b"\0"
+    listed = b"".join(n + b"\0" + struct.pack("<iBxxxii", kind, 0, *(each or (1, 1)))
+                      for n, kind, *each in channels) + b"\0"
     head = b"".join([
         b"\x76\x2f\x31\x01\2\0\0\0", attribute(b"channels", b"chlist", listed),
         attribute(b"compression", b"compression", bytes([compression])),
@@ -165,6 +166,8 @@ def exr_seeds():
     for extra in (b"!", b"Z"):
         add("exr", f"valid_with_{'first' if extra < b'A' else 'last'}_of_four_halves_unread_wrote_to_null",
             exr(2, 2, sorted([*whole[1:], (extra, 1)]), 0, [struct.pack("<8e", *range(8))] * 2, 1))
+    add("exr", "broken_unread_channel_of_every_other_line_made_others_run_over",
+        exr(999, 2, [(b"B", 1), (b"G", 1), (b"R", 1), (b"Z", 1, 1, 2)], 0, [bytes(999 * 8), bytes(999 * 6)], 1))
     for name, compression, lines in (("wavelets", 4, 32), ("pxr24", 5, 16), ("b44", 6, 32), ("b44a", 7, 32),
                                      ("dwa_lines", 8, 32), ("dwa_blocks", 9, 256)):
         add("exr", f"{name}_of_zeros", exr(32, 2, half, compression, [bytes(60)], lines))
