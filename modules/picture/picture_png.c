@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The most that a byte of deflate data can stand for: 258 bytes in two bits. */
-enum { INFLATE_RATIO_MAX = 1032 };
+/* The most that a byte of deflate data can stand for: 258 bytes in two bits. A byte of those is eight texels
+ * of one bit, which come to 128 bytes as floats: beyond 4096 x 4096, the most common size of a large picture
+ * in one colour, it has to be a byte a texel. */
+enum { INFLATE_RATIO_MAX = 1032, FREE_TEXELS = 1 << 24 };
 
 struct decoder {
     png_structp png;
@@ -73,14 +75,22 @@ static void choose_form(struct decoder *decoder)
     decoder->out->channels = alpha ? 4 : (color & PNG_COLOR_MASK_COLOR) != 0 ? 3 : 1;
 }
 
+static bool is_backed(png_structp png, png_infop info, uint64_t file_size)
+{
+    const uint64_t row_bytes = png_get_rowbytes(png, info), width = png_get_image_width(png, info),
+                   height = png_get_image_height(png, info);
+    const uint64_t bytes = height * (row_bytes + 1), texels = height * width;
+    return bytes <= INFLATE_RATIO_MAX * file_size &&
+           (texels <= FREE_TEXELS || texels <= INFLATE_RATIO_MAX * file_size);
+}
+
 static void on_header(png_structp png, png_infop info)
 {
     struct decoder *decoder = png_get_progressive_ptr(png);
     struct picture_png *out = decoder->out;
     out->width = png_get_image_width(png, info);
     out->height = png_get_image_height(png, info);
-    const uint64_t needed = (uint64_t)out->height * (png_get_rowbytes(png, info) + 1);
-    if (needed > (uint64_t)INFLATE_RATIO_MAX * decoder->file_size)
+    if (!is_backed(png, info, decoder->file_size))
         png_error(png, "the file is too short for so many pixels");
     choose_form(decoder);
     decoder->passes = png_set_interlace_handling(png);

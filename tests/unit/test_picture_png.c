@@ -77,23 +77,43 @@ static void write_palette(png_structp writer, png_infop info, int depth)
     png_set_tRNS(writer, info, alphas, 1 << depth, NULL);
 }
 
-static void encode(const struct form *form)
+static png_structp begin(const struct form *form, png_infop *info)
 {
-    png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
-    png_infop info = png_create_info_struct(writer);
-    uint8_t rows[SIDE_MAX][SIDE_MAX * 8];
+    const png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    *info = png_create_info_struct(writer);
     file.size = 0;
     png_set_write_fn(writer, NULL, append, NULL);
-    png_set_IHDR(writer, info, form->width, form->height, form->depth, form->color, form->interlace,
+    png_set_IHDR(writer, *info, form->width, form->height, form->depth, form->color, form->interlace,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (form->color == PNG_COLOR_TYPE_PALETTE)
-        write_palette(writer, info, form->depth);
-    png_write_info(writer, info);
+        write_palette(writer, *info, form->depth);
+    png_write_info(writer, *info);
+    return writer;
+}
+
+static void encode(const struct form *form)
+{
+    uint8_t rows[SIDE_MAX][SIDE_MAX * 8];
+    png_infop info;
+    png_structp writer = begin(form, &info);
     for (uint32_t y = 0; y < form->height; y++)
         fill_row(form, y, rows[y]);
     for (int pass = png_set_interlace_handling(writer); pass > 0; pass--)
         for (uint32_t y = 0; y < form->height; y++)
             png_write_row(writer, rows[y]);
+    png_write_end(writer, info);
+    png_destroy_write_struct(&writer, &info);
+}
+
+/* Black, of one bit a texel: deflate makes 8000 texels of each byte. */
+static void encode_black(uint32_t width, uint32_t height)
+{
+    static const uint8_t row[1 << 10];
+    png_infop info;
+    png_structp writer = begin(&(struct form){ width, height, PNG_COLOR_TYPE_GRAY, 1, 0 }, &info);
+    assert_true(width <= 8 * sizeof row);
+    for (uint32_t y = 0; y < height; y++)
+        png_write_row(writer, row);
     png_write_end(writer, info);
     png_destroy_write_struct(&writer, &info);
 }
@@ -213,6 +233,19 @@ static void a_small_file_cannot_claim_a_large_picture(void **state)
     assert_non_null(strstr(error, "too short"));
 }
 
+/* As floats, twice as many texels would take half a gigabyte. */
+static void a_few_kilobytes_hold_a_black_picture_of_4096_x_4096_and_no_larger(void **state)
+{
+    (void)state;
+    encode_black(4096, 4096);
+    assert_true(file.size < 4096);
+    assert_true(picture_png_read(&png, file.bytes, file.size, false, error, sizeof error));
+    free(png.texels);
+    encode_black(8192, 4096);
+    refuse(file.size);
+    assert_non_null(strstr(error, "too short"));
+}
+
 /* The header says two rows, the image data are those of one. */
 static void image_data_that_end_before_the_last_row_are_refused(void **state)
 {
@@ -233,6 +266,7 @@ int main(void)
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(changed_bytes_are_refused),
         cmocka_unit_test(a_small_file_cannot_claim_a_large_picture),
+        cmocka_unit_test(a_few_kilobytes_hold_a_black_picture_of_4096_x_4096_and_no_larger),
         cmocka_unit_test(image_data_that_end_before_the_last_row_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
