@@ -109,17 +109,29 @@ bool path_stays_inside(const std::string &path)
     return true;
 }
 
-// Nor may links in its folder lead there. A file that is missing leads nowhere; reading it says so.
-bool links_stay_inside(const std::string &folder, const std::string &path)
+// Without links; empty where there is no such file.
+std::string real_path(const std::string &path)
 {
-    using text = std::unique_ptr<char, void (*)(void *)>;
-    const text top(realpath(folder.empty() ? "." : folder.c_str(), nullptr), free);
-    const text file(realpath((folder + path).c_str(), nullptr), free);
-    if (!top || !file || strcmp(top.get(), "/") == 0)
+    const std::unique_ptr<char, void (*)(void *)> real(realpath(path.c_str(), nullptr), free);
+    return real ? real.get() : "";
+}
+
+// Nor may links in its folder lead there. A file that is missing leads nowhere; reading it says so.
+bool links_stay_inside(const std::string &folder, const std::string &file)
+{
+    const std::string top = real_path(folder.empty() ? "." : folder);
+    if (top.empty() || file.empty() || top == "/")
         return true;
-    const size_t length = strlen(top.get());
-    const char next = strncmp(file.get(), top.get(), length) == 0 ? file.get()[length] : 'x';
-    return next == '/' || next == '\0';
+    return file.compare(0, top.size(), top) == 0 && (file.size() == top.size() || file[top.size()] == '/');
+}
+
+bytes named_file_read(importer &in, const std::string &path, const std::string &real, uint64_t limit)
+{
+    bytes out = file_read(path, limit);
+    if (in.files_read.insert(real).second)
+        in.input_bytes += out.size();
+    bound_take(in, in.read_bytes, out.size(), read_bound, "named again and again");
+    return out;
 }
 
 } // namespace
@@ -159,7 +171,7 @@ container container_read(const std::string &path)
     return box;
 }
 
-bytes resource_read(const importer &in, const std::string &uri, const std::string &what, uint64_t limit)
+bytes resource_read(importer &in, const std::string &uri, const std::string &what, uint64_t limit)
 {
     if (uri.compare(0, 5, "data:") == 0) {
         const size_t comma = uri.find(',');
@@ -176,10 +188,11 @@ bytes resource_read(const importer &in, const std::string &uri, const std::strin
     const std::string name = percent_decode(uri);
     if (!path_stays_inside(name))
         fail("%s: '%.200s' is not a path below the folder of the file", what.c_str(), name.c_str());
-    if (!links_stay_inside(in.folder, name))
+    const std::string real = real_path(in.folder + name);
+    if (!links_stay_inside(in.folder, real))
         fail("%s: '%.200s' leads outside of the folder of the file", what.c_str(), name.c_str());
     try {
-        return file_read(in.folder + name, limit);
+        return named_file_read(in, in.folder + name, real, limit);
     } catch (const bad_file &error) {
         fail("%s: '%.200s': %s", what.c_str(), name.c_str(), error.what());
     }

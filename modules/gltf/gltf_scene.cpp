@@ -3,6 +3,7 @@
 // The C boundary: runs the import, turns whatever was thrown into one line, and frees scenes.
 #include "import.h"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -44,6 +45,18 @@ char *name_copy(const std::string &name)
 std::string label(const char *array, size_t index)
 {
     return std::string(array) + '[' + std::to_string(index) + ']';
+}
+
+// Adds `more` to `sum`, or refuses the file.
+void bound_take(const importer &in, uint64_t &sum, uint64_t more, const bound &limits,
+                const std::string &what)
+{
+    const uint64_t limit = std::min(limits.most, std::max(limits.least, limits.per_byte * in.input_bytes));
+    if (more > limit || sum > limit - more)
+        fail("%s: more than %llu %s, the limit for files of %llu bytes", what.c_str(),
+             static_cast<unsigned long long>(limit), limits.noun,
+             static_cast<unsigned long long>(in.input_bytes));
+    sum += more;
 }
 
 namespace
@@ -99,7 +112,9 @@ gltf_scene *scene_import(const std::string &path)
     importer in;
     in.scene = scene.get();
     in.folder = path.substr(0, path.find_last_of('/') + 1);
-    document_parse(in, container_read(path));
+    const container box = container_read(path);
+    in.input_bytes = box.file.size();
+    document_parse(in, box);
     materials_import(in);
     meshes_import(in);
     nodes_import(in);

@@ -59,8 +59,7 @@ dimensions dimensions_read(const byte_range &file, const std::string &what)
     return size;
 }
 
-void dimensions_check(const dimensions &size, const byte_range &file, uint64_t &texels,
-                      const std::string &what)
+void dimensions_check(importer &in, const dimensions &size, const byte_range &file, const std::string &what)
 {
     if (size.width < 1 || size.height < 1 || size.width > max_image_size || size.height > max_image_size)
         fail("%s: %u x %u texels, the limits are 1 and %u", what.c_str(), size.width, size.height,
@@ -68,10 +67,7 @@ void dimensions_check(const dimensions &size, const byte_range &file, uint64_t &
     const uint64_t count = static_cast<uint64_t>(size.width) * size.height;
     if (!size.is_png && count > max_jpeg_texels_per_byte * file.size)
         fail("%s: the JPEG is too short for %u x %u texels", what.c_str(), size.width, size.height);
-    texels += count;
-    if (texels > max_texels)
-        fail("%s: more than %llu texels in all images", what.c_str(),
-             static_cast<unsigned long long>(max_texels));
+    bound_take(in, in.texels, count, texel_bound, what);
 }
 
 void png_decode(gltf_image &image, const byte_range &file, const std::string &what)
@@ -97,17 +93,17 @@ void jpeg_decode(gltf_image &image, const byte_range &file, const std::string &w
     image.height = static_cast<uint32_t>(height);
 }
 
-void image_decode(gltf_image &image, const byte_range &file, uint64_t &texels, const std::string &what)
+void image_decode(importer &in, gltf_image &image, const byte_range &file, const std::string &what)
 {
     const dimensions size = dimensions_read(file, what);
-    dimensions_check(size, file, texels, what);
+    dimensions_check(in, size, file, what);
     if (size.is_png)
         png_decode(image, file, what);
     else
         jpeg_decode(image, file, what);
 }
 
-void image_import(const importer &in, size_t index, gltf_image &image, uint64_t &texels)
+void image_import(importer &in, size_t index, gltf_image &image)
 {
     const image_source &source = in.images[index];
     const std::string what = label("images", index);
@@ -119,7 +115,7 @@ void image_import(const importer &in, size_t index, gltf_image &image, uint64_t 
         file = resource_read(in, source.uri, what, max_file_size);
         range = { file.data(), file.size() };
     }
-    image_decode(image, range, texels, what);
+    image_decode(in, image, range, what);
 }
 
 } // namespace
@@ -149,9 +145,8 @@ std::vector<int32_t> images_import(importer &in)
     }
     in.scene->images = array_allocate<gltf_image>(used.size());
     in.scene->image_count = static_cast<uint32_t>(used.size());
-    uint64_t texels = 0;
     for (size_t i = 0; i < used.size(); i++)
-        image_import(in, used[i], in.scene->images[i], texels);
+        image_import(in, used[i], in.scene->images[i]);
     return slots;
 }
 

@@ -27,20 +27,27 @@ struct bad_file : std::runtime_error {
 
 [[noreturn]] void fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Bounds on what one file may unpack to, so that a small file cannot claim all memory by naming one accessor
-// or image many times. 2^26 vertices are 4 GiB here; 2^31 texels are 8 GiB.
-constexpr uint64_t max_vertices = UINT64_C(1) << 26;
-constexpr uint64_t max_indices = UINT64_C(1) << 28;
-constexpr uint64_t max_instances = UINT64_C(1) << 22;
-constexpr uint64_t max_texels = UINT64_C(1) << 31;
+// A bound on what an import unpacks: `per_byte` for each byte of its files, but no less than `least` and no
+// more than `most`. Many primitives may name one accessor, nodes one mesh, images one view, and buffers one
+// file: without bounds, work would grow with the square of the size of a file.
+struct bound {
+    const char *noun;
+    uint64_t per_byte, least, most;
+};
+
+// 1000 primitives that share vertices of 32 bytes have 31 vertices a byte. 2^26 vertices are 4 GiB here.
+constexpr bound vertex_bound = { "vertices", 32, 0, UINT64_C(1) << 26 };
+constexpr bound index_bound = { "indices", 32, 0, UINT64_C(1) << 28 };
+constexpr bound instance_bound = { "instances", 16, 0, UINT64_C(1) << 22 };
+// A byte of deflated data stands for 1032 at most. Four images of 4096 x 4096 in one colour need far less.
+constexpr bound texel_bound = { "texels", 1032, UINT64_C(1) << 26, UINT64_C(1) << 31 };
+constexpr bound read_bound = { "bytes to read", 16, 0, UINT64_MAX };
 constexpr uint32_t max_image_size = 16384;
 // Of one file, since tinygltf measures in 32 bits, and of all buffers: naming one file many times costs
 // nothing.
 constexpr uint64_t max_file_size = UINT32_MAX;
 // Bytes of a name that are kept. A mesh may have very many primitives, and each carries its node's name.
 constexpr size_t max_name_size = 255;
-// Elements of an accessor that has no data of its own (all zeros): nothing in the file backs their number.
-constexpr uint64_t max_zero_elements = UINT64_C(1) << 22;
 
 using bytes = std::vector<unsigned char>;
 
@@ -76,15 +83,18 @@ struct importer {
     omissions omitted;
     std::vector<std::vector<uint32_t>> mesh_primitives; // per mesh of the file: primitives of the scene
     size_t materials_in_file = 0;
-    uint64_t vertices = 0, indices = 0; // unpacked so far
-    uint64_t buffer_bytes = 0;          // loaded so far
+    std::set<std::string> files_read; // real paths of what the file names
+    uint64_t input_bytes = 0;         // of the file, and of those that it names, each counted once
+    uint64_t read_bytes = 0;          // of those that it names, as often as they are read
+    uint64_t buffer_bytes = 0;        // loaded so far
+    uint64_t vertices = 0, indices = 0, texels = 0; // unpacked so far
     gltf_scene *scene = nullptr;
 };
 
 // file.cpp
 bytes file_read(const std::string &path, uint64_t limit);
 container container_read(const std::string &path);
-bytes resource_read(const importer &in, const std::string &uri, const std::string &what, uint64_t limit);
+bytes resource_read(importer &in, const std::string &uri, const std::string &what, uint64_t limit);
 
 // document.cpp
 void document_parse(importer &in, const container &box);
@@ -141,6 +151,8 @@ void camera_import(importer &in, std::vector<gltf_camera> &cameras, int index, c
 char *text_copy(const std::string &text);
 char *name_copy(const std::string &name);
 std::string label(const char *array, size_t index);
+void bound_take(const importer &in, uint64_t &sum, uint64_t more, const bound &limits,
+                const std::string &what);
 
 // Zeroed, to be freed by gltf_scene_destroy.
 template <typename T> T *array_allocate(size_t count)

@@ -147,8 +147,8 @@ void instances_add(importer &in, collection &out, const tinygltf::Node &node, co
         fail("%s: mesh %d is out of range, there are %zu", what.c_str(), node.mesh,
              in.mesh_primitives.size());
     const std::vector<uint32_t> &primitives = in.mesh_primitives[static_cast<size_t>(node.mesh)];
-    if (out.instances.size() + primitives.size() > max_instances)
-        fail("more than %llu instances", static_cast<unsigned long long>(max_instances));
+    uint64_t count = out.instances.size();
+    bound_take(in, count, primitives.size(), instance_bound, what);
     for (const uint32_t primitive : primitives) {
         gltf_instance instance = {};
         instance.primitive = primitive;

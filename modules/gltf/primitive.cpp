@@ -90,17 +90,10 @@ void attributes_read(const importer &in, const tinygltf::Primitive &from, geomet
 }
 
 // The vertices in drawing order: the indices, or all of them in turn.
-std::vector<uint32_t> order_read(importer &in, const tinygltf::Primitive &from, uint32_t vertex_count,
+std::vector<uint32_t> order_read(const importer &in, const tinygltf::Primitive &from, uint32_t vertex_count,
                                  const std::string &what)
 {
     const std::string user = what + ".indices";
-    const uint64_t count = from.indices < 0 ? vertex_count : accessor_get(in.model, from.indices, user).count;
-    // A strip or fan has as many triangles as corners, but for two.
-    const uint64_t unpacked = from.mode == TINYGLTF_MODE_TRIANGLES ? count : 3 * count;
-    if (count > max_indices || in.indices + unpacked > max_indices)
-        fail("%s: more than %llu indices in the file", what.c_str(),
-             static_cast<unsigned long long>(max_indices));
-    in.indices += unpacked;
     std::vector<uint32_t> order;
     if (from.indices >= 0) {
         order = accessor_read_indices(in.model, from.indices, user);
@@ -113,14 +106,6 @@ std::vector<uint32_t> order_read(importer &in, const tinygltf::Primitive &from, 
     if (worst != order.end() && *worst >= vertex_count)
         fail("%s: index %u is out of range, there are %u vertices", user.c_str(), *worst, vertex_count);
     return order;
-}
-
-void vertices_count(importer &in, uint64_t count, const std::string &what)
-{
-    if (count > max_vertices || in.vertices + count > max_vertices)
-        fail("%s: more than %llu vertices in the file", what.c_str(),
-             static_cast<unsigned long long>(max_vertices));
-    in.vertices += count;
 }
 
 int32_t material_of(const importer &in, const tinygltf::Primitive &from, const std::string &what)
@@ -140,10 +125,9 @@ bool second_uv_is_used(const gltf_material &m)
                        [](const gltf_texture_ref *ref) { return ref->texture >= 0 && ref->uv_set == 1; });
 }
 
-void geometry_complete(importer &in, geometry &g, const gltf_material &material, const std::string &what)
+void geometry_complete(geometry &g, const gltf_material &material)
 {
     if (g.normals.empty()) {
-        vertices_count(in, g.indices.size(), what);
         vertices_unshare(g);
         normals_make_flat(g);
     } else {
@@ -182,6 +166,26 @@ void primitive_store(const geometry &g, gltf_primitive &to)
     bounds_compute(g, to);
 }
 
+uint64_t vertices_of(const importer &in, const tinygltf::Primitive &from, const std::string &what)
+{
+    const int position = attribute_find(from, "POSITION");
+    return position < 0 ? 0 : accessor_get(in.model, position, what + ".POSITION").count;
+}
+
+void primitive_count(importer &in, const tinygltf::Primitive &from, const std::string &what)
+{
+    const uint64_t vertices = vertices_of(in, from, what);
+    const uint64_t corners =
+        from.indices < 0 ? vertices : accessor_get(in.model, from.indices, what + ".indices").count;
+    // A strip or fan has as many triangles as corners, but for two.
+    const uint64_t unpacked = from.mode == TINYGLTF_MODE_TRIANGLES ? corners : 3 * corners;
+    bound_take(in, in.vertices, vertices, vertex_bound, what);
+    bound_take(in, in.indices, unpacked, index_bound, what);
+    // Flat triangles share no vertices.
+    if (attribute_find(from, "NORMAL") < 0)
+        bound_take(in, in.vertices, unpacked, vertex_bound, what);
+}
+
 // Points, lines and primitives without anything to draw are counted and left out.
 bool primitive_is_drawn(importer &in, const tinygltf::Primitive &from, const std::string &what)
 {
@@ -201,13 +205,9 @@ bool primitive_import(importer &in, const tinygltf::Primitive &from, gltf_primit
         return false;
     in.omitted.morph_targets |= !from.targets.empty();
     to.material = material_of(in, from, what);
-    const int position = attribute_find(from, "POSITION");
-    const uint64_t vertex_count =
-        position < 0 ? 0 : accessor_get(in.model, position, what + ".POSITION").count;
-    vertices_count(in, vertex_count, what);
     geometry g;
-    g.vertex_count = static_cast<uint32_t>(vertex_count);
-    if (vertex_count != 0) {
+    g.vertex_count = static_cast<uint32_t>(vertices_of(in, from, what));
+    if (g.vertex_count != 0) {
         attributes_read(in, from, g, what);
         g.indices = triangles_from(from.mode, order_read(in, from, g.vertex_count, what));
     }
@@ -215,17 +215,28 @@ bool primitive_import(importer &in, const tinygltf::Primitive &from, gltf_primit
         in.omitted.empty_primitives++;
         return false;
     }
-    geometry_complete(in, g, in.scene->materials[to.material], what);
+    geometry_complete(g, in.scene->materials[to.material]);
     in.scene->primitive_count++; // before its arrays are made: the scene frees what there is of them
     primitive_store(g, to);
     return true;
 }
 
-size_t primitives_total(const tinygltf::Model &model)
+std::string primitive_label(size_t mesh, size_t primitive)
+{
+    return label("meshes", mesh) + "." + label("primitives", primitive);
+}
+
+// All of them, before the first is unpacked.
+size_t primitives_count(importer &in)
 {
     size_t total = 0;
-    for (const tinygltf::Mesh &mesh : model.meshes)
-        total += mesh.primitives.size();
+    for (size_t m = 0; m < in.model.meshes.size(); m++) {
+        const std::vector<tinygltf::Primitive> &primitives = in.model.meshes[m].primitives;
+        for (size_t p = 0; p < primitives.size(); p++)
+            if (primitives[p].mode >= TINYGLTF_MODE_TRIANGLES)
+                primitive_count(in, primitives[p], primitive_label(m, p));
+        total += primitives.size();
+    }
     return total;
 }
 
@@ -233,13 +244,13 @@ size_t primitives_total(const tinygltf::Model &model)
 
 void meshes_import(importer &in)
 {
-    in.scene->primitives = array_allocate<gltf_primitive>(primitives_total(in.model));
+    in.scene->primitives = array_allocate<gltf_primitive>(primitives_count(in));
     for (size_t m = 0; m < in.model.meshes.size(); m++) {
         const tinygltf::Mesh &mesh = in.model.meshes[m];
         in.mesh_primitives.emplace_back();
         for (size_t p = 0; p < mesh.primitives.size(); p++) {
             const uint32_t next = in.scene->primitive_count;
-            const std::string what = label("meshes", m) + "." + label("primitives", p);
+            const std::string what = primitive_label(m, p);
             if (primitive_import(in, mesh.primitives[p], in.scene->primitives[next], what))
                 in.mesh_primitives.back().push_back(next);
         }

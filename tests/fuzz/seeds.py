@@ -284,6 +284,10 @@ def gltf_seeds():
         add("gltf", name, s.glb(meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}], nodes=[node],
                                 scenes=[{"nodes": [0]}]))
     s = Scene()
+    s.accessor(b"", 5126, "VEC3", 1000000)
+    add("gltf", "broken_a_million_vertices_without_data_took_seconds",
+        s.glb(meshes=[{"primitives": [{"attributes": {"POSITION": 0}}] * 6}]))
+    s = Scene()
     s.accessor(b"", 5126, "VEC3", 999999999999999)
     add("gltf", "broken_count_beyond_memory",
         s.glb(meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}]))
