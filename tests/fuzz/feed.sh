@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Runs one fuzz program for some seconds, again after each finding, and prints one line: target, executions,
-# coverage (edges of the program's graph) and findings. Exits with 1 if there are any.
+# coverage (edges of the program's graph) and findings, by kind. Exits with 1 if there are any.
 #   feed.sh PROGRAM SEEDS CORPUS FINDINGS SECONDS
-# Findings are files in the folder FINDINGS, each with the log beside it. Where a program needs a loader of
-# its own, FUZZ_LOADER holds that command.
+# Findings are files in the folder FINDINGS, TARGET-RUN-NUMBER-KIND-HASH, each with its log beside it. Kinds are
+# libFuzzer's crash, timeout, oom (out of memory) and leak, or exitSTATUS without a file. Where a program needs
+# a loader of its own, FUZZ_LOADER holds that command.
 set -euo pipefail
 [ $# -eq 5 ] || { sed -n '3,7s/^# \{0,1\}//p' "$0"; exit 2; }
 program=$1 seeds=$2 corpus=$3 findings=$4 seconds=$5
@@ -26,21 +27,36 @@ statistic() {
     sed -n "s/^stat::$1: *//p" "$scratch/log" | tail -n 1
 }
 
-executions=0 coverage=0 count=0
+# Of the finding of the run that has just ended with that status.
+kind() {
+    local file
+    for file in "$findings/$name"-*-*; do
+        [ -e "$file" ] || break
+        file=${file#"$findings/$name-"}
+        echo "${file%-*}"
+        return
+    done
+    echo "exit$1"
+}
+
+executions=0 coverage=0 kinds=()
 end=$((SECONDS + seconds))
-while [ $((end - SECONDS)) -gt 0 ] && [ "$count" -lt "$most_findings" ]; do
-    name=$target-$$-$count
+while [ $((end - SECONDS)) -gt 0 ] && [ "${#kinds[@]}" -lt "$most_findings" ]; do
+    name=$target-$$-${#kinds[@]}
     if TMPDIR=$scratch "${loader[@]}" "$program" "${options[@]}" -max_total_time=$((end - SECONDS)) \
         -artifact_prefix="$findings/$name-" "$corpus" "$seeds" >"$scratch/log" 2>&1; then
         status=0
     else
         status=$?
     fi
-    executions=$((executions + $(statistic number_of_executed_units || true)))
+    executed=$(statistic number_of_executed_units)
+    executions=$((executions + ${executed:-0}))
     coverage=$(sed -n 's/^#.* cov: \([0-9]*\) .*/\1/p' "$scratch/log" | tail -n 1)
     [ "$status" -ne 0 ] || break
-    count=$((count + 1))
-    cp "$scratch/log" "$findings/$name.log"
+    kinds+=("$(kind "$status")")
+    sed '/^#[0-9]/d' "$scratch/log" >"$findings/$name-${kinds[-1]}.log" # without its progress
 done
-printf '%-10s %12d %10s %10d\n' "$target" "$executions" "${coverage:-0}" "$count"
-[ "$count" -eq 0 ]
+table=$(printf '%s\n' "${kinds[@]}" | sort | uniq -c | sed 's/^ *//' | paste -sd , | sed 's/,/, /g')
+[ "${#kinds[@]}" -gt 0 ] || table=none
+printf '%-10s %12d %10s   %s\n' "$target" "$executions" "${coverage:-0}" "$table"
+[ "${#kinds[@]}" -eq 0 ]

@@ -22,5 +22,5 @@ for target in "$programs"/seeds/*; do
     fi
 done
 tar -C "$packed" -czf "$out/programs.tar.gz" .
-cp tests/fuzz/feed.sh tests/fuzz/run16.sh "$out/"
+cp tests/fuzz/{feed,run16,summary}.sh "$out/"
 du -sh "$out" >&2

@@ -41,7 +41,9 @@ for target in "${targets[@]}"; do
 done
 
 say "$minutes min each of ${targets[*]}"
-printf '%-10s %12s %10s %10s\n' target executions coverage findings
+printf '%-10s %12s %10s   %s\n' target executions coverage findings
 printf '%s\0' "${targets[@]}" | nice -n 19 xargs -0 -P "$jobs" -I '{}' tests/fuzz/feed.sh \
     "$programs/fuzz_{}" "$programs/seeds/{}" "build-fuzz/corpus/{}" build-fuzz/findings \
-    "$(awk "BEGIN { print int($minutes * 60) }")" || die "findings: see build-fuzz/findings"
+    "$(awk "BEGIN { print int($minutes * 60) }")" && exit
+tests/fuzz/summary.sh build-fuzz/findings "$programs"
+die "findings: see build-fuzz/findings"
