@@ -12,8 +12,13 @@ static void take_texels(struct image *image, const struct picture_png *png)
 {
     const uint8_t *bytes = png->texels;
     const uint16_t *words = png->texels;
-    for (size_t i = 0; i < 4 * (size_t)image->width * image->height; i++)
-        image->rgba[i] = png->depth == 16 ? (float)words[i] / 65535 : (float)bytes[i] / 255;
+    const size_t count = 4 * (size_t)image->width * image->height;
+    if (png->depth == 16)
+        for (size_t i = 0; i < count; i++)
+            image->rgba[i] = (float)words[i] / 65535;
+    else
+        for (size_t i = 0; i < count; i++)
+            image->rgba[i] = (float)bytes[i] / 255;
     image->channels = png->channels;
     image->display_referred = true;
 }
