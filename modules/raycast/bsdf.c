@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "bsdf.h"
 
+#include "ggx.h"
+
 /* Shading normals can face away from the viewer; microfacets need them not to. The normal is tilted until the
  * viewer is this far (as a cosine) above its horizon. */
 #define MIN_VIEW_COSINE 0.01f
@@ -35,7 +37,15 @@ static float guess_diffuse_share(const struct bsdf *b, float min_share)
     return fmaxf(min_share, fminf(fmaxf(diffuse / (diffuse + specular), 0.1f), 0.9f));
 }
 
-struct bsdf bsdf_make(const struct surface *surface, struct vec3 towards_viewer, float min_diffuse_share)
+/* 1 + F0 * (1 / E - 1), where E is the share that perfect facets reflect. */
+static struct vec3 lobe_gain(const struct lobe *lobe, const struct surface *s, float cosine)
+{
+    const float lost_per_reflected = 1.0f / lobe_share(lobe, cosine, s->alpha) - 1.0f;
+    return vec3_mad(vec3_splat(1.0f), s->specular, lost_per_reflected);
+}
+
+struct bsdf bsdf_make(const struct surface *surface, const struct lobe *lobe, struct vec3 towards_viewer,
+                      float min_diffuse_share)
 {
     struct vec3 n = surface->normal;
     if (surface->glossy)
@@ -43,33 +53,21 @@ struct bsdf bsdf_make(const struct surface *surface, struct vec3 towards_viewer,
     struct bsdf b = { .surface = surface, .frame = frame_around(n) };
     b.out_local = frame_to_local(&b.frame, towards_viewer);
     b.diffuse = surface->diffuse;
-    if (surface->glossy)
+    if (surface->glossy) {
         b.diffuse = vec3_scale(b.diffuse, 1.0f - fresnel(vec3_splat(DIELECTRIC_F0), b.out_local.z).x);
+        b.gain = lobe_gain(lobe, surface, b.out_local.z);
+    }
     b.diffuse_share = guess_diffuse_share(&b, min_diffuse_share);
     return b;
-}
-
-/* Trowbridge-Reitz distribution of facet normals at local half vector h. */
-static float distribution(struct vec3 h, float alpha)
-{
-    const float x = h.x / alpha, y = h.y / alpha, e = x * x + y * y + h.z * h.z;
-    return 1.0f / (VEC3_PI * alpha * alpha * e * e);
-}
-
-/* Smith's Lambda: masked facets per visible one. */
-static float lambda(struct vec3 w, float alpha)
-{
-    const float z2 = w.z * w.z, tan2 = (w.x * w.x + w.y * w.y) / z2;
-    return 0.5f * (sqrtf(1.0f + alpha * alpha * tan2) - 1.0f);
 }
 
 /* Adds the glossy part and its share of the sampling density. */
 static void add_specular(const struct bsdf *b, struct vec3 in, struct bsdf_value *v)
 {
     const struct vec3 out = b->out_local, h = vec3_normalize(vec3_add(in, out));
-    const float alpha = b->surface->alpha, d = distribution(h, alpha);
-    const float lambda_out = lambda(out, alpha), lambda_in = lambda(in, alpha);
-    const struct vec3 f = fresnel(b->surface->specular, vec3_dot(out, h));
+    const float alpha = b->surface->alpha, d = ggx_distribution(h, alpha);
+    const float lambda_out = ggx_lambda(out, alpha), lambda_in = ggx_lambda(in, alpha);
+    const struct vec3 f = vec3_mul(b->gain, fresnel(b->surface->specular, vec3_dot(out, h)));
     v->specular = vec3_scale(f, d / (4.0f * out.z * (1.0f + lambda_out + lambda_in)));
     /* Density of visible normals, over the Jacobian of the reflection 4 (out . h), which cancels. */
     const float pdf = d / (4.0f * out.z * (1.0f + lambda_out));
@@ -96,22 +94,9 @@ static struct vec3 sample_cosine(float u, float v)
     return vec3_make(r * cosf(phi), r * sinf(phi), sqrtf(fmaxf(0.0f, 1.0f - u)));
 }
 
-/* A facet normal visible from `out`: stretch to a hemisphere of unit roughness, take a point on the spherical
- * cap that the reflections of `out` cover, and shrink back (Dupuy and Benyoub 2023, "Sampling Visible GGX
- * Normals with Spherical Caps"). */
-static struct vec3 sample_visible_normal(struct vec3 out, float alpha, float u, float v)
-{
-    const struct vec3 o = vec3_normalize(vec3_make(out.x * alpha, out.y * alpha, out.z));
-    const float phi = 2.0f * VEC3_PI * u, z = (1.0f - v) * (1.0f + o.z) - o.z;
-    const float r = sqrtf(fmaxf(0.0f, 1.0f - z * z));
-    const struct vec3 h = vec3_add(vec3_make(r * cosf(phi), r * sinf(phi), z), o);
-    return vec3_normalize(vec3_make(h.x * alpha, h.y * alpha, h.z));
-}
-
 static struct vec3 sample_specular(const struct bsdf *b, float u, float v)
 {
-    const struct vec3 out = b->out_local, h = sample_visible_normal(out, b->surface->alpha, u, v);
-    return vec3_sub(vec3_scale(h, 2.0f * vec3_dot(out, h)), out);
+    return ggx_mirrored(b->out_local, ggx_visible_normal(b->out_local, b->surface->alpha, u, v));
 }
 
 bool bsdf_sample(const struct bsdf *b, struct random *r, struct vec3 *incoming, struct bsdf_value *out)

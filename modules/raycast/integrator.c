@@ -162,7 +162,7 @@ static struct ray leg_ray(const struct leg *leg, struct random *r)
 static bool scatter(const struct integrator *it, const struct surface *s, struct random *r, struct leg *leg,
                     struct vec3 *throughput, struct vec3 *light, uint64_t *rays)
 {
-    const struct bsdf b = bsdf_make(s, vec3_negate(leg->direction), 0.0f);
+    const struct bsdf b = bsdf_make(s, &it->lobe, vec3_negate(leg->direction), 0.0f);
     float total = 0.0f;
     const struct blockers between = { it->geometry, s->start };
     const struct reflected lamps = lamp_light(it, &between, &b, r, &total, rays),
@@ -226,7 +226,7 @@ static struct vec3 direct_discs(const struct integrator *it, const struct blocke
 void integrator_first_light(const struct integrator *it, const struct surface *s, struct vec3 towards_viewer,
                             struct random *r, uint64_t *rays, struct first_light *out)
 {
-    const struct bsdf b = bsdf_make(s, towards_viewer, it->min_diffuse_share);
+    const struct bsdf b = bsdf_make(s, &it->lobe, towards_viewer, it->min_diffuse_share);
     struct leg leg = { .start = s->start };
     const struct blockers between = { it->seen, geometry_offset(s->position, s->geometric_normal) };
     const struct reflected lamps = lamp_light(it, &between, &b, r, &leg.lamps_total, rays);

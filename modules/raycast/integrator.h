@@ -7,12 +7,14 @@
 
 #include "geometry.h"
 #include "lights.h"
+#include "lobe.h"
 
 struct integrator {
     struct geometry *seen; /* by the camera, and by the sun, point and spot lights of what the camera sees */
     struct geometry
         *geometry; /* what all other rays meet: `seen` itself, or what it looks like to a renderer */
     struct lights lights;
+    struct lobe lobe; /* of glossy surfaces */
     uint32_t max_bounces;
     float sky_share;         /* of the samples for sky and emitters; set by integrator_start */
     float min_diffuse_share; /* at the first surface, see bsdf_make */

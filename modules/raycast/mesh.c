@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "ggx.h"
 #include "triangles_internal.h"
 
 struct corners mesh_corners(const struct mesh *m, uint32_t triangle)
@@ -109,8 +110,7 @@ static struct vec3 front_normal(const struct triangles *t, const struct mesh *m,
     return vec3_dot(bent, bent) > 0.5f ? bent : world;
 }
 
-/* Base colour, roughness and metallic into the two reflecting parts, as glTF's appendix B has them. Below
- * 0.0316 (alpha 0.001, a lobe of a twentieth of a degree) single precision loses the distribution's peak. */
+/* Base colour, roughness and metallic into the two reflecting parts, as glTF's appendix B has them. */
 static void reflectance(const struct triangles *t, const struct mesh *m, const struct material_point *p,
                         struct surface *out)
 {
@@ -124,7 +124,7 @@ static void reflectance(const struct triangles *t, const struct mesh *m, const s
     material_roughness_metallic(&t->materials, m->material, p, &roughness, &metallic);
     out->diffuse = vec3_scale(base, 1.0f - metallic);
     out->specular = vec3_lerp(vec3_splat(0.04f), base, metallic);
-    out->alpha = fmaxf(roughness * roughness, 0.001f);
+    out->alpha = fmaxf(roughness * roughness, GGX_MIN_ALPHA);
 }
 
 static void emission(const struct triangles *t, const struct mesh *m, const struct ray *ray, bool front,

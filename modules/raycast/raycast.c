@@ -43,6 +43,8 @@ static bool build(struct raycast *rc, const struct gltf_scene *scene, const stru
     rc->integrator.max_bounces = s->max_bounces;
     /* A mirror's irradiance needs rays that its reflection has no use for. */
     rc->integrator.min_diffuse_share = s->aovs & 1u << RAYCAST_AOV_IRRADIANCE ? 0.25f : 0.0f;
+    if (view->materials == RAYCAST_MATERIALS_GLTF)
+        lobe_init(&rc->integrator.lobe);
     if (!raycast_film_init(&rc->film, s->width, s->height, s->aovs)) {
         snprintf(error, error_size, "reference: out of memory for a picture of %ux%u", s->width, s->height);
         return false;

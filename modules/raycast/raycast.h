@@ -12,10 +12,11 @@
  * Light: sun, point and spot lights, sky and emissive triangles, sampled directly and weighted against
  * sampling of the surface. No value is clamped; samples that are not finite are left out and counted.
  *
- * Surfaces: Lambertian times 1 - F of the view's angle, under GGX. All faces block and bounce light from both
- * sides; emission leaves the front only unless the material is double-sided; alpha masks cut, blended alpha
- * lets its share of the rays pass; an unlit material shows its base colour to the camera and scatters as
- * Lambertian for every other ray. The ambient-occlusion texture is not used: occlusion is computed.
+ * Surfaces: Lambertian times 1 - F of the view's angle, under GGX with the light that goes from facet to
+ * facet (modules/raycast/bsdf.h). All faces block and bounce light from both sides; emission leaves the front
+ * only unless the material is double-sided; alpha masks cut, blended alpha lets its share of the rays pass;
+ * an unlit material shows its base colour to the camera and scatters as Lambertian for every other ray. The
+ * ambient-occlusion texture is not used: occlusion is computed.
  *
  * Lifetime: a tracer reads textures and vertices from the scene it was made from, so the scene must outlive
  * it.
