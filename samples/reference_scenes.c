@@ -64,9 +64,19 @@ static const struct scene_row {
     { "many_lights", many_lights_build, 64, 0, -1, "64 point lights" },
     { "glossy_spheres", glossy_spheres_build, 0, 0, -1,
       "reflections, roughness 0.02 to 1, metal and dielectric" },
+    { "white_metal_furnace", white_metal_furnace_build, 0, 0, 1,
+      "energy: white metals of roughness 0.05, 0.3, 0.6 and 1 under a uniform sky" },
+    { "metal_sphere", metal_sphere_build, 0.3f, 0, -1, "one metal ball; its roughness is free" },
+    { "mirror_room", mirror_room_build, 0, 0, -1,
+      "a wall of roughness 0.03 shows what is behind the camera" },
+    { "brushed_corridor", brushed_corridor_build, 0, 0, -1,
+      "metal walls of roughness 0.3 and 0.45, lamps at the far end" },
+    { "wet_street_night", wet_street_night_build, 0, 0, -1,
+      "puddles on dark asphalt mirror windows, lamps and signs" },
+    { "chrome_lamp", chrome_lamp_build, 0, 0, -1, "chrome of roughness 0.02 to 0.2 beside a lamp" },
 };
 
-enum { ROW_COUNT = sizeof(rows) / sizeof(rows[0]) };
+enum { ROW_COUNT = sizeof(rows) / sizeof(rows[0]), NAME_BYTES = 64 };
 
 void scene_flush(struct scene *scene, const char *name, const struct surface *surface)
 {
@@ -97,6 +107,19 @@ void scene_box(struct scene *scene, const char *name, vec3s low, vec3s high, con
 {
     mesh_box(&scene->mesh, low, high);
     scene_flush(scene, name, surface);
+}
+
+void scene_tiles(struct scene *scene, int across, int along, const struct surface *light,
+                 const struct surface *dark)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < across * along; i++) {
+            const int x = i % across - across / 2, z = i / across - along / 2;
+            if ((i % across + i / across) % 2 == pass)
+                mesh_box(&scene->mesh, v3((float)x, -0.5f, (float)z), v3((float)(x + 1), 0, (float)(z + 1)));
+        }
+        scene_flush(scene, pass ? "dark tiles" : "light tiles", pass ? dark : light);
+    }
 }
 
 void scene_look(struct scene *scene, vec3s position, vec3s look_at, float yfov_deg)
@@ -130,7 +153,14 @@ void scene_point_light(struct scene *scene, vec3s position, vec3s color, float i
                                               .intensity = intensity });
 }
 
-static bool scene_save(const struct scene_row *row, const char *folder, char *error, size_t error_size)
+/* A row to write, or one with another number and a name of its own. */
+struct choice {
+    const struct scene_row *row;
+    float a;
+    char name[NAME_BYTES];
+};
+
+static bool scene_save(const struct choice *choice, const char *folder, char *error, size_t error_size)
 {
     char path[1024];
     struct scene scene = { .writer = glb_writer_create("libsdfgi reference_scenes"),
@@ -140,26 +170,28 @@ static bool scene_save(const struct scene_row *row, const char *folder, char *er
         return false;
     }
     mesh_init(&scene.mesh);
-    row->build(&scene, row->a, row->b);
-    snprintf(path, sizeof(path), "%s/%s.glb", folder, row->name);
+    choice->row->build(&scene, choice->a, choice->row->b);
+    snprintf(path, sizeof(path), "%s/%s.glb", folder, choice->name);
     bool ok = glb_writer_save(scene.writer, path, error, error_size);
-    snprintf(path, sizeof(path), "%s/%s.view.json", folder, row->name);
+    snprintf(path, sizeof(path), "%s/%s.view.json", folder, choice->name);
     ok = ok && view_save(&scene.view, path, error, error_size);
     mesh_finish(&scene.mesh);
     glb_writer_destroy(scene.writer);
     return ok;
 }
 
-static bool list_save(const char *folder, char *error, size_t error_size)
+static bool list_save(const struct choice *choices, int count, const char *folder, char *error,
+                      size_t error_size)
 {
     char path[1024];
     cJSON *list = cJSON_CreateArray();
-    for (int i = 0; i < ROW_COUNT; i++) {
+    for (int i = 0; i < count; i++) {
+        const struct scene_row *row = choices[i].row;
         cJSON *item = cJSON_CreateObject();
-        cJSON_AddStringToObject(item, "name", rows[i].name);
-        cJSON_AddStringToObject(item, "shows", rows[i].shows);
-        if (rows[i].radiance >= 0)
-            cJSON_AddNumberToObject(item, "radiance", rows[i].radiance);
+        cJSON_AddStringToObject(item, "name", choices[i].name);
+        cJSON_AddStringToObject(item, "shows", row->shows);
+        if (row->radiance >= 0)
+            cJSON_AddNumberToObject(item, "radiance", row->radiance);
         cJSON_AddItemToArray(list, item);
     }
     char *text = cJSON_Print(list);
@@ -173,11 +205,58 @@ static bool list_save(const char *folder, char *error, size_t error_size)
     return ok;
 }
 
+static const struct scene_row *row_find(const char *name, size_t length)
+{
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (strlen(rows[i].name) == length && memcmp(rows[i].name, name, length) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+/* NAME, or NAME=ROUGHNESS where a scene has one. */
+static bool choice_parse(const char *text, struct choice *choice, char *error, size_t error_size)
+{
+    const char *number = strchr(text, '=');
+    const struct scene_row *row = row_find(text, number ? (size_t)(number - text) : strlen(text));
+    if (!row) {
+        snprintf(error, error_size, "%s: no such scene; scenes.json lists them", text);
+        return false;
+    }
+    *choice = (struct choice){ .row = row, .a = row->a };
+    snprintf(choice->name, sizeof(choice->name), "%s", row->name);
+    if (!number)
+        return true;
+    char *end;
+    choice->a = strtof(number + 1, &end);
+    if (row->build != metal_sphere_build || end == number + 1 || *end || !(choice->a > 0 && choice->a <= 1) ||
+        strlen(text) >= sizeof(choice->name)) {
+        snprintf(error, error_size, "%s: expected NAME or metal_sphere=ROUGHNESS in (0, 1]", text);
+        return false;
+    }
+    snprintf(choice->name, sizeof(choice->name), "%s_%s", row->name, number + 1);
+    return true;
+}
+
+/* The scenes that are named, or all. NULL: one of them is wrong. */
+static struct choice *choices_make(char **names, int count, char *error, size_t error_size)
+{
+    struct choice *choices = calloc((size_t)(count ? count : ROW_COUNT), sizeof(*choices));
+    if (!choices)
+        snprintf(error, error_size, "out of memory");
+    for (int i = 0; choices && i < (count ? count : ROW_COUNT); i++)
+        if (!choice_parse(count ? names[i] : rows[i].name, &choices[i], error, error_size)) {
+            free(choices);
+            return NULL;
+        }
+    return choices;
+}
+
 static int usage(FILE *stream)
 {
     fprintf(stream,
-            "usage: reference_scenes --out FOLDER\n"
-            "Writes %d small scenes with their views, and scenes.json, which lists them.\n",
+            "usage: reference_scenes --out FOLDER [NAME | metal_sphere=ROUGHNESS]...\n"
+            "Writes %d small scenes with their views, or those that are named, and scenes.json, which lists\n"
+            "them. metal_sphere=0.35 becomes metal_sphere_0.35: the same scene with that roughness.\n",
             ROW_COUNT);
     return stream == stdout ? EXIT_SUCCESS : EXIT_FAILURE;
 }
@@ -187,16 +266,19 @@ int main(int argc, char **argv)
     char error[1200];
     if (argc == 2 && strcmp(argv[1], "--help") == 0)
         return usage(stdout);
-    if (argc != 3 || strcmp(argv[1], "--out") != 0)
+    if (argc < 3 || strcmp(argv[1], "--out") != 0)
         return usage(stderr);
-    bool ok = file_make_folder(argv[2], error, sizeof(error));
-    for (int i = 0; ok && i < ROW_COUNT; i++)
-        ok = scene_save(&rows[i], argv[2], error, sizeof(error));
-    ok = ok && list_save(argv[2], error, sizeof(error));
+    const int count = argc > 3 ? argc - 3 : ROW_COUNT;
+    struct choice *choices = choices_make(argv + 3, argc - 3, error, sizeof(error));
+    bool ok = choices && file_make_folder(argv[2], error, sizeof(error));
+    for (int i = 0; ok && i < count; i++)
+        ok = scene_save(&choices[i], argv[2], error, sizeof(error));
+    ok = ok && list_save(choices, count, argv[2], error, sizeof(error));
+    free(choices);
     if (!ok) {
         fprintf(stderr, "reference_scenes: %s\n", error);
         return EXIT_FAILURE;
     }
-    printf("%s: %d scenes\n", argv[2], ROW_COUNT);
+    printf("%s: %d scenes\n", argv[2], count);
     return EXIT_SUCCESS;
 }

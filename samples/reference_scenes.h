@@ -14,6 +14,11 @@ struct surface {
     float metallic;
 };
 
+static inline struct surface matt(float r, float g, float b)
+{
+    return (struct surface){ .albedo = v3(r, g, b) };
+}
+
 /* Shapes go into `mesh`; scene_flush turns what is there into a node with a material of its own. */
 struct scene {
     struct glb_writer *writer;
@@ -28,6 +33,10 @@ void scene_shell(struct scene *scene, vec3s low, vec3s high, float thickness, co
 
 /* A box of one material. */
 void scene_box(struct scene *scene, const char *name, vec3s low, vec3s high, const struct surface *surface);
+
+/* A floor with its top at y = 0, of square tiles of 1 m around the origin. */
+void scene_tiles(struct scene *scene, int across, int along, const struct surface *light,
+                 const struct surface *dark);
 void scene_look(struct scene *scene, vec3s position, vec3s look_at, float yfov_deg);
 void scene_sky(struct scene *scene, float radiance);
 void scene_sun(struct scene *scene, vec3s direction, float irradiance);
@@ -54,5 +63,12 @@ void maze_build(struct scene *scene, float wall_m, float unused);
 void courtyard_build(struct scene *scene, float unused_a, float unused_b);
 void pillars_build(struct scene *scene, float unused_a, float unused_b);
 void many_lights_build(struct scene *scene, float count, float unused);
+
+void white_metal_furnace_build(struct scene *scene, float unused_a, float unused_b);
+void metal_sphere_build(struct scene *scene, float roughness, float unused);
+void mirror_room_build(struct scene *scene, float unused_a, float unused_b);
+void brushed_corridor_build(struct scene *scene, float unused_a, float unused_b);
+void wet_street_night_build(struct scene *scene, float unused_a, float unused_b);
+void chrome_lamp_build(struct scene *scene, float unused_a, float unused_b);
 
 #endif

@@ -4,11 +4,6 @@
 
 #include <math.h>
 
-static struct surface matt(float r, float g, float b)
-{
-    return (struct surface){ .albedo = v3(r, g, b) };
-}
-
 /* Walls emit 1 - albedo, so that the radiance everywhere is exactly 1 whatever the albedo. */
 void furnace_build(struct scene *scene, float albedo, float unused)
 {
@@ -185,13 +180,7 @@ void glossy_spheres_build(struct scene *scene, float unused_a, float unused_b)
     (void)unused_a;
     (void)unused_b;
     const struct surface light = matt(0.75f, 0.73f, 0.7f), dark = matt(0.12f, 0.13f, 0.16f);
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < 96; i++)
-            if ((i % 12 + i / 12) % 2 == pass)
-                mesh_box(&scene->mesh, v3((float)(i % 12 - 6), -0.5f, (float)(i / 12 - 4)),
-                         v3((float)(i % 12 - 5), 0, (float)(i / 12 - 3)));
-        scene_flush(scene, pass ? "dark tiles" : "light tiles", pass ? &dark : &light);
-    }
+    scene_tiles(scene, 12, 8, &light, &dark);
     const struct surface orange = matt(0.8f, 0.3f, 0.08f);
     scene_box(scene, "back", v3(-6, 0, -4.4f), v3(6, 4, -4), &orange);
     for (int i = 0; i < 10; i++) {
