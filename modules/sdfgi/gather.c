@@ -135,7 +135,7 @@ static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const 
     rays.pass = PASS_REFLECT_RAYS;
     filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;
     filter[0].args.gather.filter_step = 1;
-    filter[1].args.gather.filter_step = SDFGI_RAYS_TAPS;
+    filter[1].args.gather.filter_step = SDFGI_RAYS_SIDE;
     if (!view->reflection_ready) {
         gpu_image_to_general(&rec->gpu, &view->reflection, 1);
         gpu_image_to_general(&rec->gpu, &view->filtered, 1);

@@ -14,7 +14,7 @@ layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DIFFUSE,
 
 /* Per run, roughness below which a pixel's own value is as good, and from which on neighbours count wholly.
  */
-const vec2 FIRST = vec2(0.03, 0.1), SECOND = vec2(0.1, 0.25);
+const vec2 FIRST = vec2(0.01, 0.03), SECOND = vec2(0.15, 0.3);
 
 bool is_first()
 {
@@ -27,18 +27,18 @@ vec4 before_at(ivec2 pixel)
 }
 
 /* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
- * the square, or differs in roughness by a fifth. */
+ * the square, differs in roughness by a fifth, or leans by more than the lobe is wide: 2 alpha. */
 float likeness(picture_surface s, float roughness, ivec2 pixel)
 {
     picture_surface other;
     float other_roughness;
     if (!picture_reflects(pixel, other, other_roughness))
         return 0.0;
-    const float reach_m = float(SDFGI_RAYS_TAPS) * float(args.filter_step) * s.pixel_m;
+    const float reach_m = float(SDFGI_RAYS_SIDE) * float(args.filter_step) * s.pixel_m;
     const float off_plane = abs(dot(other.pos - s.pos, s.normal)) / reach_m;
-    const float facing = max(dot(s.normal, other.normal), 0.0), facing4 = facing * facing * facing * facing;
-    return max(1.0 - off_plane, 0.0) * facing4 * facing4 *
-           max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0);
+    const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, other.normal);
+    return max(1.0 - off_plane, 0.0) * max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
+           max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
 }
 
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
@@ -47,8 +47,8 @@ vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
     const float spread = smoothstep(range.x, range.y, roughness);
     vec4 sum = before_at(pixel);
     float weights = 1.0;
-    for (int i = 0; i < SDFGI_RAYS_TAPS * SDFGI_RAYS_TAPS && spread > 0.0; i++) {
-        const ivec2 tap = ivec2(i % SDFGI_RAYS_TAPS, i / SDFGI_RAYS_TAPS) - (SDFGI_RAYS_TAPS / 2 - 1);
+    for (int i = 0; i < SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE && spread > 0.0; i++) {
+        const ivec2 tap = ivec2(i % SDFGI_RAYS_SIDE, i / SDFGI_RAYS_SIDE) - (SDFGI_RAYS_SIDE / 2 - 1);
         const ivec2 at = pixel + tap * int(args.filter_step);
         const float weight = at == pixel ? 0.0 : spread * likeness(s, roughness, at);
         if (weight > 0.0)

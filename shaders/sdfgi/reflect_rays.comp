@@ -29,11 +29,13 @@ vec3 lobe_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
     return normalize(frame * vec3(dir.xy, max(abs(dir.z), 1e-3)));
 }
 
-/* Every square of SDFGI_RAYS_SIDE pixels a side, wherever it begins, holds each point of the pattern once. */
+/* Every square of SDFGI_RAYS_SIDE pixels a side, wherever it begins, holds each point of a sequence once, and
+ * squares side by side hold it with other shifts. */
 vec2 pattern_point(ivec2 pixel)
 {
-    const uint side = uint(SDFGI_RAYS_SIDE), i = (uint(pixel.x) % side) + side * (uint(pixel.y) % side);
-    return sdfgi_random_r2(i, 0u);
+    const uvec2 side = uvec2(SDFGI_RAYS_SIDE), at = uvec2(pixel) % side, square = uvec2(pixel) / side % side;
+    const uint shift = bitfieldReverse(square.x + side.x * square.y);
+    return sdfgi_random_r2(at.x + side.x * at.y, shift >> 4u);
 }
 
 void reflect_pixel(ivec2 pixel)

@@ -109,9 +109,7 @@
 #define SDFGI_RAYS_BLEND 0.4
 #define SDFGI_RAYS_END   0.7
 /* Pixels along a side of the square over which the rays of a rough surface are spread. */
-#define SDFGI_RAYS_SIDE 8
-/* The filter takes the mean over squares of so many pixels a side, and then over as many of these squares. */
-#define SDFGI_RAYS_TAPS 4
+#define SDFGI_RAYS_SIDE 4
 /* Words of the tile list of a view before the tiles: three of indirect arguments, and a count. */
 #define SDFGI_TILES_HEADER 4
 

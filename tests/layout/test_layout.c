@@ -145,7 +145,8 @@
     X(sdfgi_gather_args, height)                                                                             \
     X(sdfgi_gather_args, background_depth)                                                                   \
     X(sdfgi_gather_args, step)                                                                               \
-    X(sdfgi_gather_args, scale)
+    X(sdfgi_gather_args, scale)                                                                              \
+    X(sdfgi_gather_args, filter_step)
 
 struct place {
     const char *type, *name;

@@ -157,7 +157,8 @@ void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view
     struct writes w = { .count = 0 };
     add_image(&w, set, SDFGI_BINDING_VIEW_DEPTH, in, p->depth, layout);
     add_image(&w, set, SDFGI_BINDING_VIEW_NORMAL, in, p->normal, layout);
-    add_image(&w, set, SDFGI_BINDING_VIEW_ROUGHNESS, in, p->roughness, layout);
+    /* Some drivers look at what no shader reads: no binding may name a picture that is gone. */
+    add_image(&w, set, SDFGI_BINDING_VIEW_ROUGHNESS, in, p->roughness ? p->roughness : p->depth, layout);
     add_image(&w, set, SDFGI_BINDING_VIEW_DIFFUSE, out, p->diffuse, VK_IMAGE_LAYOUT_GENERAL);
     add_image(&w, set, SDFGI_BINDING_VIEW_REFLECTION, out, view->reflection.view, VK_IMAGE_LAYOUT_GENERAL);
     add_image(&w, set, SDFGI_BINDING_VIEW_FILTERED, out, view->filtered.view, VK_IMAGE_LAYOUT_GENERAL);

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: MIT
+ * Views: what a resolve makes of a picture, what it needs for that, and what it leaves out. */
+#include "gi_test.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SIDE = 24, PIXELS = SIDE * SIDE };
+
+static const float ZENITH[3] = { 1, 1.5f, 2 };
+
+/* A level floor beside a wall, seen from straight above: clip x, y in [-1, 1] are metres over 3, depth 0 to 1
+ * is y from -1.9 to -2.1. Part of the wall glows. */
+struct stage {
+    struct gi_test t;
+    sdfgi_material smooth; /* of nothing that is there: it calls for reflections */
+    struct gpu_test_image depth, normal;
+    float depths[PIXELS], normals[PIXELS][4];
+};
+
+static void fill_picture(struct stage *s)
+{
+    for (int i = 0; i < PIXELS; i++) {
+        const float u = ((float)(i % SIDE) + 0.5f) / SIDE * 2 - 1;
+        const bool in_wall = fabsf(3 * u + 2) < 0.6f;
+        s->depths[i] = in_wall ? 1.0f : 0.5f;
+        memcpy(s->normals[i], (float[]){ 0, 1, 0, 0 }, sizeof s->normals[i]);
+    }
+}
+
+static void open_stage(struct stage *s, float smoothness)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 32;
+    settings.min_cell_size_m = 0.4f;
+    gi_test_renew(&s->t, &settings);
+    struct test_mesh box = test_mesh_box((double[]){ 0, -3, 0 }, (double[]){ 4, 1, 4 }, test_rotation_none),
+                     wall =
+                         test_mesh_box((double[]){ -2, 0, 0 }, (double[]){ 0.4, 2, 3 }, test_rotation_none);
+    gi_test_add(&s->t, &box, gi_test_material(&s->t, (float[]){ 0.7f, 0.7f, 0.7f }, (float[]){ 0, 0, 0 }));
+    gi_test_add(&s->t, &wall,
+                gi_test_material(&s->t, (float[]){ 0.8f, 0.2f, 0.1f }, (float[]){ 1, 0.5f, 0 }));
+    test_mesh_destroy(&box);
+    test_mesh_destroy(&wall);
+    const struct sdfgi_material_desc desc = { .smoothness = smoothness };
+    REQUIRE_CMP((int)sdfgi_material_create(s->t.gi, &desc, &s->smooth), ==, (int)SDFGI_OK);
+    struct sdfgi_sky sky = { .horizon = { 1, 1, 1 } };
+    memcpy(sky.zenith, ZENITH, sizeof ZENITH);
+    REQUIRE_CMP((int)sdfgi_set_sky(s->t.gi, &sky), ==, (int)SDFGI_OK);
+    gi_test_update(&s->t, 8);
+    fill_picture(s);
+    s->depth = gi_test_gather_image(&s->t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, s->depths);
+    s->normal = gi_test_gather_image(&s->t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, SIDE, SIDE, s->normals);
+}
+
+static void close_stage(struct stage *s)
+{
+    gpu_test_image_destroy(&s->t.gpu, &s->depth);
+    gpu_test_image_destroy(&s->t.gpu, &s->normal);
+}
+
+/* ---- Resolves */
+
+struct resolve {
+    struct stage *stage;
+    sdfgi_view *view;
+    struct sdfgi_resolve_desc desc;
+};
+
+static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct resolve *r = user;
+    REQUIRE_CMP((int)sdfgi_view_resolve(r->stage->t.gi, r->view, cmd, &r->desc), ==, (int)SDFGI_OK);
+}
+
+static sdfgi_view *create_view(struct stage *s)
+{
+    sdfgi_view *view = NULL;
+    const struct sdfgi_view_desc desc = { .width = SIDE, .height = SIDE };
+    REQUIRE_CMP((int)sdfgi_view_create(s->t.gi, &desc, &view), ==, (int)SDFGI_OK);
+    return view;
+}
+
+static struct sdfgi_resolve_desc resolve_desc(const struct stage *s, VkImageView roughness)
+{
+    return (struct sdfgi_resolve_desc){
+        .depth = s->depth.view,
+        .normal = s->normal.view,
+        .roughness = roughness,
+        .background_depth = 1,
+        .inverse_view_projection = { 3, 0, 0, 0, 0, 0, 3, 0, 0, -2, 0, 0, 0, -1, 0, 1 },
+    };
+}
+
+/* Resolves a picture of one roughness; below 0: none is given. */
+static void resolve(struct stage *s, sdfgi_view *view, float roughness)
+{
+    float pixels[PIXELS];
+    for (int i = 0; i < PIXELS; i++)
+        pixels[i] = roughness;
+    struct gpu_test_image image = gi_test_gather_image(&s->t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, pixels);
+    struct resolve r = { s, view, resolve_desc(s, roughness < 0 ? VK_NULL_HANDLE : image.view) };
+    gpu_test_submit(&s->t.gpu, record_resolve, &r);
+    gpu_test_image_destroy(&s->t.gpu, &image);
+}
+
+static void read_picture(struct stage *s, const struct gpu_image *image, float (*out)[4])
+{
+    static uint16_t texels[PIXELS][4];
+    gpu_test_image_read(&s->t.gpu, image->handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        (VkExtent3D){ SIDE, SIDE, 1 }, 8, texels);
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 4; k++)
+            out[i][k] = gi_test_half(texels[i][k]);
+}
+
+static uint32_t dispatches(struct stage *s, enum pass pass)
+{
+    static struct sdfgi_report report;
+    sdfgi_get_report(s->t.gi, &report);
+    return report.passes[pass].dispatches;
+}
+
+static uint64_t view_bytes(struct stage *s)
+{
+    static struct sdfgi_report report;
+    sdfgi_get_report(s->t.gi, &report);
+    return report.memory.bytes[SDFGI_MEMORY_VIEWS];
+}
+
+/* ---- Tests */
+
+static struct stage stage;
+
+static void a_scene_without_smooth_materials_makes_nothing_for_reflections(void **state)
+{
+    (void)state;
+    open_stage(&stage, 0.05f);
+    sdfgi_view *view = create_view(&stage);
+    const uint64_t before = view_bytes(&stage);
+    resolve(&stage, view, 0.1f);
+    struct sdfgi_view_images images;
+    sdfgi_view_get_images(view, &images);
+    REQUIRE_TRUE(images.diffuse != VK_NULL_HANDLE && images.reflection == VK_NULL_HANDLE);
+    REQUIRE_CMP(view_bytes(&stage), ==, before);
+    REQUIRE_CMP(dispatches(&stage, PASS_GATHER), ==, 1u);
+    for (int pass = PASS_REFLECT_TILES; pass <= PASS_REFLECT_FILTER; pass++) {
+        REQUIRE_CMP(dispatches(&stage, (enum pass)pass), ==, 0u);
+        REQUIRE_TRUE(!stage.t.gi->backend.pipelines.passes[pass][0]);
+    }
+    close_stage(&stage);
+}
+
+static void surfaces_of_roughness_1_reflect_irradiance(void **state)
+{
+    (void)state;
+    static float diffuse[PIXELS][4], reflection[PIXELS][4];
+    open_stage(&stage, 1);
+    sdfgi_view *view = create_view(&stage);
+    resolve(&stage, view, 1);
+    read_picture(&stage, &view->diffuse, diffuse);
+    read_picture(&stage, &view->reflection, reflection);
+    double worst = 0, brightest = 0;
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double want = (double)diffuse[i][k] / 3.14159265;
+            worst = fmax(worst, fabs((double)reflection[i][k] - want) / fmax(want, 0.01));
+            brightest = fmax(brightest, want);
+        }
+    printf("roughness 1: off by %.2e at most, brightest %.3f\n", worst, brightest);
+    close_stage(&stage);
+    REQUIRE_CMP(brightest, >, 0.3);
+    REQUIRE_CMP(worst, <=, 0.002);
+}
+
+static void mirrors_show_the_sky_where_nothing_is_above(void **state)
+{
+    (void)state;
+    static float reflection[PIXELS][4];
+    open_stage(&stage, 1);
+    sdfgi_view *view = create_view(&stage);
+    resolve(&stage, view, 0);
+    read_picture(&stage, &view->reflection, reflection);
+    double worst = 0;
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double want = stage.depths[i] < 1 ? (double)ZENITH[k] : 0;
+            worst = fmax(worst, fabs((double)reflection[i][k] - want));
+        }
+    printf("mirror: off by %.2e at most\n", worst);
+    close_stage(&stage);
+    REQUIRE_CMP(worst, <=, 0.002);
+}
+
+static double mean_luminance(float (*pixels)[4])
+{
+    double sum = 0;
+    for (int i = 0; i < PIXELS; i++)
+        sum += 0.2126 * (double)pixels[i][0] + 0.7152 * (double)pixels[i][1] + 0.0722 * (double)pixels[i][2];
+    return sum / PIXELS;
+}
+
+/* 64 steps from a mirror to a matt surface. */
+static void roughness_changes_reflections_without_a_step(void **state)
+{
+    (void)state;
+    static float reflection[PIXELS][4];
+    open_stage(&stage, 1);
+    sdfgi_view *view = create_view(&stage);
+    double before = 0, worst = 0, first = 0;
+    for (int step = 0; step <= 64; step++) {
+        resolve(&stage, view, (float)step / 64);
+        read_picture(&stage, &view->reflection, reflection);
+        const double mean = mean_luminance(reflection);
+        if (step > 0)
+            worst = fmax(worst, fabs(mean - before) / fmax(mean, before));
+        first = step == 0 ? mean : first;
+        before = mean;
+    }
+    printf("roughness 0: %.3f, 1: %.3f, largest step %.2f %%\n", first, before, 100 * worst);
+    close_stage(&stage);
+    REQUIRE_CMP(fabs(first - before) / first, >, 0.05);
+    REQUIRE_CMP(worst, <=, 0.03);
+}
+
+static void views_have_pictures_of_their_own_and_give_them_back(void **state)
+{
+    (void)state;
+    static float a[PIXELS][4], b[PIXELS][4];
+    open_stage(&stage, 1);
+    const uint64_t none = view_bytes(&stage);
+    sdfgi_view *one = create_view(&stage), *two = create_view(&stage);
+    const uint64_t diffuse = view_bytes(&stage);
+    resolve(&stage, one, 0);
+    resolve(&stage, two, 1);
+    read_picture(&stage, &two->reflection, b);
+    resolve(&stage, two, 0);
+    read_picture(&stage, &one->reflection, a);
+    REQUIRE_CMP(memcmp(a, b, sizeof a), !=, 0);
+    read_picture(&stage, &two->reflection, b);
+    REQUIRE_CMP(memcmp(a, b, sizeof a), ==, 0);
+    const uint64_t all = view_bytes(&stage);
+    REQUIRE_CMP(diffuse, >=, none + 2 * 8 * PIXELS);
+    REQUIRE_CMP(all, >=, diffuse + 2 * 16 * PIXELS);
+    sdfgi_view_destroy(stage.t.gi, one);
+    sdfgi_view_destroy(stage.t.gi, NULL);
+    gi_test_update(&stage.t, 4);
+    REQUIRE_CMP(view_bytes(&stage), ==, none + (all - none) / 2);
+    sdfgi_view_destroy(stage.t.gi, two);
+    gi_test_update(&stage.t, 4);
+    REQUIRE_CMP(view_bytes(&stage), ==, none);
+    close_stage(&stage);
+}
+
+static void without_a_picture_of_roughness_there_are_no_reflections(void **state)
+{
+    (void)state;
+    open_stage(&stage, 1);
+    sdfgi_view *view = create_view(&stage);
+    struct sdfgi_view_images images;
+    resolve(&stage, view, 0);
+    sdfgi_view_get_images(view, &images);
+    REQUIRE_TRUE(images.reflection != VK_NULL_HANDLE);
+    resolve(&stage, view, -1);
+    sdfgi_view_get_images(view, &images);
+    REQUIRE_TRUE(images.reflection == VK_NULL_HANDLE);
+    close_stage(&stage);
+}
+
+static void bad_views_are_refused(void **state)
+{
+    (void)state;
+    open_stage(&stage, 1);
+    static const struct sdfgi_view_desc wrong[] = { { 0, 4, SDFGI_GATHER_FULL },
+                                                    { 4, 0, SDFGI_GATHER_FULL },
+                                                    { 4, UINT32_MAX, SDFGI_GATHER_FULL },
+                                                    { 4, 4, (enum sdfgi_gather_resolution)7 } };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        sdfgi_view *view = (sdfgi_view *)&stage;
+        REQUIRE_CMP((int)sdfgi_view_create(stage.t.gi, &wrong[i], &view), ==,
+                    (int)SDFGI_ERROR_INVALID_ARGUMENT);
+        REQUIRE_TRUE(view == (sdfgi_view *)&stage);
+    }
+    sdfgi_view *view = create_view(&stage);
+    struct sdfgi_resolve_desc desc = resolve_desc(&stage, VK_NULL_HANDLE);
+    desc.depth = VK_NULL_HANDLE;
+    REQUIRE_CMP((int)sdfgi_view_resolve(stage.t.gi, view, (VkCommandBuffer)&stage, &desc), ==,
+                (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_TRUE(strstr(stage.t.last_message, "depth is null") != NULL);
+    desc = resolve_desc(&stage, VK_NULL_HANDLE);
+    desc.scale = NAN;
+    REQUIRE_CMP((int)sdfgi_view_resolve(stage.t.gi, view, (VkCommandBuffer)&stage, &desc), ==,
+                (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    const struct sdfgi_material_desc too_smooth = { .smoothness = 1.5f };
+    sdfgi_material material = { 77 };
+    REQUIRE_CMP((int)sdfgi_material_create(stage.t.gi, &too_smooth, &material), ==,
+                (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_TRUE(strstr(stage.t.last_message, "smoothness") != NULL);
+    close_stage(&stage);
+}
+
+static int finish(void **state)
+{
+    (void)state;
+    gi_test_close(&stage.t);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scene_without_smooth_materials_makes_nothing_for_reflections),
+        cmocka_unit_test(surfaces_of_roughness_1_reflect_irradiance),
+        cmocka_unit_test(mirrors_show_the_sky_where_nothing_is_above),
+        cmocka_unit_test(roughness_changes_reflections_without_a_step),
+        cmocka_unit_test(views_have_pictures_of_their_own_and_give_them_back),
+        cmocka_unit_test(without_a_picture_of_roughness_there_are_no_reflections),
+        cmocka_unit_test(bad_views_are_refused),
+    };
+    return cmocka_run_group_tests_name("view", tests, NULL, finish);
+}
