@@ -9,7 +9,7 @@
 /* The library's own needs Vulkan; names are all that the report asks for. */
 const char *sdfgi_memory_category_name(enum sdfgi_memory_category category)
 {
-    static const char *const names[] = { "volumes", "probes", "scratch", "lists", "readback" };
+    static const char *const names[] = { "volumes", "probes", "scratch", "lists", "readback", "views" };
     return names[category];
 }
 
