@@ -12,12 +12,6 @@ const uint SDFGI_EMISSION_IS_LISTED = 0x80000000u; /* the block is in its cascad
 /* Nine bits are kept of 0.03 to SDFGI_EMISSION_MOST in the first unit, and of 5e-10 to 1 in the second. */
 const float SDFGI_EMISSION_BRIGHT_UNIT = 2048.0, SDFGI_EMISSION_DIM_UNIT = 1.0 / 65536.0;
 
-/* False if nothing in the scene emits: the emission of blocks need not be read. */
-bool sdfgi_surfaces_emit()
-{
-    return sdfgi_frame.emission_scale > 0.0;
-}
-
 /* Index in buffers with one element per albedo block of all cascades. */
 uint sdfgi_block_index(uint cascade, ivec3 cell)
 {

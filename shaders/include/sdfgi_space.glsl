@@ -156,6 +156,12 @@ vec3 sdfgi_position_from_cascade(uint cascade, vec3 pos_cascade)
            sdfgi_metric_from_cells(pos_cascade) * sdfgi_frame.cascades[cascade].cell_m;
 }
 
+/* False if nothing in the scene emits: the emission of blocks need not be read. */
+bool sdfgi_surfaces_emit()
+{
+    return sdfgi_frame.emission_scale > 0.0;
+}
+
 /* ---- Probes: probe k of a cascade belongs to the lattice point at cell 8 k, k in [0, probes_per_side) per
  * axis. */
 

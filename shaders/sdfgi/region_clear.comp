@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: occupancy bits, emissive bits and the accumulators of its
- * albedo blocks. Visibility bits stay: light cells read them until the change completes. Adds the cells that
- * held bits to the dirty bounds. One thread per four cells along y. Threads follow one another along x,
- * because cells are stored side by side along x. The box begins and ends at multiples of 8 cells. */
+ * Empties a box of cells before it is voxelised: occupancy bits, the accumulators of its albedo blocks, and,
+ * where something emits, emissive bits. Visibility bits stay: light cells read them until the change
+ * completes. Adds the cells that held bits to the dirty bounds. One thread per four cells along y. Threads
+ * follow one another along x, because cells are stored side by side along x. The box begins and ends at
+ * multiples of 8 cells.
+ */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
@@ -19,7 +21,8 @@ layout(push_constant) uniform sdfgi_push
 void clear_accumulators(ivec3 cell)
 {
     const uint block = part_block(voxel_part(args.low, args.high), cell);
-    for (uint plane = 0u; plane < uint(SDFGI_ACCUM_PLANES); plane++)
+    const uint planes = sdfgi_surfaces_emit() ? uint(SDFGI_ACCUM_PLANES) : uint(SDFGI_ACCUM_EMISSION);
+    for (uint plane = 0u; plane < planes; plane++)
         sdfgi_scratch[accumulator(plane, block)] = 0u;
 }
 
@@ -52,10 +55,10 @@ void main()
         held |= int(sdfgi_cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
     if (args.bounds_axis >= 0)
         add_removed(first, held);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 4; k++)
         sdfgi_bits[sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0))] = uvec2(0u);
+    for (int k = 0; k < (sdfgi_surfaces_emit() ? 4 : 0); k++)
         clear_emissive_bits(first + ivec3(0, k, 0));
-    }
     if (((first.x | first.z) & 1) == 0) {
         clear_accumulators(first);
         clear_accumulators(first + ivec3(0, 2, 0));

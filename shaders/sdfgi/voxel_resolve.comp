@@ -65,65 +65,69 @@ uvec2 block_emissive[8];
 
 /* What one side of the block shows. */
 struct side_view {
-    uint seen, emits; /* visible sub-voxels, and those of them that emit */
-    float depth;      /* mean depth of the latter behind the side, in sub-voxels */
+    uint seen;    /* lines of sight, of 64, that meet a set sub-voxel */
+    uint emits;   /* those that meet one that emits */
+    uint reaches; /* those that would, if nothing else were there */
+    float depth;  /* mean depth behind the side, in sub-voxels, of what emits */
 };
 
-/* Of 64 lines of sight along the axis each sees the first set sub-voxel that it meets. An emitter a sub-voxel
- * before a wall, or on one side of it, therefore keeps its power whatever lies behind it. `side` is +x -x +y
- * -y +z -z, and a constant where loops are unrolled. */
+/* Each line of sight along the axis sees the first set sub-voxel that it meets. An emitter a sub-voxel before
+ * a wall, or on one side of it, therefore keeps its power whatever lies behind it. `side` is +x -x +y -y +z
+ * -z, and a constant where loops are unrolled. */
 side_view view_from(uint side)
 {
     const int axis = int(side >> 1u);
-    uvec2 hidden = uvec2(0u);
+    uvec2 hidden = uvec2(0u), emissive = uvec2(0u);
     uint emits = 0u, depths = 0u;
     [[unroll]] for (int i = 0; i < 8; i++)
     {
         const int depth = (side & 1u) == 0u ? 7 - i : i;
-        const uvec2 solid = slice_of_block(block_bits, axis, depth);
-        const uint first = slice_count(solid & slice_of_block(block_emissive, axis, depth) & ~hidden);
+        const uvec2 solid = slice_of_block(block_bits, axis, depth),
+                    shines = slice_of_block(block_emissive, axis, depth);
+        const uint first = slice_count(solid & shines & ~hidden);
         emits += first;
         depths += first * uint(i);
         hidden |= solid;
+        emissive |= shines;
     }
-    return side_view(slice_count(hidden), emits, float(depths) / float(max(emits, 1u)));
+    return side_view(slice_count(hidden), emits, slice_count(emissive),
+                     float(depths) / float(max(emits, 1u)));
 }
 
 /* ---- Emission */
 
-/* Fraction of its emissive sub-voxels that an emitter covers: a small lamp, or the rim of a larger one,
- * covers them in part. Where surfaces of different orientation meet, each covers part of the same sub-voxel,
- * so the sub-voxel counts as full. A lamp smaller than a sub-voxel has such corners too, but it covers only a
- * part of the sub-voxels that it sets, up to eight of them. */
-float covered_fraction(float covered, int bits, uint facing)
+/* Loads the bits and emissive bits of the block that begins at a cell. */
+void load_block(ivec3 first)
 {
-    const bool corner = bitCount((facing | facing >> 1u) & 0x15u) > 1;
-    const int most_of_small_lamp = 8;
-    return corner && bits > most_of_small_lamp ? 1.0
-                                               : min(covered / (float(max(bits, 1)) * SDFGI_AREA_STEPS), 1.0);
-}
-
-/* Loads the bits and emissive bits of the block that begins at a cell. Returns the number of the latter. */
-int load_block(ivec3 first)
-{
-    int count = 0;
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
         const ivec3 cell = first + ivec3(i & 1u, i >> 1u & 1u, i >> 2u);
         block_bits[i] = sdfgi_cell_bits(args.cascade, cell);
         const uint word = emissive_word(voxel_part(args.low, args.high), cell);
         block_emissive[i] = uvec2(sdfgi_scratch[word], sdfgi_scratch[word + 1u]);
-        count += bitCount(block_emissive[i].x) + bitCount(block_emissive[i].y);
     }
-    return count;
 }
 
 /* What the six sides show of an emitter. */
 struct emitter_view {
-    uint facing;     /* a bit per side from which emission is seen */
+    float areas[6];  /* that emit, in columns */
     float depths[6]; /* as in side_view */
-    float projected; /* sum of the areas that emit */
+    float largest;   /* of the areas */
+    float projected; /* sum of the areas, in squares of a sub-voxel's width */
 };
+
+/* Area of the triangles that face a side, in columns. They cover their sub-voxels in part. */
+float facing_area(uint block, uint side)
+{
+    return float(accumulated(SDFGI_ACCUM_EMISSION_SIDES + side, block)) / SDFGI_AREA_STEPS;
+}
+
+/* The part of it that the side sees: as much as of the lines of sight that meet an emitter. On each the first
+ * layer counts, however many there are. */
+float area_seen(float facing, side_view shown)
+{
+    return min(facing / float(max(shown.reaches, 1u)), 1.0) * float(shown.emits);
+}
 
 /* True if an emitter fills its box badly: it lies deep behind a face, like a room's corner in which floor and
  * walls emit. */
@@ -135,7 +139,7 @@ bool is_hollow(emitter_view view, uvec3 low, uvec3 high)
         const uint axis = side >> 1u, face = (side & 1u) == 0u ? 7u - high[axis] : low[axis];
         const float behind = view.depths[side] - float(face),
                     half_width = 0.5 * float(high[axis] - low[axis] + 1u);
-        hollow = hollow || ((view.facing >> side & 1u) != 0u && behind > half_width);
+        hollow = hollow || (view.areas[side] > 0.2 * view.largest && behind > half_width);
     }
     return hollow;
 }
@@ -161,35 +165,31 @@ void store_emitter_shape(uint block, ivec3 first, emitter_view view)
 /* Emission of the brightest side, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, ivec3 first)
 {
-    const float covered = float(accumulated(SDFGI_ACCUM_EMISSION_COVERED, block));
-    const uint facing = accumulated(SDFGI_ACCUM_EMISSION_FACING, block);
-    if (covered == 0.0 && facing == 0u)
+    if (!sdfgi_surfaces_emit() || accumulated(SDFGI_ACCUM_EMISSION_AREA, block) == 0u)
         return uvec2(0u);
-    const int bits = load_block(first);
-    if (covered == 0.0)
-        return uvec2(0u);
-    const float of_emissive = covered_fraction(covered, bits, facing);
+    load_block(first);
     emitter_view view;
-    view.facing = facing;
-    view.projected = 0.0;
-    float fractions[6], largest = 0.0;
+    view.largest = view.projected = 0.0;
+    float fractions[6], largest = 0.0, all_sides = 0.0;
     [[unroll]] for (uint side = 0u; side < 6u; side++)
     {
-        side_view shown = side_view(0u, 0u, 0.0);
-        if ((facing >> side & 1u) != 0u)
-            shown = view_from(side);
-        fractions[side] = float(shown.emits) / float(max(shown.seen, 1u));
-        largest = max(largest, fractions[side]);
+        const side_view shown = view_from(side);
+        const float facing = facing_area(block, side);
+        all_sides += facing;
+        view.areas[side] = area_seen(facing, shown);
         view.depths[side] = shown.depth;
-        view.projected += of_emissive * float(shown.emits) * slices_column_area(int(side >> 1u));
+        view.largest = max(view.largest, view.areas[side]);
+        view.projected += view.areas[side] * slices_column_area(int(side >> 1u));
+        fractions[side] = view.areas[side] / float(max(shown.seen, 1u));
+        largest = max(largest, fractions[side]);
     }
     store_emitter_shape(block, first, view);
     /* Relative to the largest, because that of a lamp in a thousandth of its block would round to 0. */
     uint packed = 0u;
     for (uint side = 0u; side < 6u && largest > 0.0; side++)
         packed |= uint(round(31.0 * fractions[side] / largest)) << (5u * side);
-    const vec3 mean = accumulated_wide3(SDFGI_ACCUM_EMISSION, block) / (covered / SDFGI_AREA_STEPS);
-    return surface_pack_emission(mean * of_emissive * largest, packed);
+    const vec3 mean = accumulated_wide3(SDFGI_ACCUM_EMISSION, block) / max(all_sides, 1e-6);
+    return surface_pack_emission(mean * largest, packed);
 }
 
 /* ---- Blocks */

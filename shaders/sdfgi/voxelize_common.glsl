@@ -11,7 +11,8 @@
  * segments are one sub-voxel long and parallel to the axes. This is the 6-separating set (Schwarz and Seidel
  * 2010, "Fast parallel surface and solid voxelization"; Huang et al. 1998). A path between the centres of two
  * face neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path
- * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. */
+ * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. Emitters set
+ * more: every column that they cover in part. */
 #include "voxelize_material.glsl"
 #include "accumulators.glsl" /* what voxelize_material.glsl includes says what is written */
 
@@ -28,6 +29,9 @@ const float TIE_BIAS = 1.0 / 2048.0;
 const float SEGMENT = 0.5 + EDGE_MARGIN;
 /* Triangles of smaller slopes are taken as parallel to the faces of sub-voxels: as flat. */
 const float FLAT_SLOPE = 1.0 / 64.0;
+/* Of the cross-section of a column: more than rounding makes of an emitter's edge on the border of two. */
+const float LEAST_COVERED = 1.0 / 1024.0;
+
 struct triangle {
     vec3 v[3];                   /* sub-voxels from the anchor; axes permuted so that z is the dominant one */
     vec2 slope;                  /* dz/dx, dz/dy */
@@ -250,8 +254,7 @@ void accumulate_surface(triangle t, uint block, surface_sample s)
     const float side = t.normal[major] < 0.0 ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
     for (uint i = 1u; i <= 2u; i++) {
-        const float slope =
-            sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
+        const float slope = sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
         accumulate(SDFGI_ACCUM_NORMAL + 3u * major + i, block, uint(int(round(slope * SDFGI_SLOPE_STEPS))));
     }
 }
@@ -273,12 +276,17 @@ void polygon_clip(inout vec2 corners[7], inout int count, vec3 side)
     count = kept_count;
 }
 
-/* Fraction of a column's cross-section that the triangle covers. With it lamps smaller than a sub-voxel, and
- * the rims of larger ones, keep their power. */
-float triangle_coverage(triangle t, ivec2 column)
+/* The part of a column that a triangle covers. */
+struct covered_part {
+    float area;  /* of the column's cross-section */
+    vec2 centre; /* where the triangle's plane is looked at: the column's centre if that is covered */
+};
+
+covered_part triangle_covers(triangle t, ivec2 column)
 {
+    const vec2 middle = vec2(column) + 0.5;
     if (t.tiny)
-        return all(equal(column, tiny_column(t))) ? 0.5 * t.area2 : 0.0;
+        return covered_part(all(equal(column, tiny_column(t))) ? 0.5 * t.area2 : 0.0, middle);
     vec2 corners[7];
     int count = 3;
     for (int i = 0; i < 3; i++)
@@ -288,19 +296,14 @@ float triangle_coverage(triangle t, ivec2 column)
     polygon_clip(corners, count, vec3(0.0, 1.0, 0.0));
     polygon_clip(corners, count, vec3(0.0, -1.0, 1.0));
     float area = 0.0;
+    vec2 sum = vec2(0.0);
     for (int i = 0; i < count; i++) {
         const vec2 a = corners[i], b = corners[(i + 1) % count];
         area += a.x * b.y - a.y * b.x;
+        sum += a;
     }
-    return 0.5 * abs(area);
-}
-
-/* Area of the triangle that emits, over the cross-section of the column that it covers. */
-float emitting_area(triangle t, uint flags)
-{
-    const float column = t.axis == 1 ? 1.0 : sdfgi_space_y_scale();
-    const float sides = (flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u ? 2.0 : 1.0;
-    return sides * column / max(abs(t.normal[t.axis]), 0.1);
+    const bool aside = count > 0 && !triangle_contains(t, middle);
+    return covered_part(min(0.5 * abs(area), 1.0), aside ? vec2(column) + sum / float(count) : middle);
 }
 
 /* Adds a value, in W/(m^2 sr) times the area of a column, to a sum of 64 bits. The lower word carries over
@@ -313,31 +316,33 @@ void accumulate_wide(uint plane, uint block, float value)
     accumulate(plane + 1u, block, uint(upper) + uint(before + lower < before));
 }
 
-/* Adds the emission of the part of a column that an emitter covers, even if it sets no sub-voxel there. */
-void accumulate_emission(triangle t, ivec2 column, uint block, surface_sample s)
+/* Adds what a triangle emits from the part of a column that it covers, to each side as much as that sees. */
+void accumulate_emission(triangle t, float covered, uint block, surface_sample s)
 {
-    const float covered = min(triangle_coverage(t, column), 1.0);
-    const vec3 emission = sdfgi_finite_color(s.emission, SDFGI_EMISSION_MOST) * covered;
+    const bool both = (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u;
+    const float sides = both ? 2.0 : 1.0, column = t.axis == 1 ? 1.0 : sdfgi_space_y_scale();
+    const vec3 seen = covered * vec3(1.0, abs(t.slope)); /* along the dominant axis and the next two */
+    const vec3 emission =
+        sdfgi_finite_color(s.emission, SDFGI_EMISSION_MOST) * sides * (seen.x + seen.y + seen.z);
     if (all(lessThan(emission, vec3(SDFGI_EMISSION_STEP))) ||
-        !has_room(SDFGI_ACCUM_EMISSION_COVERED, block, SDFGI_ACCUM_MOST_COVERED))
+        !has_room(SDFGI_ACCUM_EMISSION_AREA, block, SDFGI_ACCUM_MOST_AREA))
         return;
     for (uint i = 0u; i < 3u; i++)
         accumulate_wide(SDFGI_ACCUM_EMISSION + 2u * i, block, emission[i]);
-    accumulate(SDFGI_ACCUM_EMISSION_COVERED, block, uint(covered * SDFGI_AREA_STEPS + 0.5));
-    accumulate(SDFGI_ACCUM_EMISSION_AREA, block,
-               uint(covered * SDFGI_AREA_STEPS * emitting_area(t, s.flags) + 0.5));
+    const float area = sides * covered * column / max(abs(t.normal[t.axis]), 0.1);
+    accumulate(SDFGI_ACCUM_EMISSION_AREA, block, uint(area * SDFGI_AREA_STEPS + 0.5));
+    for (int n = 0; n < 3; n++) {
+        const int axis = (t.axis + n) % 3;
+        const uint front = 2u * uint(axis) + (t.normal[axis] < 0.0 ? 1u : 0u),
+                   steps = uint(seen[n] * SDFGI_AREA_STEPS + 0.5);
+        accumulate(SDFGI_ACCUM_EMISSION_SIDES + front, block, steps);
+        if (both)
+            accumulate(SDFGI_ACCUM_EMISSION_SIDES + (front ^ 1u), block, steps);
+    }
 }
 
-/* Sets an emissive bit, and notes which sides the emission is seen from. */
-void store_emitter(triangle t, uint block, ivec3 cell, uint bit, surface_sample s)
+void store_emissive_bit(ivec3 cell, uint bit)
 {
-    uint facing = 0u;
-    for (uint axis = 0u; axis < 6u; axis++) {
-        const float height = t.normal[axis >> 1u] * ((axis & 1u) == 0u ? 1.0 : -1.0);
-        if (height > 0.2 || (height < -0.2 && (s.flags & SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION) != 0u))
-            facing |= 1u << axis;
-    }
-    atomicOr(sdfgi_scratch[accumulator(SDFGI_ACCUM_EMISSION_FACING, block)], facing);
     atomicOr(sdfgi_scratch[emissive_word(drawn_part(), cell) + (bit >> 5u)], 1u << (bit & 31u));
 }
 
@@ -363,17 +368,22 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
     accumulate_surface(t, block, s);
     if (s.emission != vec3(0.0))
-        store_emitter(t, block, cell, bit, s);
+        store_emissive_bit(cell, bit);
 }
 
-/* Tests one column of those that lie in the box, and stores the sample that the triangle has there. */
+/* Tests one column of those that lie in the box, and stores the sample that the triangle has there. Emitters
+ * set columns whose centre they miss, too: rays must find all that emits, or a lamp would lose power where
+ * its rim misses centres. */
 void triangle_store_column(triangle t, ivec2 column)
 {
     const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
-    const int level = inset_level(t, vec2(column) + 0.5);
-    const bool emits_here = emits && level >= low && level < high;
+    covered_part part = covered_part(0.0, vec2(column) + 0.5);
+    if (emits)
+        part = triangle_covers(t, column);
+    const int level = inset_level(t, part.centre);
+    const bool emits_here = part.area > 0.0 && level >= low && level < high;
     const column_levels levels = triangle_levels(t, column);
     const int first = max(levels.first, low), last = min(levels.last, high - 1);
     if (first > last && !emits_here)
@@ -381,10 +391,11 @@ void triangle_store_column(triangle t, ivec2 column)
     const surface_sample s = triangle_sample(t, column);
     if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
         return;
-    if (emits_here) {
-        const ivec3 sub = unpermute(ivec3(column, level), t.axis) + args.anchor;
-        accumulate_emission(t, column, part_block(drawn_part(), sub >> 2), s);
-    }
+    const ivec3 emitting = unpermute(ivec3(column, level), t.axis);
+    if (emits_here)
+        accumulate_emission(t, part.area, part_block(drawn_part(), (emitting + args.anchor) >> 2), s);
+    if (emits_here && part.area > LEAST_COVERED && (level < first || level > last))
+        store_sub_voxel(t, emitting, s);
     for (int i = first; i <= last; i++)
         store_sub_voxel(t, unpermute(ivec3(column, i), t.axis), s);
 }

@@ -120,30 +120,30 @@
 #define SDFGI_SAMPLE_STEP_MAX 4
 
 /* A cascade is voxelised in parts, one after another, which share the accumulators: in SDFGI_VOXEL_PARTS, or
- * fewer if they have less than SDFGI_VOXEL_PART_CELLS. Two parts instead of one save 18 MiB with 128^3. */
+ * fewer if they have less than SDFGI_VOXEL_PART_CELLS. Two parts instead of one save 20 MiB with 128^3. */
 #define SDFGI_VOXEL_PARTS      4
 #define SDFGI_VOXEL_PART_CELLS (1u << 20)
 
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h). */
-#define SDFGI_ACCUM_ALBEDO           0  /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
-#define SDFGI_ACCUM_EMISSION         3  /* per channel 2 planes: sum of radiance times area, 64 bits */
-#define SDFGI_ACCUM_EMISSION_COVERED 9  /* area that emitters cover of columns, in 1/SDFGI_AREA_STEPS */
-#define SDFGI_ACCUM_EMISSION_FACING  10 /* a bit per axis +x -x +y -y +z -z from which emission is seen */
-#define SDFGI_ACCUM_NORMAL           11 /* per dominant axis 3 planes: count, sums of two slopes */
-#define SDFGI_ACCUM_EMISSION_AREA    20 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
-#define SDFGI_ACCUM_PLANES           21
-#define SDFGI_ALBEDO_STEPS           1023.0 /* as many as 10 bits hold */
-#define SDFGI_AREA_STEPS             65535.0
+#define SDFGI_ACCUM_ALBEDO         0  /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
+#define SDFGI_ACCUM_NORMAL         3  /* per dominant axis 3 planes: count, sums of two slopes */
+#define SDFGI_ACCUM_EMISSION       12 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */
+#define SDFGI_ACCUM_EMISSION_AREA  18 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
+#define SDFGI_ACCUM_EMISSION_SIDES 19 /* 6 planes: columns of it that +x -x +y -y +z -z see, in the same */
+#define SDFGI_ACCUM_PLANES         25
+#define SDFGI_ALBEDO_STEPS         1023.0 /* as many as 10 bits hold */
+#define SDFGI_AREA_STEPS           65535.0
 /* Radiance in units of stored emission, W/(m^2 sr) unless something is brighter than the last of these: the
  * step of sums, the weight of their upper word, the most. The sun's disc has 2e7; 1e-4 are 1,678 steps. */
 #define SDFGI_EMISSION_STEP  (1.0 / 16777216.0)
 #define SDFGI_EMISSION_UPPER 256.0
 #define SDFGI_EMISSION_MOST  67108864.0
 #define SDFGI_SLOPE_STEPS    127.0
-/* Samples of a dominant axis, and area that emitters cover, beyond which a block takes no more: three times
- * the former times SDFGI_ALBEDO_STEPS, and some threads' worth of the latter, fit 32 bits. */
+/* Samples of a dominant axis, and area of emitters, beyond which a block takes no more: three times the
+ * former times SDFGI_ALBEDO_STEPS fits 32 bits, and so does the brightest emission of the latter and of some
+ * threads more. */
 #define SDFGI_ACCUM_MOST_SAMPLES (1u << 20)
-#define SDFGI_ACCUM_MOST_COVERED (1u << 29)
+#define SDFGI_ACCUM_MOST_AREA    (1u << 27)
 
 /* Lights. */
 #define SDFGI_LIGHT_KIND_DIRECTIONAL 0u
