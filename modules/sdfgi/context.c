@@ -134,6 +134,7 @@ void sdfgi_destroy(sdfgi *gi)
         sdfgi_volume_finish(&gi->volume);
         gpu_retire_all(&backend->retired);
         sdfgi_views_finish(backend, &gi->views);
+        sdfgi_views_finish(backend, &gi->debug_views);
         sdfgi_scene_finish(&gi->scene);
         sdfgi_blank_set_finish(backend, &gi->blank);
         sdfgi_pipelines_finish(backend);

@@ -17,14 +17,20 @@ struct sdfgi {
     struct scene scene;
     struct volume volume;
     struct views views;
+    struct views debug_views; /* apart: their sets name no pictures of the host's but the output */
     struct sdfgi_settings settings;
     struct blank_set blank; /* for lookups while there is no light to show */
     struct frame frame;     /* this frame's; holds nothing between frames but what the report needs */
     struct pass_recorder recorder;
     struct pass_report passes[PASS_COUNT]; /* of the last update */
     uint32_t command_count;
+    float exposure_hint;   /* of the last update */
     bool can_cancel;       /* the last update has not been cancelled */
     uint32_t updates_lost; /* that never ran, as far as is known */
 };
+
+/* Records a pass over a picture whose set has been written, and adds it to the report. */
+void sdfgi_picture_record(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view,
+                          const struct work *work);
 
 #endif

@@ -26,6 +26,15 @@ static void report(struct sdfgi *gi, enum pass pass)
     line->tally.units += tally->units;
 }
 
+void sdfgi_picture_record(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view,
+                          const struct work *work)
+{
+    begin(gi, cmd, view);
+    sdfgi_pass_record(&gi->recorder, work);
+    sdfgi_pass_recorder_end(&gi->recorder);
+    report(gi, work->pass);
+}
+
 enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_gather_desc *desc)
 {
     if (!sdfgi_is_active(gi))
@@ -48,10 +57,7 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
                                             .input_layout = desc->input_layout,
                                             .diffuse = desc->output };
     sdfgi_view_write_set(&gi->backend, view, &pictures);
-    begin(gi, cmd, view);
-    sdfgi_pass_record(&gi->recorder, &work);
-    sdfgi_pass_recorder_end(&gi->recorder);
-    report(gi, work.pass);
+    sdfgi_picture_record(gi, cmd, view, &work);
     return SDFGI_OK;
 }
 

@@ -107,7 +107,11 @@
       TILE_LIST, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) | R(LIGHT) |             \
       R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | V(TILES), V(REFLECTION))                                 \
     X(REFLECT_FILTER, COMPUTE, reflect_filter, PIXELS, REFLECTIONS, OWN, DEMAND,                             \
-      TILE_LIST, gather, 1, VIEW, V(TILES) | V(DIFFUSE), V(REFLECTION) | V(FILTERED))
+      TILE_LIST, gather, 1, VIEW, V(TILES) | V(DIFFUSE), V(REFLECTION) | V(FILTERED))                        \
+    X(DEBUG_VIEW, COMPUTE, debug_view, PIXELS, DEBUG_VIEW, OWN, DEMAND,                                      \
+      PIXELS, debug_view, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(LIGHT) | R(PROBES) |           \
+      R(IRRADIANCE) | R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(ALBEDO) | R(SUMS) | R(MASKS) |         \
+      R(OCCLUSION) | R(GATHERED), V(DIFFUSE))
 /* clang-format on */
 
 enum pass {

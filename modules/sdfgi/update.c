@@ -80,8 +80,9 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 
     /* Destroy what the frame that ends now was the last to use. */
     gi->backend.retired.frame++;
-    gi->views.used = 0;
+    gi->views.used = gi->debug_views.used = 0;
     gi->can_cancel = true;
+    gi->exposure_hint = desc->exposure > 0 ? desc->exposure : 1;
     gpu_retire_collect(&gi->backend.retired);
     if (!gi->volume.resources) {
         report_off(gi);

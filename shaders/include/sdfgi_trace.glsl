@@ -87,6 +87,7 @@ struct sdfgi_trace_state {
     float t;
     ivec3 cell; /* that holds the ray at t */
     int axis;   /* along which the ray entered the cell or the sub-voxel, if it walked there */
+    uint steps; /* of the march */
 };
 
 void sdfgi_trace_enter_cascade(uint cascade, ivec3 base, vec3 origin, inout sdfgi_trace_state ray)
@@ -110,6 +111,7 @@ sdfgi_trace_state sdfgi_trace_start(sdfgi_trace_query query)
     ray.scale = 1.0;
     ray.travelled = 0.0;
     ray.axis = 0;
+    ray.steps = 0u;
     sdfgi_trace_enter_cascade(query.cascade, query.base, query.pos, ray);
     return ray;
 }
@@ -173,6 +175,7 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
     for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
         if (sdfgi_trace_length(ray) >= query.range)
             return SDFGI_TRACE_MISS;
+        ray.steps++;
         if (ray.at_border || !sdfgi_trace_is_valid(ray.volume, ray.cell)) {
             if (ray.cascade >= query.last_cascade)
                 return SDFGI_TRACE_MISS;

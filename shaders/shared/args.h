@@ -131,4 +131,15 @@ struct sdfgi_gather_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_gather_args, 88);
 
+/* debug_view. Begins as sdfgi_gather_args does. */
+struct sdfgi_debug_view_args {
+    vec4 inverse_view_projection[4]; /* columns */
+    uint width, height;
+    float background_depth;
+    uint view;      /* SDFGI_SHADER_DEBUG_* */
+    float exposure; /* factor on light */
+    float slice_m;  /* from the near plane to the slice; 0: a quarter of the finest cascade */
+};
+SDFGI_ASSERT_SIZE(sdfgi_debug_view_args, 88);
+
 #endif

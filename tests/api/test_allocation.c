@@ -5,6 +5,7 @@
 #include "gi_test.h"
 #include "require.h"
 
+#include <sdfgi/debug.h>
 #include <vulkan/vulkan.h>
 
 #include <stdio.h>
@@ -390,7 +391,14 @@ static struct sdfgi_gather_desc unused_gather(void)
                                        .inverse_view_projection = { 1 } };
 }
 
-/* Those for sdfgi_gather and for textures, which are made when they are asked for. */
+static struct sdfgi_debug_desc unused_debug(void)
+{
+    return (struct sdfgi_debug_desc){
+        .output = unused_view, .width = 1, .height = 1, .inverse_view_projection = { 1 }
+    };
+}
+
+/* Those for sdfgi_gather, sdfgi_debug_draw and textures, which are made when they are asked for. */
 static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
 {
     (void)state;
@@ -399,6 +407,7 @@ static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
     add_a_triangle(gi);
     update_twice(gi);
     const struct sdfgi_gather_desc gather = unused_gather();
+    const struct sdfgi_debug_desc debug = unused_debug();
     const struct sdfgi_material_desc material = { .albedo = { 1, 1, 1 },
                                                   .albedo_texture = { .view = unused_view } };
     for (uint32_t k = 1; k <= 2; k++) { /* its shader module, itself */
@@ -408,10 +417,13 @@ static void no_failure_to_make_a_late_pipeline_is_fatal(void **state)
         REQUIRE_CMP((int)sdfgi_gather(gi, unused_commands, &gather), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
         REQUIRE_CMP(failing_vulkan_calls(), ==, k);
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        REQUIRE_CMP((int)sdfgi_debug_draw(gi, unused_commands, &debug), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP(failing_vulkan_calls(), ==, k);
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         REQUIRE_CMP((int)sdfgi_material_create(gi, &material, &handle), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
         REQUIRE_CMP(failing_vulkan_calls(), ==, k);
         REQUIRE_CMP(handle.id, ==, 77u);
-        REQUIRE_CMP(memory_messages(), ==, 2u);
+        REQUIRE_CMP(memory_messages(), ==, 3u);
     }
     failing_vulkan_reset(0, VK_SUCCESS);
     sdfgi_destroy(gi);

@@ -4,6 +4,7 @@
 #include "gi_test.h"
 #include "require.h"
 
+#include <sdfgi/debug.h>
 #include <vulkan/vulkan.h>
 
 #include <string.h>
@@ -72,7 +73,7 @@ static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
     REQUIRE_CMP((int)sdfgi_update(user, cmd, &(struct sdfgi_frame_desc){ 0 }), ==, (int)SDFGI_OK);
 }
 
-/* Asks for the pipelines of sdfgi_gather and of textures, which are made when they are wanted. */
+/* Asks for the pipelines of sdfgi_gather, debug views and textures, which are made when they are wanted. */
 static void ask_for_late_pipelines(sdfgi *gi)
 {
     const VkImageView view = (VkImageView)(uintptr_t)1; /* refused before anything uses it */
@@ -82,14 +83,19 @@ static void ask_for_late_pipelines(sdfgi *gi)
                                               .width = 1,
                                               .height = 1,
                                               .inverse_view_projection = { 1 } };
+    const struct sdfgi_debug_desc debug = {
+        .output = view, .width = 1, .height = 1, .inverse_view_projection = { 1 }
+    };
     const struct sdfgi_material_desc textured = { .albedo_texture = { .view = view } };
     const uint32_t before = seen.compute;
     sdfgi_material material;
     seen.refuse = true;
     sdfgi_gather(gi, (VkCommandBuffer)(uintptr_t)1, &gather);
     REQUIRE_CMP(seen.compute, ==, before + 1);
-    sdfgi_material_create(gi, &textured, &material);
+    sdfgi_debug_draw(gi, (VkCommandBuffer)(uintptr_t)1, &debug);
     REQUIRE_CMP(seen.compute, ==, before + 2);
+    sdfgi_material_create(gi, &textured, &material);
+    REQUIRE_CMP(seen.compute, ==, before + 3);
 }
 
 /* Makes every kind of pipeline that there is. */

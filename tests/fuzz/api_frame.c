@@ -4,6 +4,7 @@
 
 #include "require.h"
 
+#include <sdfgi/debug.h>
 #include <sdfgi/inspect.h>
 
 #include <float.h>
@@ -23,6 +24,18 @@ static struct sdfgi_gather_desc gather_desc(struct api_world *w)
         .background_depth = 1,
         .resolution = (enum sdfgi_gather_resolution)api_below(w, 3),
     };
+}
+
+static void record_debug(struct api_world *w, VkCommandBuffer cmd)
+{
+    const struct sdfgi_gather_desc gather = gather_desc(w);
+    struct sdfgi_debug_desc desc = { .output = gather.output,
+                                     .width = gather.width,
+                                     .height = gather.height,
+                                     .background_depth = gather.background_depth,
+                                     .view = (enum sdfgi_debug_view)api_below(w, SDFGI_DEBUG_VIEW_COUNT) };
+    memcpy(desc.inverse_view_projection, gather.inverse_view_projection, sizeof desc.inverse_view_projection);
+    REQUIRE_CMP((int)sdfgi_debug_draw(w->t->gi, cmd, &desc), ==, (int)SDFGI_OK);
 }
 
 static void record_copy(struct api_world *w, VkCommandBuffer cmd)
@@ -48,6 +61,8 @@ static void record(VkCommandBuffer cmd, uint32_t index, void *user)
     }
     if (api_below(w, 8) == 0)
         record_copy(w, cmd);
+    if (api_below(w, 8) == 0)
+        record_debug(w, cmd);
 }
 
 static void check_report(struct api_world *w)

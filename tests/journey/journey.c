@@ -217,6 +217,14 @@ void journey_frame(struct journey *j, const double camera[static 3])
         journey_row_add(&row, columns[i],
                         journey_screen_gather(&j->screen, &j->t, (enum sdfgi_gather_resolution)i),
                         sizeof j->screen.pixels);
+    if (j->screen.made)
+        journey_row_add(&row, "REFLECT", journey_screen_reflect(&j->screen, &j->t), sizeof j->screen.pixels);
+    /* Another view in every frame. */
+    if (j->screen.made)
+        journey_row_add(&row, "DEBUG",
+                        journey_screen_debug(&j->screen, &j->t,
+                                             (enum sdfgi_debug_view)(row.frame % SDFGI_DEBUG_VIEW_COUNT)),
+                        sizeof j->screen.pixels);
     add_report(j, &row);
     journey_book_take(&row);
 }

@@ -146,7 +146,14 @@
     X(sdfgi_gather_args, background_depth)                                                                   \
     X(sdfgi_gather_args, step)                                                                               \
     X(sdfgi_gather_args, scale)                                                                              \
-    X(sdfgi_gather_args, filter_step)
+    X(sdfgi_gather_args, filter_step)                                                                        \
+    X(sdfgi_debug_view_args, inverse_view_projection)                                                        \
+    X(sdfgi_debug_view_args, width)                                                                          \
+    X(sdfgi_debug_view_args, height)                                                                         \
+    X(sdfgi_debug_view_args, background_depth)                                                               \
+    X(sdfgi_debug_view_args, view)                                                                           \
+    X(sdfgi_debug_view_args, exposure)                                                                       \
+    X(sdfgi_debug_view_args, slice_m)
 
 struct place {
     const char *type, *name;

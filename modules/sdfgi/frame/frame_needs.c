@@ -94,13 +94,13 @@ static bool needs_light(const struct situation *s)
     return bounces(s) || (!s->converged && needs_list(s));
 }
 
-/* A gather or a resolve is not planned with the frame: the host asks for it afterwards. */
 static bool needs_rescale(const struct situation *s)
 {
     return s->rescales;
 }
 
-static bool needs_gather(const struct situation *s)
+/* Pictures are not planned with the frame: the host asks for them afterwards. */
+static bool needs_picture(const struct situation *s)
 {
     (void)s;
     return false;
@@ -156,13 +156,15 @@ static const struct need_row needs[NEED_COUNT] = {
                       "no light cell has new light, or sdfgi_surface_light is probes" },
     [NEED_RESCALE] = { needs_rescale, "light is stored with another exposure",
                        "light is stored with the same exposure as before" },
-    [NEED_GATHER] = { needs_gather, "the host called sdfgi_gather or resolved a view",
+    [NEED_GATHER] = { needs_picture, "the host called sdfgi_gather or resolved a view",
                       "the host called for no picture at full resolution" },
-    [NEED_GATHER_SPARSE] = { needs_gather, "the host called for a picture at half or quarter resolution",
+    [NEED_GATHER_SPARSE] = { needs_picture, "the host called for a picture at half or quarter resolution",
                              "the host called for no picture at half or quarter resolution" },
-    [NEED_REFLECTIONS] = { needs_gather,
+    [NEED_REFLECTIONS] = { needs_picture,
                            "a material is smooth, and the host resolved a view with reflections",
                            "no material is smooth, or the host resolved no view with reflections" },
+    [NEED_DEBUG_VIEW] = { needs_picture, "the host called sdfgi_debug_draw",
+                          "the host did not call sdfgi_debug_draw" },
 };
 
 struct situation_needs sdfgi_frame_needs(const struct situation *situation)

@@ -185,6 +185,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_cell_gather:
     case ARGS_light_rescale:
     case ARGS_gather:
+    case ARGS_debug_view:
     case ARGS_COUNT:
         assert(sdfgi_pass_row(work->pass)->phase == PHASE_OWN);
         break;

@@ -19,6 +19,7 @@ enum {
     SIZE_light_rescale = ARGS_SIZE(light_rescale),
     SIZE_probe_blend = ARGS_SIZE(probe_blend),
     SIZE_gather = ARGS_SIZE(gather),
+    SIZE_debug_view = ARGS_SIZE(debug_view),
 };
 
 static const struct pass_row rows[PASS_COUNT] = {

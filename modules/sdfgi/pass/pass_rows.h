@@ -40,6 +40,7 @@ enum need {
     NEED_GATHER,
     NEED_GATHER_SPARSE,
     NEED_REFLECTIONS,
+    NEED_DEBUG_VIEW,
     NEED_COUNT,
 };
 
@@ -85,6 +86,7 @@ enum pass_args {
     ARGS_light_rescale,
     ARGS_probe_blend,
     ARGS_gather,
+    ARGS_debug_view,
     ARGS_COUNT,
 };
 

@@ -55,7 +55,8 @@ union work_args {
     struct sdfgi_cell_gather_args cell_gather;
     struct sdfgi_light_rescale_args light_rescale;
     struct sdfgi_probe_blend_args probe_blend;
-    struct sdfgi_gather_args gather;
+    struct sdfgi_gather_args gather; /* also the beginning of what other passes of DOMAIN_PIXELS have */
+    struct sdfgi_debug_view_args debug_view;
 };
 
 enum work_kind {
