@@ -133,7 +133,8 @@ void host_targets_finish(struct host_renderer *renderer)
     host_image_destroy(renderer->device, &t->depth);
     host_image_destroy(renderer->device, &t->picture);
     vkDestroyImageView(device, t->roughness, NULL);
-    host_gi_view_destroy(renderer->gi, t->view);
+    if (t->view)
+        host_gi_view_destroy(renderer->gi, t->view);
     *t = (struct host_targets){ 0 };
     renderer->has_frame = false;
 }

@@ -9,7 +9,7 @@
 #ifndef SDFGI_GLSL
 #define SDFGI_GLSL
 
-#include "sdfgi_lookup.glsl"
+#include "sdfgi_air.glsl"
 
 /* Indirect diffuse irradiance E (W/m^2) at a surface point with unit normal. A Lambertian surface reflects
  * albedo * E / pi. E includes light that comes straight from the sky and from emissive surfaces, and excludes
@@ -24,20 +24,33 @@ vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
         return vec3(0.0);
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
     const sdfgi_lookup_query query =
-        sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_first_from_position(position), normal, normal, to_eye);
+        sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_first_from_position(position), normal, to_eye);
     return to_watts * sdfgi_lookup(query).rgb;
 }
 
-/* The same in the air, for particles and fog: the irradiance of a small surface that faces `direction`. The
- * mean of E over all directions, over pi, is the mean radiance, which a medium scatters. */
+/* Light at a point of the air from all directions, for media and particles, as radiance: see sdfgi_air_light.
+ * `direction` is a unit vector, that of `towards`.
+ *
+ * A medium scatters the mean evenly. One with a phase function of mean cosine g sends the viewer
+ * mix(mean, towards, min(1.5 * abs(g), 1)) times its albedo, if `direction` leads from the viewer to the
+ * point, or the other way where g < 0. For abs(g) up to 2/3 that is exact in the first two orders of
+ * spherical harmonics. Even light is scattered without loss, and nothing gets brighter than what arrives. */
+sdfgi_air_light sdfgi_light_air(vec3 position, vec3 direction)
+{
+    sdfgi_air_light light = sdfgi_air_light(vec3(0.0), vec3(0.0), 0.0);
+    if (sdfgi_frame.cascade_count == 0u)
+        return light;
+    const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
+    light = sdfgi_air_lookup(sdfgi_first_from_position(position), direction);
+    light.mean *= scale;
+    light.towards *= scale;
+    return light;
+}
+
+/* The irradiance E (W/m^2) of a small surface in the air that faces `direction`. */
 vec3 sdfgi_irradiance_air(vec3 position, vec3 direction)
 {
-    if (sdfgi_frame.cascade_count == 0u)
-        return vec3(0.0);
-    const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    const sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_AIR, sdfgi_first_from_position(position),
-                                                        direction, direction, vec3(0.0));
-    return to_watts * sdfgi_lookup(query).rgb;
+    return 3.14159265 * sdfgi_light_air(position, direction).towards;
 }
 
 #endif

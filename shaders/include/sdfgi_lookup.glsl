@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Light at a point. The finest cascade around it answers: at a surface its light cells, or its probes where
- * no light cell is near; in the air its probes. In the cascade blend, and where a cascade has no answer, the
+ * no light cell is near. In the cascade blend, and where a cascade has no answer, the
  * next coarser one takes over, and beyond the last one the sky does. */
 #ifndef SDFGI_LOOKUP_GLSL
 #define SDFGI_LOOKUP_GLSL
@@ -21,29 +21,25 @@ float sdfgi_lookup_cascade_weight(uint cascade, vec3 pos)
 
 /* What is looked up at a point. */
 struct sdfgi_lookup_query {
-    uint what;    /* SDFGI_LOOKUP_* */
-    vec3 pos;     /* in cell space of cascade 0 */
-    vec3 normal;  /* of the surface at the point */
-    vec3 towards; /* AIR: normal of the surface at which light arrives */
-    vec3 to_eye;  /* to the viewer, in metres */
+    uint what;   /* SDFGI_LOOKUP_* */
+    vec3 pos;    /* in cell space of cascade 0 */
+    vec3 normal; /* of the surface at the point */
+    vec3 to_eye; /* to the viewer, in metres */
 };
 
 const uint SDFGI_LOOKUP_SURFACE = 0u; /* irradiance over pi of a surface: light cells answer, else probes */
-const uint SDFGI_LOOKUP_AIR = 1u;     /* irradiance over pi in the air: probes answer */
-const uint SDFGI_LOOKUP_LEAVING = 2u; /* radiance that leaves a surface: light cells answer */
+const uint SDFGI_LOOKUP_LEAVING = 1u; /* radiance that leaves a surface: light cells answer */
 
 /* Light times exposure and weight in rgb, and its weight in a, of one cascade. */
 vec4 sdfgi_lookup_cascade(uint cascade, vec3 pos, sdfgi_lookup_query query)
 {
     const float reach_m = length(query.to_eye) / SDFGI_CELLS_REACH;
     const vec3 eye = query.to_eye / max(reach_m, sdfgi_frame.cascades[cascade].cell_m);
-    vec4 light = vec4(0.0);
-    if (query.what != SDFGI_LOOKUP_AIR)
-        light = sdfgi_cells_lookup(cascade, pos, query.normal, eye,
-                                   query.what == SDFGI_LOOKUP_LEAVING ? SDFGI_CELLS_LEAVING
-                                                                      : SDFGI_CELLS_ARRIVING);
+    vec4 light =
+        sdfgi_cells_lookup(cascade, pos, query.normal, eye,
+                           query.what == SDFGI_LOOKUP_LEAVING ? SDFGI_CELLS_LEAVING : SDFGI_CELLS_ARRIVING);
     if (query.what != SDFGI_LOOKUP_LEAVING && light.a <= 0.0)
-        light = sdfgi_probes_lookup(cascade, pos, query.normal, query.towards, eye);
+        light = sdfgi_probes_lookup(cascade, pos, query.normal, eye);
     return light;
 }
 
@@ -66,7 +62,7 @@ vec4 sdfgi_lookup(sdfgi_lookup_query query)
         result += rest * weight * light.rgb / light.a;
         rest *= 1.0 - weight;
     }
-    const vec3 sky = sdfgi_sky_irradiance(query.towards, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
+    const vec3 sky = sdfgi_sky_irradiance(query.normal, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
                                           sdfgi_frame.sky_ground);
     /* What no cascade has answered, although it lies within one, is not outside: the others stand for it. */
     const float answered = 1.0 - rest + outside;

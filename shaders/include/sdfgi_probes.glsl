@@ -27,14 +27,20 @@ float sdfgi_probe_weight(vec3 trilinear, vec3 offset, vec3 normal)
     return (trilinear.x * trilinear.y * trilinear.z + 1e-4) * max(facing * facing, 1e-2);
 }
 
+/* The trilinear weight of probe k of a cage at a position in cell space, a factor per axis. */
+vec3 sdfgi_probe_trilinear(ivec3 cage, int k, vec3 pos)
+{
+    const vec3 f = sdfgi_cage_coords(cage, pos);
+    return mix(1.0 - f, f, vec3(sdfgi_cage_corner(k)));
+}
+
 /* The weight of probe k of a cage at a position in cell space. */
 float sdfgi_probe_weight_at(uint cascade, ivec3 cage, int k, vec3 pos, vec3 normal)
 {
-    const ivec3 corner = sdfgi_cage_corner(k), probe = cage + corner;
+    const ivec3 probe = cage + sdfgi_cage_corner(k);
     const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
-    const vec3 f = sdfgi_cage_coords(cage, pos);
     const vec3 offset = sdfgi_metric_from_cells(sdfgi_probe_position(probe, state) - pos);
-    return sdfgi_probe_weight(mix(1.0 - f, f, vec3(corner)), offset, normal);
+    return sdfgi_probe_weight(sdfgi_probe_trilinear(cage, k, pos), offset, normal);
 }
 
 /* The radius, in cell widths, of a sphere around a point of the cell space that holds no set sub-voxel. */
@@ -110,12 +116,11 @@ uint sdfgi_probes_around(uint cascade, ivec3 cage, vec3 pos)
     return sdfgi_probes_connected(seen, links);
 }
 
-/* Irradiance over pi times exposure that arrives at a surface with the normal `towards`, times weight, in
- * rgb, and its weight in a; all 0 if no probe is seen. `normal` is that of the surface at the point. A point
- * at a surface is moved off it along its normal and, half as far, towards the viewer, who is known to be on
- * the open side (Majercik et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global Illumination", section
- * 3.2). */
-vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 towards, vec3 eye)
+/* Irradiance over pi times exposure, times weight, in rgb, and its weight in a; all 0 if no probe is
+ * seen. A point at a surface is moved off it along its normal and, half as far, towards the viewer, who is
+ * known to be on the open side (Majercik et al. 2021, "Scaling Probe-Based Real-Time Dynamic Global
+ * Illumination", section 3.2). */
+vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 eye)
 {
     vec3 pos = surface;
     if (sdfgi_free_radius(cascade, pos) <= 0.0)
@@ -128,7 +133,7 @@ vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 towards, 
             continue;
         const float weight = sdfgi_probe_weight_at(cascade, cage, k, pos, normal);
         const sdfgi_irradiance_texel texel =
-            sdfgi_irradiance_of_probe(cascade, cage + sdfgi_cage_corner(k), towards);
+            sdfgi_irradiance_of_probe(cascade, cage + sdfgi_cage_corner(k), normal);
         sum += vec4(texel.light, 1.0) * (weight * texel.confidence);
     }
     return sum.a > 1e-6 ? sum : vec4(0.0);

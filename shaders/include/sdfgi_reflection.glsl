@@ -118,7 +118,7 @@ float sdfgi_reflection_ray_share(float roughness)
 sdfgi_lookup_query sdfgi_reflection_leaving(sdfgi_reflection_hit hit, vec3 dir)
 {
     const vec3 normal = vec3(sdfgi_axis_direction(hit.axis));
-    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.pos, normal, normal, -dir * hit.distance_m);
+    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.pos, normal, -dir * hit.distance_m);
 }
 
 /* All light that a ray meets, times exposure. `rough` stands for surfaces of which nothing is known. One
@@ -158,7 +158,7 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
     if (share > 0.0)
         ray = sdfgi_reflection_trace(pos, normal, dir);
     vec3 rough = vec3(0.0), light = ray.light;
-    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, normal, normal, to_eye);
+    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, normal, to_eye);
     float weight = 1.0;
     /* The surface first, then what the ray hit. One loop, so that drivers compile the lookup once. */
     for (uint i = 0u; i < 3u && weight > 0.0; i++) {

@@ -8,6 +8,12 @@ vec3 sdfgi_sky_radiance(vec3 dir, vec3 zenith, vec3 horizon, vec3 ground)
     return mix(horizon, dir.y >= 0.0 ? zenith : ground, abs(dir.y));
 }
 
+/* Mean radiance over all directions. */
+vec3 sdfgi_sky_mean(vec3 zenith, vec3 horizon, vec3 ground)
+{
+    return 0.5 * horizon + 0.25 * (zenith + ground);
+}
+
 /* Mean of max(0, d.y) over the directions d of a hemisphere, weighted by the cosine to its normal, where y is
  * the normal's y. A parabola through the exact values at y = 1 (2/3), 0 (2 / (3 pi)) and -1 (0); quadrature
  * differs by at most 0.006. */

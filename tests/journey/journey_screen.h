@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A small screen for sdfgi_gather, sdfgi_view_resolve and sdfgi_debug_draw: a level plane below the origin, seen from above, with
- * holes. */
+ * A small screen for sdfgi_gather, sdfgi_view_resolve and sdfgi_debug_draw: a level plane below the origin,
+ * seen from above, with holes. */
 #ifndef TEST_JOURNEY_SCREEN_H
 #define TEST_JOURNEY_SCREEN_H
 

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT
+ * Light in the air: what a medium scatters agrees with what surfaces at the same place get. */
+#include "gpu_test_compute.h"
+#include "light_scene.h"
+#include "require.h"
+
+#include "air_light.comp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* As air_light.comp has it. Radiance; irradiance in W/m^2. */
+struct sample {
+    float position[4], direction[4];
+    float mean[3], known, towards[4];
+    float irradiance[4], surface[4];
+};
+
+enum { DIRECTIONS = 128 };
+
+static void look_up(struct gi_test *t, struct sample *samples, uint32_t count)
+{
+    const struct gpu_test_shader shader = { air_light_comp, sizeof air_light_comp,
+                                            sdfgi_get_descriptor_set_layout(t->gi),
+                                            sdfgi_get_descriptor_set(t->gi) };
+    gpu_test_compute(&t->gpu, &shader, count, samples, count * sizeof *samples);
+}
+
+/* Spread evenly over the sphere. */
+static void set_direction(struct sample *sample, int i)
+{
+    const double y = 1 - (2 * i + 1.0) / DIRECTIONS, angle = 2.39996323 * i, flat = sqrt(1 - y * y);
+    sample->direction[0] = (float)(flat * cos(angle));
+    sample->direction[1] = (float)y;
+    sample->direction[2] = (float)(flat * sin(angle));
+}
+
+/* All directions at one place. */
+static void look_around(struct gi_test *t, const float position[static 3], struct sample samples[DIRECTIONS])
+{
+    memset(samples, 0, DIRECTIONS * sizeof *samples);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        memcpy(samples[i].position, position, 3 * sizeof(float));
+        set_direction(&samples[i], i);
+    }
+    look_up(t, samples, DIRECTIONS);
+}
+
+static void a_furnace_is_even_in_the_air(void **state)
+{
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_restart(t, &settings);
+    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 1, test_rotation_none),
+              0.5f, 1);
+    gi_test_converge(t, 200);
+    static const float places[][3] = { { 0, 0, 0 }, { 1.2f, -0.4f, 0.3f }, { -1.3f, -1.3f, 1.3f } };
+    struct sample samples[DIRECTIONS];
+    for (int p = 0; p < 3; p++) {
+        double worst = 0;
+        look_around(t, places[p], samples);
+        for (int i = 0; i < DIRECTIONS; i++)
+            for (int c = 0; c < 3; c++) {
+                worst = fmax(worst, fabs((double)samples[i].mean[c] / 2 - 1));
+                worst = fmax(worst, fabs((double)samples[i].towards[c] / 2 - 1));
+            }
+        printf("furnace, place %d: off by %.4f, known %.3f\n", p, worst, (double)samples[0].known);
+        REQUIRE_CMP(worst, <=, 0.02);
+        REQUIRE_NEAR(samples[0].known, 1, 1e-6);
+    }
+}
+
+static void nothing_is_known_within_a_wall(void **state)
+{
+    struct gi_test *t = *state;
+    struct sample sample = { .position = { 1.55f, 0.1f, 0.2f }, .direction = { 0, 1, 0 } };
+    look_up(t, &sample, 1);
+    REQUIRE_TRUE(sample.known == 0 && sample.mean[1] == 0 && sample.towards[1] == 0);
+}
+
+static void the_mean_of_a_gradient_sky_is_exact(void **state)
+{
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_restart(t, &settings);
+    const struct sdfgi_sky sky = { { 3, 3, 3 }, { 1, 1, 1 }, { 0.2f, 0.2f, 0.2f } };
+    REQUIRE_CMP(sdfgi_set_sky(t->gi, &sky), ==, SDFGI_OK);
+    gi_test_converge(t, 60);
+    struct sample samples[] = { { .position = { 0.4f, 0.2f, -0.3f }, .direction = { 0, 1, 0 } },
+                                { .position = { 500, 2, 1 }, .direction = { 0, 1, 0 } } };
+    const double exact = 0.5 + 0.25 * 3.2;
+    look_up(t, samples, 2);
+    for (int i = 0; i < 2; i++) {
+        printf("gradient sky, %s: mean %.4f, exact %.4f; known %.3f\n", i ? "far out" : "in the cascade",
+               (double)samples[i].mean[1], exact, (double)samples[i].known);
+        REQUIRE_NEAR(samples[i].mean[1], exact, 0.01 * exact);
+        REQUIRE_NEAR(samples[i].known, 1, 1e-6);
+    }
+}
+
+/* A black room of 6 m of which one wall, at x = -2.5 m, glows with a radiance of 1. */
+static void open_black_room(struct gi_test *t)
+{
+    const struct sdfgi_settings settings = light_settings(64, 0.125f);
+    const float black[3] = { 0, 0, 0 };
+    gi_test_restart(t, &settings);
+    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 3, 3, 3 }, 0.5, test_rotation_none), 0, 0);
+    light_add_box(t, (double[]){ -3, -3, -3 }, (double[]){ -2.5, 3, 3 }, black, 1);
+    gi_test_converge(t, 300);
+}
+
+/* The share of all directions that the glowing wall fills: a rectangle between the foot of the perpendicular
+ * and a corner fills atan(a b / (d sqrt(a^2 + b^2 + d^2))). */
+static double exact_mean(const float at[static 3])
+{
+    const double d = (double)at[0] + 2.5;
+    double angle = 0;
+    for (int i = 0; i < 4; i++) {
+        const double a = 3 + (i & 1 ? -1 : 1) * (double)at[1], b = 3 + (i & 2 ? -1 : 1) * (double)at[2];
+        angle += atan(a * b / (d * sqrt(a * a + b * b + d * d)));
+    }
+    return angle / (4 * PI);
+}
+
+static void a_glowing_wall_fills_its_solid_angle(void **state)
+{
+    struct gi_test *t = *state;
+    struct sample samples[] = { { .position = { 0.1f, 0.2f, -0.3f }, .direction = { 1, 0, 0 } },
+                                { .position = { -1.2f, 1.1f, 0.9f }, .direction = { 1, 0, 0 } },
+                                { .position = { 2.2f, -1, 0.6f }, .direction = { 1, 0, 0 } } };
+    open_black_room(t);
+    look_up(t, samples, 3);
+    for (int i = 0; i < 3; i++) {
+        const double exact = exact_mean(samples[i].position), found = (double)samples[i].mean[1];
+        printf("place %d: mean %.4f, exact %.4f, ratio %.4f\n", i, found, exact, found / exact);
+        REQUIRE_NEAR(found / exact, 1, 0.04);
+    }
+}
+
+/* In the middle of the room there are no light cells: probes answer for surfaces, too. */
+static void the_air_and_a_floating_surface_get_the_same(void **state)
+{
+    struct gi_test *t = *state;
+    static const float places[][3] = { { 0.1f, 0.2f, -0.3f }, { -1.2f, 1.1f, 0.9f }, { 1.4f, -1, 0.6f } };
+    struct sample samples[DIRECTIONS];
+    open_black_room(t);
+    for (int p = 0; p < 3; p++) {
+        double air = 0, surface = 0;
+        look_around(t, places[p], samples);
+        for (int i = 0; i < DIRECTIONS; i++) {
+            const double e = (double)samples[i].irradiance[1], brightest = PI;
+            air = fmax(air, fabs((double)samples[i].towards[1] * PI - e) / brightest);
+            surface = fmax(surface, fabs((double)samples[i].surface[1] - e) / brightest);
+        }
+        printf("place %d: towards off by %.6f, surface by %.6f\n", p, air, surface);
+        REQUIRE_CMP(air, <=, 1e-3);
+        REQUIRE_CMP(surface, <=, 0.01);
+    }
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_open(&t, &settings);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate(a_furnace_is_even_in_the_air, &t),
+        cmocka_unit_test_prestate(nothing_is_known_within_a_wall, &t),
+        cmocka_unit_test_prestate(the_mean_of_a_gradient_sky_is_exact, &t),
+        cmocka_unit_test_prestate(a_glowing_wall_fills_its_solid_angle, &t),
+        cmocka_unit_test_prestate(the_air_and_a_floating_surface_get_the_same, &t),
+    };
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    gi_test_close(&t);
+    return failed;
+}
