@@ -134,7 +134,8 @@ void host_renderer_get_report(const struct host_renderer *renderer, struct sdfgi
 /* Adopts a new size; the pictures made so far are lost. */
 bool host_renderer_resize(struct host_renderer *renderer, uint32_t width, uint32_t height);
 
-/* Records and submits one frame: GI update, shadow maps that are missing, prepass, lookup, forward pass. */
+/* Records and submits one frame: GI update, shadow maps that are missing, prepass, lookup, fog, forward
+ * pass. */
 bool host_renderer_frame(struct host_renderer *renderer, const struct host_camera *camera);
 
 /* The same without update and lookup, for its time. GI is left as it is, and pictures that are read
@@ -149,6 +150,7 @@ struct host_times {
     uint64_t frame_ns;  /* all of it */
     uint64_t update_ns; /* of this, what sdfgi_update recorded */
     uint64_t shadow_ns; /* of this, shadow maps: only those that are missing are drawn */
+    uint64_t fog_ns;    /* of this, fog's froxels; 0 without fog */
 };
 
 /* Those of the newest finished frame. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * One frame: GI update, shadow maps, prepass, lookup, forward pass. */
+ * One frame: GI update, shadow maps, prepass, lookup, fog, forward pass. */
 #include "host_internal.h"
 #include "host_math.h"
 
@@ -17,21 +17,27 @@ static uint64_t span_ns(const struct host_device *device, const uint64_t *stamps
     return (uint64_t)((double)ticks * (double)device->limits.timestampPeriod);
 }
 
+static uint32_t stamp_count(const struct host_renderer *renderer)
+{
+    return host_fog_exists(renderer->scene) ? HOST_STAMP_COUNT : HOST_STAMP_PLAIN_COUNT;
+}
+
 static bool timestamps_read(struct host_renderer *renderer, const struct host_slot *slot)
 {
     struct host_device *device = renderer->device;
-    uint64_t stamps[HOST_STAMP_COUNT];
+    uint64_t stamps[HOST_STAMP_COUNT] = { 0 };
     if (!renderer->queries)
         return true;
     const VkResult result = vkGetQueryPoolResults(
-        device->device, renderer->queries, HOST_STAMP_COUNT * slot_index(renderer, slot), HOST_STAMP_COUNT,
-        sizeof(stamps), stamps, sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT);
+        device->device, renderer->queries, HOST_STAMP_COUNT * slot_index(renderer, slot),
+        stamp_count(renderer), sizeof(stamps), stamps, sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT);
     if (result != VK_SUCCESS)
         return host_check(device, result, "reading times"); /* not ready is no failure */
     renderer->times = (struct host_times){
         .frame_ns = span_ns(device, stamps, HOST_STAMP_BEGIN, HOST_STAMP_END),
         .update_ns = span_ns(device, stamps, HOST_STAMP_BEGIN, HOST_STAMP_UPDATED),
         .shadow_ns = span_ns(device, stamps, HOST_STAMP_UPDATED, HOST_STAMP_SHADOWED),
+        .fog_ns = span_ns(device, stamps, HOST_STAMP_SEEN, HOST_STAMP_FOGGED),
     };
     return true;
 }
@@ -126,6 +132,7 @@ static void frame_fill(const struct host_renderer *renderer, struct host_frame_d
     }
     for (uint32_t i = 0; i < renderer->scene->sun_count; i++)
         host_sun_fill(renderer, i, &out->suns[i]);
+    host_fog_fill(renderer, out);
 }
 
 static void light_fill(const struct host_renderer *renderer, uint32_t index, struct host_light_data *out)
@@ -191,7 +198,8 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
     VkCommandBuffer cmd = slot->cmd;
 
     /* Let the library do its share. GI may have been switched since the last frame. */
-    if ((update_gi && !gi_record(renderer, cmd)) || !host_forward_prepare(renderer)) {
+    if ((update_gi && !gi_record(renderer, cmd)) || !host_forward_prepare(renderer) ||
+        !host_fog_prepare(renderer)) {
         vkEndCommandBuffer(cmd);
         return false;
     }
@@ -212,6 +220,13 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
     if (!host_lookup_record(renderer, slot)) {
         vkEndCommandBuffer(cmd);
         return false;
+    }
+
+    /* Light the fog in front of it. */
+    if (host_fog_exists(renderer->scene)) {
+        stamp(renderer, slot, HOST_STAMP_SEEN);
+        host_fog_record(renderer, cmd, slot->set);
+        stamp(renderer, slot, HOST_STAMP_FOGGED);
     }
 
     /* Shade it, and nothing else. */

@@ -65,13 +65,13 @@ struct host_image {
     VkDeviceMemory memory;
     VkImageView view;
     VkFormat format;
-    uint32_t width, height, layers, mips;
+    uint32_t width, height, depth, layers, mips; /* depth: 0: two dimensions */
 };
 
 struct host_image_desc {
     VkFormat format;
-    uint32_t width, height, layers, mips; /* layers, mips: 0: 1 */
-    bool array_view;                      /* 2D_ARRAY even with one layer */
+    uint32_t width, height, depth, layers, mips; /* depth: 0: two dimensions; layers, mips: 0: 1 */
+    bool array_view;                             /* 2D_ARRAY even with one layer */
     VkImageUsageFlags usage;
 };
 
@@ -158,6 +158,7 @@ struct host_scene {
     struct host_material *materials;
     struct host_scene_light *suns, *lights;
     struct host_sky sky;
+    struct host_fog fog;
     uint32_t primitive_count, instance_count, material_count, sun_count, light_count;
     double center[3], radius; /* of everything drawn; the centre in whole 1/64 m */
 };
@@ -234,10 +235,17 @@ void host_passes_finish(struct host_device *device, struct host_passes *passes);
 /* A pass that fills one colour image and leaves it in `final_layout`. */
 bool host_pass_picture_create(struct host_device *device, VkFormat format, VkImageLayout final_layout,
                               VkRenderPass *out);
+/* `fog`: frames have fog. */
 bool host_pipelines_init(struct host_device *device, const struct host_passes *passes,
-                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout,
+                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout, bool fog,
                          struct host_pipelines *pipelines);
 void host_pipelines_finish(struct host_device *device, struct host_pipelines *pipelines);
+/* Bindings from 0 on, one descriptor each. */
+bool host_set_layout_create(struct host_device *device, const VkDescriptorType *types, uint32_t count,
+                            VkShaderStageFlags stages, VkDescriptorSetLayout *out);
+/* A push constant range of size 0 is none. */
+bool host_pipeline_layout_create(struct host_device *device, const VkDescriptorSetLayout *sets,
+                                 uint32_t set_count, VkPushConstantRange push, VkPipelineLayout *out);
 bool host_pipeline_compute_create(struct host_device *device, const uint32_t *words, size_t bytes,
                                   VkPipelineLayout layout, VkPipeline *out);
 bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
@@ -278,7 +286,8 @@ void host_shadows_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_sun_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_sun_fill(const struct host_renderer *renderer, uint32_t sun, struct host_sun_data *out);
 
-/* ---- Frame (host_camera.c, host_draw.c, host_lookup.c, host_renderer.c, host_frame.c, host_read.c)
+/* ---- Frame (host_camera.c, host_draw.c, host_lookup.c, host_fog.c, host_renderer.c, host_frame.c,
+ * host_read.c)
  * ----------------- */
 
 /* A camera resolved for one frame. Everything in float is relative to `origin`. */
@@ -299,6 +308,9 @@ enum host_stamp {
     HOST_STAMP_UPDATED,
     HOST_STAMP_SHADOWED,
     HOST_STAMP_END,
+    HOST_STAMP_PLAIN_COUNT,                   /* without fog there are no others */
+    HOST_STAMP_SEEN = HOST_STAMP_PLAIN_COUNT, /* fog begins */
+    HOST_STAMP_FOGGED,
     HOST_STAMP_COUNT
 };
 
@@ -329,6 +341,23 @@ struct host_sampler {
     struct host_buffer results;
 };
 
+/* Froxels, and the passes that fill them (host_fog.c); all empty where there is no fog. */
+struct host_fog_passes {
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout, air_layout; /* sets frame, fog[, GI] */
+    VkPipeline tiles, scatter, integrate;
+    VkPipeline air; /* once GI has light */
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    VkSampler sampler;
+    struct host_image volume; /* froxels, and a slice more: see fog_integrate.comp */
+    struct host_image blocks; /* of froxels: GI's light in the air */
+    struct host_buffer seen;  /* of the picture, by columns */
+    uint32_t tile_side;       /* pixels of the target */
+    float scale;              /* what froxels hold over radiance */
+    double range_m;           /* to the far side of the last slice */
+};
+
 struct host_renderer {
     struct host_device *device;
     struct host_scene *scene;
@@ -348,6 +377,7 @@ struct host_renderer {
     VkSampler nearest;
     struct host_buffer exposure;
     struct host_sampler sampler;
+    struct host_fog_passes fog;
     VkQueryPool queries;     /* HOST_STAMP_COUNT per slot */
     struct host_times times; /* of the newest finished frame */
     uint64_t submit_count;
@@ -394,6 +424,19 @@ void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height);
 bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot);
 /* Makes the view of a picture of this size, unless lookups are made where surfaces are shaded. */
 bool host_lookup_init(struct host_renderer *renderer, uint32_t width, uint32_t height);
+
+bool host_fog_exists(const struct host_scene *scene);
+/* These do nothing where there is no fog. */
+bool host_fog_init(struct host_renderer *renderer);
+void host_fog_finish(struct host_renderer *renderer);
+/* Of the size of the targets, into the sets of all slots. */
+bool host_fog_targets_init(struct host_renderer *renderer);
+void host_fog_targets_finish(struct host_renderer *renderer);
+/* Makes the pipeline that is missing, if GI has come. */
+bool host_fog_prepare(struct host_renderer *renderer);
+void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data *out);
+/* Fills the froxels of what the prepass has drawn. Only where there is fog. */
+void host_fog_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set);
 
 void host_sampler_finish(struct host_renderer *renderer);
 

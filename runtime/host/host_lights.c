@@ -69,5 +69,6 @@ bool host_lights_init(struct host_scene *scene, const struct gltf_scene *gltf, c
         return host_fail(scene->device, "%u directional lights: the renderer has shadow maps for %d",
                          scene->sun_count, HOST_MAX_SUNS);
     scene->sky = view->sky;
+    scene->fog = view->fog;
     return true;
 }

@@ -4,13 +4,17 @@
 
 #include "host_exposure_comp.h"
 #include "host_forward_frag.h"
+#include "host_forward_fog_frag.h"
 #include "host_forward_gathered_frag.h"
+#include "host_forward_gathered_fog_frag.h"
 #include "host_forward_gi_frag.h"
+#include "host_forward_gi_fog_frag.h"
 #include "host_prepass_frag.h"
 #include "host_screen_vert.h"
 #include "host_shadow_frag.h"
 #include "host_shadow_vert.h"
 #include "host_sky_frag.h"
+#include "host_sky_fog_frag.h"
 #include "host_surface_vert.h"
 #include "host_tonemap_frag.h"
 
@@ -164,8 +168,8 @@ static bool pipeline_create(struct host_device *device, const struct pipeline_de
 
 /* ---- Layouts ---------------------------------------------------------------------------------------- */
 
-static bool set_layout_create(struct host_device *device, const VkDescriptorType *types, uint32_t count,
-                              VkShaderStageFlags stages, VkDescriptorSetLayout *out)
+bool host_set_layout_create(struct host_device *device, const VkDescriptorType *types, uint32_t count,
+                            VkShaderStageFlags stages, VkDescriptorSetLayout *out)
 {
     VkDescriptorSetLayoutBinding bindings[8];
     for (uint32_t i = 0; i < count; i++)
@@ -180,26 +184,34 @@ static bool set_layout_create(struct host_device *device, const VkDescriptorType
                       "creating a descriptor set layout");
 }
 
-static bool pipeline_layout_create(struct host_device *device, const VkDescriptorSetLayout *sets,
-                                   uint32_t set_count, VkPushConstantRange push, VkPipelineLayout *out)
+bool host_pipeline_layout_create(struct host_device *device, const VkDescriptorSetLayout *sets,
+                                 uint32_t set_count, VkPushConstantRange push, VkPipelineLayout *out)
 {
     const VkPipelineLayoutCreateInfo info = { .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                               .setLayoutCount = set_count,
                                               .pSetLayouts = sets,
-                                              .pushConstantRangeCount = 1,
+                                              .pushConstantRangeCount = push.size > 0 ? 1 : 0,
                                               .pPushConstantRanges = &push };
     return host_check(device, vkCreatePipelineLayout(device->device, &info, NULL, out),
                       "creating a pipeline layout");
 }
 
-static bool layouts_create(struct host_device *device, VkDescriptorSetLayout material_layout,
-                           VkDescriptorSetLayout gi_layout, struct host_pipelines *p)
+/* The last binding is that of froxels, which compute shaders fill. */
+static bool frame_layout_create(struct host_device *device, bool fog, VkDescriptorSetLayout *out)
 {
-    static const VkDescriptorType frame_types[] = { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                                    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER };
+    static const VkDescriptorType types[] = {
+        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    };
+    const VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    return host_set_layout_create(device, types, fog ? HOST_FOG_BINDING + 1 : HOST_FOG_BINDING,
+                                  fog ? stages | VK_SHADER_STAGE_COMPUTE_BIT : stages, out);
+}
+
+static bool layouts_create(struct host_device *device, VkDescriptorSetLayout material_layout,
+                           VkDescriptorSetLayout gi_layout, bool fog, struct host_pipelines *p)
+{
     static const VkDescriptorType light_types[] = { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                                     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER };
     static const VkDescriptorType post_types[] = { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
@@ -208,19 +220,19 @@ static bool layouts_create(struct host_device *device, VkDescriptorSetLayout mat
                                        sizeof(struct host_push) };
     const VkPushConstantRange tone = { VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                                        sizeof(struct host_tone_push) };
-    if (!set_layout_create(device, frame_types, HOST_COUNT(frame_types),
-                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->frame_layout) ||
-        !set_layout_create(device, post_types, HOST_COUNT(post_types),
-                           VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, &p->post_layout) ||
-        !set_layout_create(device, light_types, HOST_COUNT(light_types), VK_SHADER_STAGE_FRAGMENT_BIT,
-                           &p->light_layout))
+    if (!frame_layout_create(device, fog, &p->frame_layout) ||
+        !host_set_layout_create(device, post_types, HOST_COUNT(post_types),
+                                VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+                                &p->post_layout) ||
+        !host_set_layout_create(device, light_types, HOST_COUNT(light_types), VK_SHADER_STAGE_FRAGMENT_BIT,
+                                &p->light_layout))
         return false;
     const VkDescriptorSetLayout sets[] = { p->frame_layout, material_layout, gi_layout },
                                 gathered[] = { p->frame_layout, material_layout, p->light_layout };
-    return pipeline_layout_create(device, sets, 2, draw, &p->layouts[HOST_FORWARD_PLAIN]) &&
-           pipeline_layout_create(device, sets, 3, draw, &p->layouts[HOST_FORWARD_GI]) &&
-           pipeline_layout_create(device, gathered, 3, draw, &p->layouts[HOST_FORWARD_GATHERED]) &&
-           pipeline_layout_create(device, &p->post_layout, 1, tone, &p->post_pipeline_layout);
+    return host_pipeline_layout_create(device, sets, 2, draw, &p->layouts[HOST_FORWARD_PLAIN]) &&
+           host_pipeline_layout_create(device, sets, 3, draw, &p->layouts[HOST_FORWARD_GI]) &&
+           host_pipeline_layout_create(device, gathered, 3, draw, &p->layouts[HOST_FORWARD_GATHERED]) &&
+           host_pipeline_layout_create(device, &p->post_layout, 1, tone, &p->post_pipeline_layout);
 }
 
 /* ---- The pipelines ---------------------------------------------------------------------------------- */
@@ -245,14 +257,15 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
     return true;
 }
 
-static struct shader_code forward_code(enum host_forward kind)
+static struct shader_code forward_code(enum host_forward kind, bool fog)
 {
-    const struct shader_code codes[HOST_FORWARD_COUNT] = {
-        [HOST_FORWARD_PLAIN] = SHADER(host_forward_frag),
-        [HOST_FORWARD_GI] = SHADER(host_forward_gi_frag),
-        [HOST_FORWARD_GATHERED] = SHADER(host_forward_gathered_frag),
+    const struct shader_code codes[HOST_FORWARD_COUNT][2] = {
+        [HOST_FORWARD_PLAIN] = { SHADER(host_forward_frag), SHADER(host_forward_fog_frag) },
+        [HOST_FORWARD_GI] = { SHADER(host_forward_gi_frag), SHADER(host_forward_gi_fog_frag) },
+        [HOST_FORWARD_GATHERED] = { SHADER(host_forward_gathered_frag),
+                                    SHADER(host_forward_gathered_fog_frag) },
     };
-    return codes[kind];
+    return codes[kind][fog];
 }
 
 static bool forward_create(struct host_renderer *renderer, enum host_forward kind, enum host_cull cull,
@@ -260,7 +273,7 @@ static bool forward_create(struct host_renderer *renderer, enum host_forward kin
 {
     const struct pipeline_desc desc = {
         .vertex = SHADER(host_surface_vert),
-        .fragment = forward_code(kind),
+        .fragment = forward_code(kind, host_fog_exists(renderer->scene)),
         .layout = renderer->pipelines.layouts[kind],
         .pass = renderer->passes.forward,
         .vertices = true,
@@ -316,10 +329,11 @@ static bool shadow_create(struct host_device *device, const struct host_passes *
     return pipeline_create(device, &desc, &p->shadow_tested);
 }
 
-static bool sky_create(struct host_device *device, const struct host_passes *passes, struct host_pipelines *p)
+static bool sky_create(struct host_device *device, const struct host_passes *passes, bool fog,
+                       struct host_pipelines *p)
 {
     const struct pipeline_desc desc = { .vertex = SHADER(host_screen_vert),
-                                        .fragment = SHADER(host_sky_frag),
+                                        .fragment = fog ? SHADER(host_sky_fog_frag) : SHADER(host_sky_frag),
                                         .layout = p->layouts[HOST_FORWARD_PLAIN],
                                         .pass = passes->forward,
                                         .has_color = true,
@@ -361,12 +375,12 @@ bool host_pipeline_compute_create(struct host_device *device, const uint32_t *wo
 }
 
 bool host_pipelines_init(struct host_device *device, const struct host_passes *passes,
-                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout,
+                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout, bool fog,
                          struct host_pipelines *pipelines)
 {
-    return layouts_create(device, material_layout, gi_layout, pipelines) &&
+    return layouts_create(device, material_layout, gi_layout, fog, pipelines) &&
            prepass_create(device, passes, pipelines) && shadow_create(device, passes, pipelines) &&
-           sky_create(device, passes, pipelines) &&
+           sky_create(device, passes, fog, pipelines) &&
            host_pipeline_compute_create(device, host_exposure_comp, sizeof(host_exposure_comp),
                                         pipelines->post_pipeline_layout, &pipelines->exposure) &&
            host_pipeline_tonemap_create(device, pipelines, passes->picture, &pipelines->tonemap);

@@ -118,7 +118,7 @@ bool host_targets_init(struct host_renderer *renderer)
                             &t->picture_framebuffer))
         return false;
     post_set_write(renderer);
-    return true;
+    return host_fog_targets_init(renderer);
 }
 
 void host_targets_finish(struct host_renderer *renderer)
@@ -135,6 +135,7 @@ void host_targets_finish(struct host_renderer *renderer)
     vkDestroyImageView(device, t->roughness, NULL);
     if (t->view)
         host_gi_view_destroy(renderer->gi, t->view);
+    host_fog_targets_finish(renderer);
     *t = (struct host_targets){ 0 };
     renderer->has_frame = false;
 }
@@ -146,7 +147,7 @@ static bool pool_create(struct host_renderer *renderer)
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS },
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * HOST_SLOTS + 1 },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * HOST_SLOTS + 1 },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5 * HOST_SLOTS + 1 },
     };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                               .maxSets = 2 * HOST_SLOTS + 1,
@@ -288,14 +289,15 @@ static bool renderer_init(struct host_renderer *r, const struct host_renderer_de
     r->gi = host_gi_create(r->device, r->scene, desc, HOST_SLOTS);
     if (!r->gi || !host_passes_init(r->device, &r->passes) ||
         !host_pipelines_init(r->device, &r->passes, r->scene->material_layout, host_gi_layout(r->gi),
-                             &r->pipelines) ||
-        !host_shadows_init(r) || !pool_create(r) || !queries_create(r) || !post_init(r) || !scratch_init(r))
+                             host_fog_exists(r->scene), &r->pipelines) ||
+        !host_shadows_init(r) || !pool_create(r) || !queries_create(r) || !post_init(r) || !scratch_init(r) ||
+        !host_fog_init(r))
         return false;
     for (int i = 0; i < HOST_SLOTS; i++) {
         if (!slot_init(r, &r->slots[i]))
             return false;
     }
-    return host_targets_init(r) && host_forward_prepare(r);
+    return host_targets_init(r) && host_forward_prepare(r) && host_fog_prepare(r);
 }
 
 struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,
@@ -336,6 +338,7 @@ void host_renderer_destroy(struct host_renderer *renderer)
     vkDestroyDescriptorPool(device, renderer->pool, NULL);
     host_buffer_destroy(renderer->device, &renderer->exposure);
     host_sampler_finish(renderer);
+    host_fog_finish(renderer);
     host_shadows_finish(renderer);
     host_pipelines_finish(renderer->device, &renderer->pipelines);
     host_passes_finish(renderer->device, &renderer->passes);

@@ -83,9 +83,9 @@ static bool image_init(struct host_device *device, VkImageUsageFlags usage, bool
 {
     const VkImageCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-        .imageType = VK_IMAGE_TYPE_2D,
+        .imageType = image->depth > 0 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D,
         .format = image->format,
-        .extent = { image->width, image->height, 1 },
+        .extent = { image->width, image->height, image->depth > 0 ? image->depth : 1 },
         .mipLevels = image->mips,
         .arrayLayers = image->layers,
         .samples = VK_SAMPLE_COUNT_1_BIT,
@@ -102,7 +102,9 @@ static bool image_init(struct host_device *device, VkImageUsageFlags usage, bool
     const VkImageViewCreateInfo view = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = image->image,
-        .viewType = array_view ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+        .viewType = image->depth > 0 ? VK_IMAGE_VIEW_TYPE_3D
+                    : array_view     ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                     : VK_IMAGE_VIEW_TYPE_2D,
         .format = image->format,
         .subresourceRange = { aspect_of(image->format), 0, image->mips, 0, image->layers },
     };
@@ -115,6 +117,7 @@ bool host_image_create(struct host_device *device, const struct host_image_desc 
     *out = (struct host_image){ .format = desc->format,
                                 .width = desc->width,
                                 .height = desc->height,
+                                .depth = desc->depth,
                                 .layers = desc->layers > 0 ? desc->layers : 1,
                                 .mips = desc->mips > 0 ? desc->mips : 1 };
     if (out->width > device->limits.maxImageDimension2D || out->height > device->limits.maxImageDimension2D)

@@ -28,6 +28,16 @@ struct host_sun {
     float angle_rad;     /* full angle of the disc: softens shadow edges only */
 };
 
+/* A medium that fills all space. It scatters the light of sun, lamps and GI, none of which it dims on the way
+ * to where it is scattered: surfaces get as much as without it. */
+struct host_fog {
+    float density;        /* extinction at `height_m`, 1/m; 0: there is no fog */
+    float albedo[3];      /* share of what is extinct that is scattered, [0, 1] */
+    float height_falloff; /* 1/m: density times exp(-falloff * (y - height)); 0: the same everywhere */
+    double height_m;
+    float anisotropy; /* mean cosine of Henyey and Greenstein's phase function, (-1, 1) */
+};
+
 enum host_light_type { HOST_LIGHT_POINT, HOST_LIGHT_SPOT, HOST_LIGHT_DIRECTIONAL };
 
 struct host_light {
@@ -46,6 +56,7 @@ struct host_view {
     struct host_camera camera;
     struct host_sky sky;
     struct host_sun sun;
+    struct host_fog fog;
     struct host_light *lights; /* in addition to those of the scene file */
     uint32_t light_count;
     float punctual_scale; /* factor on the lights of the scene file; 0 switches them off */
@@ -54,7 +65,8 @@ struct host_view {
     float default_albedo[3]; /* base colour of primitives that name no material in the file */
 };
 
-/* Camera 5 m in front of the origin, no sky, no sun, scales of 1, glTF materials, default albedo 0.8. */
+/* Camera 5 m in front of the origin, no sky, no sun, no fog, scales of 1, glTF materials, default albedo 0.8.
+ */
 void host_view_default(struct host_view *view);
 
 #endif

@@ -8,6 +8,9 @@
 #include "host/host_material.glsl"
 #include "host/host_brdf.glsl"
 #include "host/host_shadow.glsl"
+#ifdef HOST_FOG
+#include "host/host_fog.glsl"
+#endif
 #ifdef HOST_GI
 #define SDFGI_SET HOST_SET_GI
 #include "sdfgi_reflection.glsl"
@@ -50,15 +53,6 @@ vec3 light_from_suns(brdf_surface s, vec3 face)
     return sum;
 }
 
-/* Inverse square law, the spot's cone, and a hard end at the range, where one is given. */
-float light_attenuation(host_light_data light, vec3 direction, float distance2)
-{
-    if (distance2 * light.position.w * light.position.w > 1.0)
-        return 0.0;
-    const float cone = clamp((dot(light.direction.xyz, -direction) - light.cone.x) * light.cone.y, 0.0, 1.0);
-    return cone * cone / distance2;
-}
-
 vec3 light_from_punctual(brdf_surface s, vec3 face)
 {
     vec3 sum = vec3(0.0);
@@ -67,7 +61,7 @@ vec3 light_from_punctual(brdf_surface s, vec3 face)
         const vec3 to_light = light.position.xyz - in_position;
         const float distance2 = max(dot(to_light, to_light), 1e-8);
         const vec3 direction = to_light * inversesqrt(distance2);
-        const float attenuation = light_attenuation(light, direction, distance2);
+        const float attenuation = light_share(light, direction, distance2) / distance2;
         if (attenuation > 0.0 && dot(s.normal, direction) > 0.0 && dot(face, direction) > 0.0)
             sum += light.intensity.rgb * attenuation * brdf_evaluate(s, direction) *
                    shadow_punctual(light, -to_light, face);
@@ -155,4 +149,8 @@ void main()
     }
     const float alpha = material_has(HOST_MATERIAL_BLEND) ? base_color.a : 1.0;
     out_radiance = vec4(shown_value(s, direct, irradiance, reflection, emission), alpha);
+#ifdef HOST_FOG
+    if (shown == HOST_SHOW_COLOR)
+        out_radiance.rgb = fog_before(out_radiance.rgb, in_position - frame.camera_position.xyz);
+#endif
 }

@@ -124,6 +124,22 @@ float shadow_sun(int sun, vec3 position, vec3 normal)
     return 1.0;
 }
 
+/* 1 where a sun reaches a point in the air, else 0. */
+float shadow_sun_in_air(int sun, vec3 position)
+{
+    const int map_size = textureSize(sun_map, 0).x;
+    for (int c = 0; c < HOST_CASCADES; c++) {
+        const vec4 p = vec4(position, 1.0);
+        const vec2 ndc = vec2(dot(frame.suns[sun].rows[3 * c], p), dot(frame.suns[sun].rows[3 * c + 1], p));
+        if (max(abs(ndc.x), abs(ndc.y)) > 1.0)
+            continue;
+        const ivec2 texel = clamp(ivec2((ndc * 0.5 + 0.5) * float(map_size)), ivec2(0), ivec2(map_size - 1));
+        const float stored = texelFetch(sun_map, ivec3(texel, 4 * sun + c), 0).r;
+        return stored <= dot(frame.suns[sun].rows[3 * c + 2], p) ? 1.0 : 0.0;
+    }
+    return 1.0;
+}
+
 int shadow_cube_face(vec3 d)
 {
     const vec3 a = abs(d);

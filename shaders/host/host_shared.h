@@ -21,12 +21,20 @@
 #define HOST_SUN_MAP_SIZE     2048
 #define HOST_TEXTURE_COUNT    4
 #define HOST_MAX_SAMPLES      16 /* points of the world whose light is read at a time */
+#define HOST_FOG_TILE         8  /* pixels along a froxel's side, where that does not make too many */
+#define HOST_FOG_SLICES       64 /* froxels along a ray */
+#define HOST_FOG_AIR          2  /* froxels along a side of those in which GI is looked up */
+#define HOST_FOG_THREADS      4  /* along each axis of a group */
 #define HOST_EXPOSURE_THREADS 64
 #define HOST_EXPOSURE_SAMPLES 64 /* along each side of the picture */
 
 #define HOST_SET_FRAME    0
 #define HOST_SET_MATERIAL 1
+#define HOST_SET_FOG      1 /* of passes that make fog */
 #define HOST_SET_GI       2 /* the library's, or one with a picture of its light */
+
+/* Of HOST_SET_FRAME, where there is fog. */
+#define HOST_FOG_BINDING 5
 
 /* enum host_aov, for shaders */
 #define HOST_SHOW_COLOR            0
@@ -74,7 +82,13 @@ struct host_frame_data {
     HOST_VEC4(sky_zenith);
     HOST_VEC4(sky_horizon);
     HOST_VEC4(sky_ground);
-    HOST_UVEC4(counts); /* x: suns, y: punctual lights, z: HOST_SHOW_*, w: samples along a pixel's side */
+    HOST_VEC4(fog_medium);  /* rgb: albedo; w: mean cosine of the phase function */
+    HOST_VEC4(fog_density); /* x: extinction at a height, 1/m; y: that height; z: falloff, 1/m; w: what
+                               froxels hold over radiance */
+    HOST_VEC4(fog_slices);  /* x: metres to the far side of the first slice; y: doublings of the distance per
+                               slice; z: metres to the far side of the last; w: the camera's near plane */
+    HOST_VEC4(fog_grid);    /* xy: pixels of the picture; z: along a froxel's side; w: 1 if GI has light */
+    HOST_UVEC4(counts);     /* x: suns, y: punctual lights, z: HOST_SHOW_*, w: samples along a pixel's side */
 #ifdef VULKAN
     host_sun_data suns[HOST_MAX_SUNS];
 #else

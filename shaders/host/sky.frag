@@ -3,6 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host/host_frame.glsl"
+#ifdef HOST_FOG
+#include "host/host_fog.glsl"
+#endif
 
 layout(location = 0) in vec2 in_ndc;
 layout(location = 0) out vec4 out_radiance;
@@ -13,4 +16,7 @@ void main()
     const vec3 direction = normalize(frame.camera_forward.xyz + in_ndc.x * frame.camera_right.xyz -
                                      in_ndc.y * frame.camera_up.xyz);
     out_radiance = vec4(sky_radiance(direction), 1.0);
+#ifdef HOST_FOG
+    out_radiance.rgb = fog_before(out_radiance.rgb, FOG_SKY_M * direction);
+#endif
 }

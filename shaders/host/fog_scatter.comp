@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT
+ * The radiance that the fog of each froxel sends towards the camera per optical depth: light of suns and
+ * lamps times phase function, and GI's, times albedo. Dispatched as 1 thread per froxel. */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "host/host_frame.glsl"
+#include "host/host_shadow.glsl"
+#include "host/host_fog_space.glsl"
+#include "host/host_fog_seen.glsl"
+
+layout(local_size_x = HOST_FOG_THREADS, local_size_y = HOST_FOG_THREADS, local_size_z = HOST_FOG_THREADS) in;
+
+layout(set = HOST_SET_FOG, binding = 0, rgba16f) uniform writeonly image3D volume;
+layout(set = HOST_SET_FOG, binding = 2) uniform sampler3D air;
+
+/* Places in a froxel at which shadows of suns are looked up: the same in all frames, so that nothing
+ * flickers. More make shafts with sharp edges smoother. */
+const int SUN_PLACES = 8;
+
+/* The i-th place in a froxel, spread evenly: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+ * Sequences". */
+vec3 place_within(int i)
+{
+    return fract(0.5 + float(i + 1) * vec3(0.8191725, 0.6710436, 0.5497005)) - vec3(0.5, 0.5, 0.0);
+}
+
+vec3 from_suns(ivec3 froxel, vec4 column, vec3 direction, float reach, int places)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < places; i++) {
+        const vec3 place = place_within(i);
+        const float distance_m =
+            fog_lit_distance(column, place.xy, 1.0, fog_distance(float(froxel.z) + place.z), reach);
+        const vec3 position = frame.camera_position.xyz + distance_m * fog_ray(vec2(froxel.xy) + place.xy);
+        for (int s = 0; s < int(frame.counts.x); s++) {
+            const float phase = fog_phase(dot(frame.suns[s].direction.xyz, direction));
+            sum += frame.suns[s].irradiance.rgb * (phase * shadow_sun_in_air(s, position));
+        }
+    }
+    return sum / float(SUN_PLACES);
+}
+
+/* A lamp's light falls with the square of the distance d, over a slice by a lot. The mean of 1 / d^2 along a
+ * ray is the angle under which the lamp sees the slice, over its length and the ray's distance from the lamp.
+ * Half of that angle is where shadow and phase are looked up (Kulla and Fajardo 2012, "Importance Sampling
+ * Techniques for Path Tracing in Participating Media", section 4). */
+vec3 from_lamps(vec3 eye, vec3 direction, vec2 range_m, float tile_rad, int count)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < count; i++) {
+        const host_light_data light = lights[i];
+        const vec3 to_lamp = light.position.xyz - eye;
+        const float along = dot(to_lamp, direction);
+        const vec3 off = to_lamp - along * direction;
+        /* A froxel is as wide as its tile, a disc of as much area. The mean of 1 / h over it is 2 / radius at
+         * the lamp; far off, h^2 is radius^2 / 4 less. Both together keep the sum over a plane. */
+        const float half_radius = 0.2821 * tile_rad * clamp(along, range_m.x, range_m.y);
+        const float floor2 = half_radius * half_radius + 1e-8;
+        const float h = sqrt(max(dot(off, off) - floor2, floor2));
+        const float near = atan((range_m.x - along) / h), far = atan((range_m.y - along) / h);
+        const vec3 offset = (along + h * tan(0.5 * (near + far))) * direction - to_lamp;
+        const float distance2 = max(dot(offset, offset), 1e-8);
+        const vec3 to_light = -offset * inversesqrt(distance2);
+        const float mean = (far - near) / (h * (range_m.y - range_m.x));
+        sum += light.intensity.rgb *
+               (mean * light_share(light, to_light, distance2) * fog_phase(dot(to_light, direction)) *
+                shadow_punctual(light, offset, to_light));
+    }
+    return sum;
+}
+
+/* As fog_air.comp has stored it. */
+vec3 from_air(ivec3 froxel)
+{
+    const vec3 at = (vec3(froxel) + 0.5) / (float(HOST_FOG_AIR) * vec3(textureSize(air, 0)));
+    const vec4 light = textureLod(air, at, 0.0);
+    return light.a > 1e-3 ? light.rgb / light.a : vec3(0.0);
+}
+
+void main()
+{
+    const ivec3 froxel = ivec3(gl_GlobalInvocationID), size = ivec3(imageSize(volume).xy, HOST_FOG_SLICES);
+    if (any(greaterThanEqual(froxel, size)))
+        return;
+    const vec3 ray = fog_ray(vec2(froxel.xy));
+    const vec3 direction = normalize(ray);
+    const vec4 column = seen[froxel.x + size.x * froxel.y];
+    const float reach = fog_reach(froxel.xy - 1, froxel.xy, size.xy);
+    const float near = fog_distance(float(froxel.z)), far = fog_distance(float(froxel.z + 1));
+    /* Fog beyond what is seen scatters nothing that counts. */
+    const vec2 range_m = vec2(fog_lit_distance(column, vec2(0.0), 1.0, near, reach),
+                              fog_lit_distance(column, vec2(0.0), 1.0, far, reach));
+    const float tile_rad = 2.0 * length(frame.camera_right.xyz) * frame.fog_grid.z / frame.fog_grid.x;
+    vec3 radiance = from_suns(froxel, column, direction, reach, near < reach ? SUN_PLACES : 0) +
+                    from_lamps(frame.camera_position.xyz, direction,
+                               length(ray) * vec2(range_m.x, max(range_m.y, 1.001 * range_m.x)), tile_rad,
+                               near < reach ? int(frame.counts.y) : 0);
+    radiance *= frame.fog_density.w;
+    if (frame.fog_grid.w > 0.0)
+        radiance += from_air(froxel);
+    imageStore(volume, froxel, vec4(min(frame.fog_medium.rgb * radiance, vec3(FOG_MAX_STORED)), 0.0));
+}
