@@ -243,10 +243,13 @@ static bool load_inputs(struct run *run)
         view_file_from_scene(run->gltf, &run->view);
         return true;
     }
-    if (view_file_load(run->options->view, &run->view, error, sizeof error))
-        return true;
-    cli_error("%s", error);
-    return false;
+    if (!view_file_load(run->options->view, &run->view, error, sizeof error)) {
+        cli_error("%s", error);
+        return false;
+    }
+    if (run->view.fog.density > 0)
+        fprintf(stderr, "sdfgi: warning: %s: the reference leaves out fog\n", run->options->view);
+    return true;
 }
 
 static uint32_t aov_bits(const struct options *options)

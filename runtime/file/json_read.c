@@ -134,6 +134,8 @@ static bool read_field(const struct json_place *place, const cJSON *item, const 
         for (int i = 0; i < 3; i++)
             ((float *)field->target)[i] = (float)values[i];
         return true;
+    case JSON_DOUBLE:
+        return read_number(place, item, name, field, field->target);
     case JSON_DOUBLE3:
         break;
     }

@@ -12,6 +12,7 @@
 enum json_type {
     JSON_FLOAT,   /* float in [minimum, maximum] */
     JSON_DEGREES, /* float in [minimum, maximum] degrees, stored in radians */
+    JSON_DOUBLE,  /* double in [minimum, maximum] */
     JSON_FLOAT3,  /* float[3], each in [minimum, maximum] */
     JSON_DOUBLE3, /* double[3], each in [minimum, maximum] */
     JSON_CHOICE,  /* uint32_t: index of the string among `choices` */

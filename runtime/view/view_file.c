@@ -85,6 +85,23 @@ static bool read_sun(const struct json_place *place, const cJSON *json, struct h
     return has_direction(sun->direction) || json_fail(place, "sun.direction", "has no direction");
 }
 
+/* ---- Fog -------------------------------------------------------------------------------------------- */
+
+static bool read_fog(const struct json_place *place, const cJSON *json, struct host_fog *fog)
+{
+    if (!json || cJSON_IsNull(json))
+        return true;
+    *fog = (struct host_fog){ .albedo = { 1, 1, 1 } };
+    const struct json_field fields[] = {
+        { "density", JSON_FLOAT, &fog->density, 0, 1e3, .required = true },
+        { "albedo", JSON_FLOAT3, fog->albedo, 0, 1, .required = false },
+        { "height_falloff", JSON_FLOAT, &fog->height_falloff, 0, 1e3, .required = false },
+        { "height", JSON_DOUBLE, &fog->height_m, -position_max_m, position_max_m, .required = false },
+        { "anisotropy", JSON_FLOAT, &fog->anisotropy, -0.9, 0.9, .required = false },
+    };
+    return json_read_object(place, json, "fog", JSON_FIELDS(fields));
+}
+
 /* ---- Lights ----------------------------------------------------------------------------------------- */
 
 static bool read_light(const struct json_place *place, const cJSON *json, const char *name,
@@ -144,12 +161,13 @@ static bool read_lights(const struct json_place *place, const cJSON *json, struc
 
 static bool read_view(const struct json_place *place, const cJSON *json, struct host_view *view)
 {
-    const cJSON *camera = NULL, *sky = NULL, *sun = NULL, *lights = NULL;
+    const cJSON *camera = NULL, *sky = NULL, *sun = NULL, *fog = NULL, *lights = NULL;
     uint32_t materials = HOST_MATERIALS_GLTF;
     const struct json_field fields[] = {
         { "camera", JSON_ANY, &camera, .required = true },
         { "sky", JSON_ANY, &sky, .required = false },
         { "sun", JSON_ANY, &sun, .required = false },
+        { "fog", JSON_ANY, &fog, .required = false },
         { "lights", JSON_ANY, &lights, .required = false },
         { "punctual_scale", JSON_FLOAT, &view->punctual_scale, 0, 1e9, .required = false },
         { "emissive_scale", JSON_FLOAT, &view->emissive_scale, 0, 1e9, .required = false },
@@ -160,7 +178,8 @@ static bool read_view(const struct json_place *place, const cJSON *json, struct 
         return false;
     view->materials = (enum host_materials)materials;
     return read_camera(place, camera, &view->camera) && read_sky(place, sky, &view->sky) &&
-           read_sun(place, sun, &view->sun) && read_lights(place, lights, view);
+           read_sun(place, sun, &view->sun) && read_fog(place, fog, &view->fog) &&
+           read_lights(place, lights, view);
 }
 
 bool view_file_load(const char *path, struct host_view *view, char *error, size_t error_size)

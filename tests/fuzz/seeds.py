@@ -300,13 +300,14 @@ def view_seeds():
     add("view", "valid_everything", json.dumps({
         "camera": camera, "sky": {"zenith": [1, 1, 2], "horizon": [1, 1, 1], "ground": [0.1, 0.1, 0.1]},
         "sun": {"direction": [0, -1, 0.2], "irradiance": [3, 3, 3], "angle_deg": 0.5},
+        "fog": {"density": 0.1, "albedo": [1, 1, 0.9], "height_falloff": 0.2, "height": 2, "anisotropy": 0.5},
         "lights": [{"type": "point", "position": [0, 2, 0], "intensity": [9, 9, 9], "radius": 0.1,
                     "range": 9},
                    {"type": "spot", "position": [0, 2, 0], "intensity": [9, 9, 9], "direction": [0, -1, 0],
                     "inner_deg": 10, "outer_deg": 30}],
         "punctual_scale": 1, "emissive_scale": 2, "materials": "lambert", "default_albedo": [0.5, 0.5, 0.5]}))
     add("view", "valid_uniform_sky",
-        json.dumps({"camera": camera, "sky": {"radiance": [1, 1, 1]}, "sun": None}))
+        json.dumps({"camera": camera, "sky": {"radiance": [1, 1, 1]}, "sun": None, "fog": None}))
     add("view", "broken_hidden_by_a_zero", json.dumps({"camera": camera}) + "\0{}")
     add("view", "broken_looks_along_up", json.dumps({"camera": {**camera, "look_at": [0, 9, 5]}}))
     add("view", "broken_key_given_twice", '{"camera":%s,"camera":0}' % json.dumps(camera))

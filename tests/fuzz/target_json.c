@@ -42,6 +42,16 @@ static void check_camera(const struct host_camera *camera)
     REQUIRE_TRUE(memcmp(camera->position, camera->look_at, sizeof camera->position) != 0);
 }
 
+static void check_fog(const struct host_fog *fog)
+{
+    require_finite_double(&fog->height_m, 1);
+    require_not_negative((const float[]){ fog->density, fog->height_falloff }, 2);
+    require_not_negative(fog->albedo, 3);
+    for (int i = 0; i < 3; i++)
+        REQUIRE_CMP(fog->albedo[i], <=, 1.0f);
+    REQUIRE_CMP(fabsf(fog->anisotropy), <=, 0.9f);
+}
+
 static void check_light(const struct host_light *light)
 {
     require_finite_double(light->position, 3);
@@ -66,6 +76,7 @@ static bool read_view(const char *path, char *error, size_t error_size)
     if (view.sun.enabled)
         require_direction(view.sun.direction);
     require_not_negative(view.sun.irradiance, 3);
+    check_fog(&view.fog);
     require_not_negative((const float[]){ view.punctual_scale, view.emissive_scale }, 2);
     require_not_negative(view.default_albedo, 3);
     for (uint32_t i = 0; i < view.light_count; i++)

@@ -48,6 +48,8 @@ static void every_key_reaches_its_field(void **state)
     assert_true(
         load("{" CAMERA ",\"sky\":{\"zenith\":[1,2,3],\"horizon\":[4,5,6],\"ground\":[7,8,9]},"
              "\"sun\":{\"direction\":[0,-2,0],\"irradiance\":[3,2,1],\"angle_deg\":90},"
+             "\"fog\":{\"density\":0.5,\"albedo\":[0.9,0.8,0.7],\"height_falloff\":0.25,\"height\":1e7,"
+             "\"anisotropy\":-0.9},"
              "\"lights\":[{\"type\":\"point\",\"position\":[1e7,2,3],\"intensity\":[4,5,6],\"radius\":0.5},"
              "{\"type\":\"spot\",\"position\":[0,0,0],\"intensity\":[1,1,1],\"direction\":[1,0,0],"
              "\"inner_deg\":10,\"outer_deg\":45}],"
@@ -56,6 +58,8 @@ static void every_key_reaches_its_field(void **state)
     assert_true(view.sky.zenith[1] == 2 && view.sky.horizon[2] == 6 && view.sky.ground[0] == 7);
     assert_true(view.sun.enabled && view.sun.direction[1] == -2 && view.sun.irradiance[0] == 3);
     assert_true(fabsf(view.sun.angle_rad - 1.5707963f) < 1e-6f);
+    assert_true(view.fog.density == 0.5f && view.fog.albedo[1] == 0.8f && view.fog.height_m == 1e7);
+    assert_true(view.fog.height_falloff == 0.25f && view.fog.anisotropy == -0.9f);
     assert_int_equal(view.light_count, 2);
     assert_int_equal(view.lights[0].type, HOST_LIGHT_POINT);
     assert_true(view.lights[0].position[0] == 1e7 && view.lights[0].radius_m == 0.5f);
@@ -75,6 +79,16 @@ static void a_uniform_sky_has_three_equal_colours(void **state)
     assert_memory_equal(view.sky.ground, view.sky.horizon, sizeof view.sky.ground);
     assert_true(view.sky.zenith[2] == 0.3f);
     view_file_finish(&view);
+}
+
+static void fog_needs_a_density_alone(void **state)
+{
+    (void)state;
+    assert_true(load("{" CAMERA ",\"fog\":{\"density\":0.1}}"));
+    assert_true(view.fog.density == 0.1f && view.fog.albedo[0] == 1 && view.fog.albedo[2] == 1);
+    assert_true(view.fog.height_falloff == 0 && view.fog.height_m == 0 && view.fog.anisotropy == 0);
+    assert_true(load("{" CAMERA ",\"fog\":null}"));
+    assert_true(view.fog.density == 0);
 }
 
 static void what_is_wrong_is_named_in_one_line(void **state)
@@ -105,6 +119,15 @@ static void what_is_wrong_is_named_in_one_line(void **state)
         { "{" CAMERA ",\"sky\":7}", "sky: expected an object" },
         { "{" CAMERA ",\"sun\":{\"direction\":[0,0,0],\"irradiance\":[1,1,1]}}", "sun.direction: has no" },
         { "{" CAMERA ",\"sun\":{\"direction\":[0,-1,0]}}", "sun.irradiance: is missing" },
+        { "{" CAMERA ",\"fog\":0.1}", "fog: expected an object" },
+        { "{" CAMERA ",\"fog\":{}}", "fog.density: is missing" },
+        { "{" CAMERA ",\"fog\":{\"density\":-1}}", "fog.density: is -1" },
+        { "{" CAMERA ",\"fog\":{\"density\":1,\"albedo\":[1,1,1.5]}}", "fog.albedo: is 1.5" },
+        { "{" CAMERA ",\"fog\":{\"density\":1,\"height_falloff\":-1}}", "fog.height_falloff: is -1" },
+        { "{" CAMERA ",\"fog\":{\"density\":1,\"height\":[0]}}", "fog.height: expected a number" },
+        { "{" CAMERA ",\"fog\":{\"density\":1,\"height\":1e12}}", "fog.height: is 1e+12" },
+        { "{" CAMERA ",\"fog\":{\"density\":1,\"anisotropy\":1}}", "fog.anisotropy: is 1" },
+        { "{" CAMERA ",\"fog\":{\"density\":1,\"colour\":1}}", "fog.colour: unknown key" },
         { "{" CAMERA ",\"lights\":{}}", "lights: expected an array" },
         { "{" CAMERA ",\"lights\":[{\"type\":\"area\"}]}", "lights[0].type: expected one of point,spot" },
         { "{" CAMERA ",\"lights\":[{\"type\":\"point\",\"position\":[0,0,0],\"intensity\":[1,1,1],"
@@ -180,6 +203,7 @@ int main(void)
         cmocka_unit_test(a_camera_is_enough),
         cmocka_unit_test(every_key_reaches_its_field),
         cmocka_unit_test(a_uniform_sky_has_three_equal_colours),
+        cmocka_unit_test(fog_needs_a_density_alone),
         cmocka_unit_test(what_is_wrong_is_named_in_one_line),
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(a_scene_without_camera_is_framed_whole),
