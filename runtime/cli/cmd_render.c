@@ -192,6 +192,7 @@ static void collect_times(struct run *run)
     host_renderer_get_times(run->renderer, &times);
     if (times.frame_ns > 0)
         report_add_times(&run->report, times.frame_ns - times.shadow_ns, times.update_ns);
+    report_add_fog(&run->report, times.fog_ns);
 }
 
 static bool collect_frame(void *user, const struct host_frame *frame)

@@ -84,6 +84,12 @@ void report_add_times(struct report *report, uint64_t lit_gpu_ns, uint64_t updat
         report->out_of_memory = true;
 }
 
+void report_add_fog(struct report *report, uint64_t fog_gpu_ns)
+{
+    if (fog_gpu_ns > 0 && !samples_add(&report->fog_gpu_ns, fog_gpu_ns))
+        report->out_of_memory = true;
+}
+
 void report_finish(struct report *report)
 {
     for (uint32_t i = 0; i < report->pass_count; i++)
@@ -91,5 +97,6 @@ void report_finish(struct report *report)
     free(report->frame_gpu_ns.values);
     free(report->lit_gpu_ns.values);
     free(report->update_gpu_ns.values);
+    free(report->fog_gpu_ns.values);
     *report = (struct report){ 0 };
 }

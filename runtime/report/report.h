@@ -31,6 +31,7 @@ struct report {
     uint32_t pass_count;
     struct report_samples frame_gpu_ns;
     struct report_samples lit_gpu_ns, update_gpu_ns; /* for struct report_cost */
+    struct report_samples fog_gpu_ns;                /* none where there is no fog */
     struct sdfgi_report last;
     uint64_t frames;
     bool out_of_memory;
@@ -53,6 +54,8 @@ void report_add_frame(struct report *report, const struct sdfgi_report *frame, u
 void report_add_times(struct report *report, uint64_t lit_gpu_ns, uint64_t update_gpu_ns);
 /* The state after the last frame has finished, with its GPU time (0: not known). */
 void report_set_last(struct report *report, const struct sdfgi_report *last, uint64_t frame_gpu_ns);
+/* Time of a frame's fog; 0: it has none. */
+void report_add_fog(struct report *report, uint64_t fog_gpu_ns);
 void report_finish(struct report *report);
 
 /* The report as JSON, to be freed with cJSON_Delete; NULL when memory ran out. */

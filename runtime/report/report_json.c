@@ -130,6 +130,7 @@ cJSON *report_to_json(struct report *report, const struct report_summary *summar
     cJSON *json = cJSON_CreateObject();
     if (!report->out_of_memory && json && add_run(json, report, summary) && add_gi(json, report, summary) &&
         add_passes(json, report) && add_times(json, "frame_gpu_ns", &report->frame_gpu_ns, "p99", 0.99) &&
+        (report->fog_gpu_ns.count == 0 || add_times(json, "fog_gpu_ns", &report->fog_gpu_ns, "p99", 0.99)) &&
         report_cost_to_json(json, &summary->cost) &&
         json_add_number(json, "library_commands", report->last.command_count) &&
         add_memory(json, &report->last.memory, summary->estimated_bytes) && add_health(json, &report->last))

@@ -66,6 +66,7 @@ static void frames_are_collected_pass_by_pass(void **state)
     for (uint64_t i = 1; i <= 1000; i++) {
         const struct sdfgi_report frame = make_frame(i <= 600, i <= 600 ? i : 0);
         report_add_frame(&report, &frame, 10 * i);
+        report_add_fog(&report, i <= 600 ? i : 0);
     }
     struct report_summary summary = { .device_name = "a",
                                       .device_driver = "b",
@@ -92,6 +93,8 @@ static void frames_are_collected_pass_by_pass(void **state)
     assert_true(cJSON_IsNull(get(json, "passes.1.reason")));
     assert_string_equal(get(json, "passes.1.skipped_because")->valuestring, "no emission");
     assert_int_equal(get(json, "frame_gpu_ns.p99")->valueint, 9900);
+    assert_int_equal(get(json, "fog_gpu_ns.median")->valueint, 300);
+    assert_int_equal(get(json, "fog_gpu_ns.samples")->valueint, 600);
     assert_int_equal(get(json, "library_commands")->valueint, 17);
     assert_int_equal(get(json, "memory.by_category.probes")->valueint, 77);
     assert_int_equal(get(json, "memory.estimated_bytes")->valueint, 77);
@@ -123,7 +126,7 @@ static void gi_costs_what_pairs_of_frames_differ_by(void **state)
     cJSON_Delete(json);
 }
 
-static void nothing_is_said_of_costs_that_are_not_known(void **state)
+static void nothing_is_said_of_what_is_not_known(void **state)
 {
     (void)state;
     const struct report_cost_pair untimed = { 0 };
@@ -133,6 +136,7 @@ static void nothing_is_said_of_costs_that_are_not_known(void **state)
     cJSON *json = report_to_json(&report, &summary);
     assert_non_null(json);
     assert_null(cJSON_GetObjectItemCaseSensitive(json, "gi_cost"));
+    assert_null(cJSON_GetObjectItemCaseSensitive(json, "fog_gpu_ns"));
     cJSON_Delete(json);
 }
 
@@ -154,7 +158,7 @@ int main(void)
         cmocka_unit_test(quantiles_are_nearest_ranks),
         cmocka_unit_test(frames_are_collected_pass_by_pass),
         cmocka_unit_test(gi_costs_what_pairs_of_frames_differ_by),
-        cmocka_unit_test(nothing_is_said_of_costs_that_are_not_known),
+        cmocka_unit_test(nothing_is_said_of_what_is_not_known),
         cmocka_unit_test(every_setting_in_force_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
