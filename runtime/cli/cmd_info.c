@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * sdfgi info: devices, whether the library runs on them and why not, and the memory that settings need. */
+ * sdfgi info: devices, whether the library runs on them and why not, the memory that settings need, and
+ * debug views. */
 #include "cli.h"
 #include "commands.h"
 #include "run_options.h"
@@ -50,6 +51,14 @@ static int print_memory(const struct sdfgi_settings *settings, uint32_t frames_i
     return CLI_EXIT_OK;
 }
 
+static void print_debug_views(void)
+{
+    printf("debug views\n");
+    for (int i = 0; i < SDFGI_DEBUG_VIEW_COUNT; i++)
+        printf("  %-18s %s\n", sdfgi_debug_view_name((enum sdfgi_debug_view)i),
+               sdfgi_debug_view_text((enum sdfgi_debug_view)i));
+}
+
 static bool is_selected(const struct host_device_info *info, const char *select)
 {
     char index[16];
@@ -88,7 +97,8 @@ int cmd_info(int argc, char **argv)
           .minimum = 1, .maximum = 8 },
     };
     const struct cli_spec spec = { .name = "info",
-                                   .summary = "Lists devices and requirements, and estimates memory.",
+                                   .summary =
+                                       "Lists devices, requirements and debug views, and estimates memory.",
                                    .options = options,
                                    .option_count = sizeof options / sizeof options[0] };
     const enum cli_outcome outcome = cli_parse(&spec, argc, argv);
@@ -98,8 +108,9 @@ int cmd_info(int argc, char **argv)
     sdfgi_settings_default(&settings);
     if (!run_apply_settings("info", &set, &settings))
         return CLI_EXIT_USAGE;
-    /* The estimate needs no device, so it is printed even where there is none. */
+    /* These need no device, so they are printed even where there is none. */
     const int estimated = print_memory(&settings, frames_in_flight);
+    print_debug_views();
     const int listed = print_devices(device);
     return estimated != CLI_EXIT_OK ? estimated : listed;
 }

@@ -17,7 +17,7 @@
 enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2, FRAMES_OFF = 5 };
 
 struct options {
-    const char *scene, *view, *frames, *report, *device, *out, *lookup_name;
+    const char *scene, *view, *frames, *report, *device, *out, *lookup_name, *debug_name;
     struct cli_size size;
     bool gi, quiet;
     struct cli_list set, aov;
@@ -27,6 +27,7 @@ struct options {
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
     enum host_lookup lookup;
+    enum sdfgi_debug_view debug; /* SDFGI_DEBUG_VIEW_COUNT: none */
 };
 
 /* Everything that has to be taken down again, in order of creation. */
@@ -100,7 +101,8 @@ static bool resolve_options(struct options *options)
     sdfgi_settings_default(&options->settings);
     options->settings.enabled = options->gi;
     if (!run_apply_settings("render", &options->set, &options->settings) ||
-        !run_parse_lookup("render", options->lookup_name, &options->lookup))
+        !run_parse_lookup("render", options->lookup_name, &options->lookup) ||
+        !run_parse_debug("render", options->debug_name, options->settings.enabled, &options->debug))
         return false;
     if (!parse_frames(options)) {
         cli_error("render: --frames is \"%s\", expected a number from 1 to 1000000 or converged",
@@ -126,6 +128,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "gi-exposure", CLI_FLOAT, &o->gi_exposure, "X", .help = RUN_GI_EXPOSURE_HELP, .minimum = 0,
           .maximum = 1e12 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
+        { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "one part of the light, as .exr, .hdr or .pfm" },
         { "report", CLI_TEXT, &o->report, "FILE", .help = "times, work, memory and health as JSON" },
         { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
@@ -142,7 +145,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         "render", "Renders a glTF scene offscreen.", CLI_ARRAY(table), CLI_ARRAY(positionals),
         "Float pictures are linear radiance without exposure. Parts of the light: "
         "color, direct, diffuse_indirect,\n"
-        "irradiance, reflection, normal, depth, albedo.\n"
+        "irradiance, reflection, normal, depth, albedo. Debug views are linear from 0 to 1.\n"
         "SIGINT and SIGTERM end it after the frame in flight. The files are written "
         "as they are then, and the exit\n"
         "code is 128 + the signal's number."
@@ -238,12 +241,20 @@ static uint32_t aov_channels(enum host_aov aov)
     return aov == HOST_AOV_DEPTH ? 1 : 3;
 }
 
-static bool write_aov(struct run *run, const struct options *options, enum host_aov aov, const char *path)
+/* HOST_AOV_COUNT: the debug view. */
+static bool read_float(struct run *run, const struct options *options, enum host_aov aov, float *rgba)
+{
+    if (aov == HOST_AOV_COUNT)
+        return host_renderer_read_debug(run->renderer, options->debug, (float)options->exposure, rgba);
+    return host_renderer_read_aov(run->renderer, aov, rgba);
+}
+
+static bool write_float(struct run *run, const struct options *options, enum host_aov aov, const char *path)
 {
     char error[CLI_ERROR_BYTES] = "";
     struct image image;
     bool written = image_init(&image, options->size.width, options->size.height, error, sizeof error);
-    if (written && !host_renderer_read_aov(run->renderer, aov, image.rgba)) {
+    if (written && !read_float(run, options, aov, image.rgba)) {
         snprintf(error, sizeof error, "%s: %s", path, host_device_error(run->device));
         written = false;
     }
@@ -260,7 +271,8 @@ static bool write_png(struct run *run, const struct options *options)
     char error[CLI_ERROR_BYTES] = "";
     uint8_t *rgba = malloc((size_t)4 * options->size.width * options->size.height);
     const struct host_picture_desc desc = { .exposure = (float)options->exposure,
-                                            .exposure_out = &run->exposure };
+                                            .exposure_out = &run->exposure,
+                                            .debug = &options->debug };
     bool written = rgba && host_renderer_read_picture(run->renderer, &desc, rgba);
     if (!written)
         snprintf(error, sizeof error, "%s: %s", options->out,
@@ -322,11 +334,12 @@ static bool measure_cost(struct run *run, const struct options *options)
 static bool write_outputs(struct run *run, const struct options *options)
 {
     const bool png = image_format_from_path(options->out) == IMAGE_PNG;
-    bool written = png ? write_png(run, options) : write_aov(run, options, HOST_AOV_COLOR, options->out);
+    const enum host_aov shown = options->debug < SDFGI_DEBUG_VIEW_COUNT ? HOST_AOV_COUNT : HOST_AOV_COLOR;
+    bool written = png ? write_png(run, options) : write_float(run, options, shown, options->out);
     for (uint32_t i = 0; written && i < options->aov.count; i++) {
         enum host_aov aov;
         const char *path = split_aov(options->aov.values[i], &aov);
-        written = path && write_aov(run, options, aov, path);
+        written = path && write_float(run, options, aov, path);
     }
     return written && measure_cost(run, options) && (!options->report || write_run_report(run, options));
 }

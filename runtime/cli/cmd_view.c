@@ -10,7 +10,7 @@
 #include <modules/gltf/gltf_scene.h>
 
 struct options {
-    const char *scene, *view, *device, *lookup_name;
+    const char *scene, *view, *device, *lookup_name, *debug_name;
     struct cli_size size;
     struct cli_list set;
     bool gi;
@@ -24,6 +24,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination at the start; on" },
         { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
         { "frames", CLI_UINT, &o->frames, "N", .help = "close after that many; 0, the default: never" },
@@ -31,9 +32,11 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
     const struct cli_positional positionals[] = { { "SCENE", &o->scene, true } };
     const struct cli_spec spec = {
         "view", "Shows a glTF scene in a window.", CLI_ARRAY(table), CLI_ARRAY(positionals),
-        "G switches global illumination, F1 the view. WASD, Q and E move, Shift hurries,\n"
-        "a held mouse button turns, Escape closes. SIGINT and SIGTERM close, too; the exit code\n"
-        "is 128 + the signal's number then."
+        "G switches global illumination. V and Shift V walk through the debug views that\n"
+        "sdfgi info lists, 1 to 9 choose one of the first nine, 0 the picture, and F2 walks\n"
+        "through parts of its light. WASD, Q and E move, Shift hurries, a held mouse button\n"
+        "turns, Escape closes. SIGINT and SIGTERM close, too; the exit code is 128 + the\n"
+        "signal's number then."
     };
     return cli_parse(&spec, argc, argv);
 }
@@ -50,6 +53,7 @@ int cmd_view(int argc, char **argv)
     struct options options = { .lookup_name = RUN_LOOKUP_DEFAULT, .gi = true, .size = { 1280, 720 } };
     struct sdfgi_settings settings;
     enum host_lookup lookup;
+    enum sdfgi_debug_view debug;
     struct host_view view;
     char error[CLI_ERROR_BYTES];
     const enum cli_outcome outcome = parse(&options, argc, argv);
@@ -58,7 +62,8 @@ int cmd_view(int argc, char **argv)
     sdfgi_settings_default(&settings);
     settings.enabled = options.gi;
     if (!run_apply_settings("view", &options.set, &settings) ||
-        !run_parse_lookup("view", options.lookup_name, &lookup))
+        !run_parse_lookup("view", options.lookup_name, &lookup) ||
+        !run_parse_debug("view", options.debug_name, settings.enabled, &debug))
         return CLI_EXIT_USAGE;
     struct gltf_scene *gltf = run_load_scene(options.scene, options.view, &view);
     if (!gltf)
@@ -69,6 +74,7 @@ int cmd_view(int argc, char **argv)
                                            .view = &view,
                                            .settings = &settings,
                                            .lookup = lookup,
+                                           .debug = &debug,
                                            .width = options.size.width,
                                            .height = options.size.height,
                                            .frames = options.frames,

@@ -19,7 +19,7 @@
 static const char default_scene[] = "out/world.glb";
 
 struct options {
-    const char *scene, *path, *view, *device, *report, *out, *lookup_name;
+    const char *scene, *path, *view, *device, *report, *out, *lookup_name, *debug_name;
     struct cli_size size;
     struct cli_list set, samples;
     double speed_m_s, fps, start_m, exposure, gi_exposure;
@@ -47,6 +47,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "every", CLI_UINT, &o->every, "K", .help = "write each K-th frame, off and on, as PNG",
           .minimum = 1, .maximum = WALK_FRAMES_MAX },
         { "sample", CLI_LIST, &o->samples, "X,Y,Z,NX,NY,NZ", .help = "report diffuse light at a point" },
+        { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
         { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
         { "gi-exposure", CLI_FLOAT, &o->gi_exposure, "X", .help = RUN_GI_EXPOSURE_HELP, .minimum = 0,
           .maximum = 1e12 },
@@ -285,7 +286,9 @@ static bool resolve(const struct options *o, struct walk_order *order, char **pa
     order->window = o->window;
     order->quiet = o->quiet;
     if (!run_apply_settings("walk", &o->set, &order->settings) ||
-        !run_parse_lookup("walk", o->lookup_name, &order->lookup) || !load_path(o, order, path_name))
+        !run_parse_lookup("walk", o->lookup_name, &order->lookup) ||
+        !run_parse_debug("walk", o->debug_name, order->settings.enabled, &order->debug) ||
+        !load_path(o, order, path_name))
         return false;
     order->view = o->view ? o->view : order->path.view;
     return resolve_pace(o, order) && resolve_samples(o, order);

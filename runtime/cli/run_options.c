@@ -40,6 +40,18 @@ bool run_parse_lookup(const char *command, const char *text, enum host_lookup *l
     return false;
 }
 
+bool run_parse_debug(const char *command, const char *text, bool gi, enum sdfgi_debug_view *view)
+{
+    *view = text ? sdfgi_debug_view_find(text) : SDFGI_DEBUG_VIEW_COUNT;
+    if (text && *view == SDFGI_DEBUG_VIEW_COUNT)
+        cli_error("%s: --debug is \"%s\", expected a name that sdfgi info lists", command, text);
+    else if (text && !gi)
+        cli_error("%s: --debug shows what GI holds, and GI is off", command);
+    else
+        return true;
+    return false;
+}
+
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view)
 {
     char error[CLI_ERROR_BYTES];

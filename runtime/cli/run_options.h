@@ -25,6 +25,12 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
 /* Reads the value of --lookup; on failure prints one line and returns false. */
 bool run_parse_lookup(const char *command, const char *text, enum host_lookup *lookup);
 
+#define RUN_DEBUG_HELP "show a debug view instead, see sdfgi info"
+
+/* Reads the value of --debug, which needs `gi`; NULL means SDFGI_DEBUG_VIEW_COUNT. On failure prints one line
+ * and returns false. */
+bool run_parse_debug(const char *command, const char *text, bool gi, enum sdfgi_debug_view *view);
+
 /* Loads the scene, and the view from `view_path` or, if that is NULL, from the scene. Prints warnings, and
  * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);

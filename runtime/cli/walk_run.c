@@ -114,7 +114,9 @@ static bool take_picture(struct run *run, uint32_t index, bool gi, float *exposu
 {
     const struct walk_order *order = run->order;
     const int32_t moment = frame_moment(order, index);
-    const struct host_picture_desc desc = { .exposure = *exposure, .exposure_out = exposure };
+    const struct host_picture_desc desc = { .exposure = *exposure,
+                                            .exposure_out = exposure,
+                                            .debug = gi ? &order->debug : NULL };
     if (!host_renderer_read_picture(gi ? run->on : run->off, &desc, run->picture))
         return fail_device(run);
     if (moment >= 0)
@@ -337,6 +339,7 @@ static bool walk_in_window(struct run *run)
                                            .view = &run->view,
                                            .settings = &order->settings,
                                            .lookup = order->lookup,
+                                           .debug = &order->debug,
                                            .width = order->size.width,
                                            .height = order->size.height,
                                            .log = { run_log, NULL },

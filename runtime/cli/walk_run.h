@@ -17,6 +17,7 @@ struct walk_order {
     struct cli_size size;
     struct sdfgi_settings settings;
     enum host_lookup lookup;
+    enum sdfgi_debug_view debug; /* shown with GI; SDFGI_DEBUG_VIEW_COUNT: the picture */
     double speed_m_s, fps, start_m, exposure, gi_exposure;
     uint32_t frames, seed;
     uint32_t hold;  /* frames before the walk; WALK_HOLD_SETTLED: until light has settled */

@@ -20,6 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <sdfgi/debug.h>
 #include <sdfgi/inspect.h>
 #include <sdfgi/sdfgi.h>
 
@@ -182,13 +183,20 @@ bool host_render_until(struct host_renderer *renderer, const struct host_camera 
 bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, float *rgba);
 
 struct host_picture_desc {
-    float exposure;      /* factor on radiance; 0: found from the picture */
-    float *exposure_out; /* the factor that was used; may be NULL */
+    float exposure;                     /* factor on radiance; 0: found from the picture */
+    float *exposure_out;                /* the factor that was used; may be NULL */
+    const enum sdfgi_debug_view *debug; /* drawn instead; NULL or SDFGI_DEBUG_VIEW_COUNT: none */
 };
 
-/* Tone-maps the colour of the last frame: width * height * 4 bytes, sRGB. */
+/* Tone-maps the colour of the last frame: width * height * 4 bytes, sRGB. Debug views have the colours of the
+ * library, and the picture's exposure; they fail while GI is off. */
 bool host_renderer_read_picture(struct host_renderer *renderer, const struct host_picture_desc *desc,
                                 uint8_t *rgba);
+
+/* Draws a debug view of the last frame: width * height * 4 floats, linear from 0 to 1. Supersamples are
+ * averaged. `exposure` is a factor on light; 0: found from the picture. */
+bool host_renderer_read_debug(struct host_renderer *renderer, enum sdfgi_debug_view view, float exposure,
+                              float *rgba);
 
 struct host_sample {
     double position[3];
@@ -232,8 +240,10 @@ struct host_window_desc {
     const struct host_view *view;
     const struct sdfgi_settings *settings; /* GI starts as `enabled` says */
     enum host_lookup lookup;
-    uint32_t width, height; /* 0: 1280 x 720 */
-    uint32_t frames;        /* closes after that many; 0: when the user does */
+    const enum sdfgi_debug_view *debug; /* what is shown at first; NULL or SDFGI_DEBUG_VIEW_COUNT: the
+                                           picture */
+    uint32_t width, height;             /* 0: 1280 x 720 */
+    uint32_t frames;                    /* closes after that many; 0: when the user does */
     struct sdfgi_log log;
     host_camera_fn camera;     /* NULL: the user flies */
     host_progress_fn progress; /* after each frame; may be NULL. Its GPU time is that of two frames before */

@@ -237,11 +237,10 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
 }
 
 static void post_bind(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipelineBindPoint point,
-                      float exposure)
+                      VkDescriptorSet set, float exposure)
 {
     const struct host_tone_push push = { exposure, (int32_t)renderer->supersample };
-    vkCmdBindDescriptorSets(cmd, point, renderer->pipelines.post_pipeline_layout, 0, 1, &renderer->post_set,
-                            0, NULL);
+    vkCmdBindDescriptorSets(cmd, point, renderer->pipelines.post_pipeline_layout, 0, 1, &set, 0, NULL);
     vkCmdPushConstants(cmd, renderer->pipelines.post_pipeline_layout,
                        VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(push), &push);
 }
@@ -257,19 +256,30 @@ void host_exposure_record(struct host_renderer *renderer, VkCommandBuffer cmd)
                                     .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_HOST_READ_BIT };
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, NULL, 0, NULL);
-    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, 0.0f);
+    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, renderer->post_set, 0.0f);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, renderer->pipelines.exposure);
     vkCmdDispatch(cmd, 1, 1, 1);
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, readers, 0, 1, &after, 0, NULL, 0, NULL);
 }
 
-void host_tonemap_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
-                         float exposure)
+static void tonemap(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
+                    VkDescriptorSet set, float exposure)
 {
-    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, exposure);
+    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, exposure);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     host_viewport_set(cmd, renderer->width, renderer->height);
     vkCmdDraw(cmd, 3, 1, 0, 0);
+}
+
+void host_tonemap_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
+                         float exposure)
+{
+    tonemap(renderer, cmd, pipeline, renderer->post_set, exposure);
+}
+
+void host_debug_show(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline)
+{
+    tonemap(renderer, cmd, pipeline, renderer->debug.set, HOST_TONE_NONE);
 }
 
 struct host_slot *host_renderer_frame_begin(struct host_renderer *renderer, const struct host_camera *camera,

@@ -245,6 +245,11 @@ bool host_gi_resolve(struct host_gi *gi, sdfgi_view *view, VkCommandBuffer cmd,
     return gi_check(gi, sdfgi_view_resolve(gi->context, view, cmd, desc), "looking up light");
 }
 
+bool host_gi_debug(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_debug_desc *desc)
+{
+    return gi_check(gi, sdfgi_debug_draw(gi->context, cmd, desc), "drawing a debug view");
+}
+
 bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings)
 {
     return gi_check(gi, sdfgi_set_settings(gi->context, settings), "changing settings");

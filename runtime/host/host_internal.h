@@ -198,6 +198,7 @@ sdfgi_view *host_gi_view_create(struct host_gi *gi, const struct sdfgi_view_desc
 void host_gi_view_destroy(struct host_gi *gi, sdfgi_view *view);
 bool host_gi_resolve(struct host_gi *gi, sdfgi_view *view, VkCommandBuffer cmd,
                      const struct sdfgi_resolve_desc *desc);
+bool host_gi_debug(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_debug_desc *desc);
 bool host_gi_set_settings(struct host_gi *gi, const struct sdfgi_settings *settings);
 void host_gi_get_settings(const struct host_gi *gi, struct sdfgi_settings *settings);
 void host_gi_get_report(const struct host_gi *gi, struct sdfgi_report *report);
@@ -224,6 +225,9 @@ struct host_pipelines {
     VkPipeline shadow_solid, shadow_tested;
     VkPipeline sky, exposure, tonemap;
 };
+
+/* Instead of an exposure: colours are shown as they are. */
+#define HOST_TONE_NONE (-1.0f)
 
 struct host_tone_push {
     float exposure;
@@ -330,6 +334,17 @@ struct host_targets {
     VkFramebuffer prepass, forward, picture_framebuffer;
 };
 
+/* Debug views (host_debug.c). */
+struct host_debug_desc {
+    enum sdfgi_debug_view view;
+    float exposure; /* factor on light; 0: the library's hint */
+};
+
+struct host_debug {
+    struct host_image image; /* none until a view is shown */
+    VkDescriptorSet set;     /* of the passes that follow, as host_renderer::post_set */
+};
+
 /* Light at single points (host_sample.c). */
 struct host_sampler {
     bool ready;
@@ -378,6 +393,7 @@ struct host_renderer {
     struct host_buffer exposure;
     struct host_sampler sampler;
     struct host_fog_passes fog;
+    struct host_debug debug;
     VkQueryPool queries;     /* HOST_STAMP_COUNT per slot */
     struct host_times times; /* of the newest finished frame */
     uint64_t submit_count;
@@ -438,6 +454,13 @@ void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data 
 /* Fills the froxels of what the prepass has drawn. Only where there is fog. */
 void host_fog_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkDescriptorSet frame_set);
 
+/* A camera's clip positions to positions relative to its origin: 16 floats, columns. */
+void host_camera_fill_inverse(const struct host_camera_frame *camera, float m[static 16]);
+
+/* Fills the image of debug views, which is made when it is missing. */
+bool host_debug_record(struct host_renderer *renderer, VkCommandBuffer cmd,
+                       const struct host_debug_desc *desc);
+
 void host_sampler_finish(struct host_renderer *renderer);
 
 bool host_targets_init(struct host_renderer *renderer);
@@ -457,5 +480,9 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
 void host_exposure_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_tonemap_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
                          float exposure);
+/* Shows the image of debug views instead. */
+void host_debug_show(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline);
+/* Writes the set that shows an image, which is in SHADER_READ_ONLY_OPTIMAL then. */
+void host_post_set_write(struct host_renderer *renderer, VkDescriptorSet set, const struct host_image *image);
 
 #endif

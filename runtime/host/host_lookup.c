@@ -59,19 +59,6 @@ static void pictures_bind(const struct host_renderer *renderer, struct host_slot
     frame->camera_position[3] = images.reflection ? 1.0f : 0.0f;
 }
 
-/* Columns. A clip position (x, y, z, 1) becomes (z camera + near (x right tan_x - y up tan_y + forward), z).
- */
-static void fill_inverse(const struct host_camera_frame *camera, float m[static 16])
-{
-    for (int i = 0; i < 3; i++) {
-        m[i] = (float)(camera->near_m * camera->tan_x * camera->right[i]);
-        m[4 + i] = (float)(-camera->near_m * camera->tan_y * camera->up[i]);
-        m[8 + i] = (float)(camera->position[i] - camera->origin[i]);
-        m[12 + i] = (float)(camera->near_m * camera->forward[i]);
-    }
-    m[11] = 1.0f;
-}
-
 bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot)
 {
     const struct host_targets *targets = &renderer->targets;
@@ -80,7 +67,7 @@ bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot)
     struct sdfgi_resolve_desc desc = { .depth = targets->depth.view,
                                        .normal = targets->normal.view,
                                        .roughness = targets->roughness };
-    fill_inverse(&renderer->camera, desc.inverse_view_projection);
+    host_camera_fill_inverse(&renderer->camera, desc.inverse_view_projection);
     if (!host_gi_resolve(renderer->gi, targets->view, slot->cmd, &desc))
         return false;
     pictures_bind(renderer, slot);

@@ -33,14 +33,13 @@ static bool ensure_shown(struct host_renderer *renderer, enum host_aov shown)
     return renderer->shown == shown ? host_slots_wait(renderer) : draw_again(renderer, shown);
 }
 
-/* All samples of the target as floats; NULL on failure. */
-static float *samples_read(struct host_renderer *renderer)
+/* All samples of an image as floats; NULL on failure. */
+static float *samples_read(struct host_renderer *renderer, const struct host_image *image)
 {
-    const struct host_image *hdr = &renderer->targets.hdr;
-    const size_t count = (size_t)4 * hdr->width * hdr->height;
+    const size_t count = (size_t)4 * image->width * image->height;
     float *samples = host_device_alloc(renderer->device, count, sizeof(float));
-    const bool half = hdr->format == VK_FORMAT_R16G16B16A16_SFLOAT;
-    if (!samples || !host_image_download(renderer->device, hdr, half ? 8 : 16, samples)) {
+    const bool half = image->format == VK_FORMAT_R16G16B16A16_SFLOAT;
+    if (!samples || !host_image_download(renderer->device, image, half ? 8 : 16, samples)) {
         free(samples);
         return NULL;
     }
@@ -55,7 +54,7 @@ static float *samples_read(struct host_renderer *renderer)
 
 static void box_filter(const struct host_renderer *renderer, const float *samples, float *rgba)
 {
-    const uint32_t s = renderer->supersample, stride = renderer->targets.hdr.width;
+    const uint32_t s = renderer->supersample, stride = renderer->width * s;
     const float weight = 1.0f / (float)(s * s);
     for (uint32_t y = 0; y < renderer->height; y++) {
         for (uint32_t x = 0; x < 4 * renderer->width; x++) {
@@ -69,11 +68,9 @@ static void box_filter(const struct host_renderer *renderer, const float *sample
     }
 }
 
-bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, float *rgba)
+static bool image_read(struct host_renderer *renderer, const struct host_image *image, float *rgba)
 {
-    if (!ensure_shown(renderer, aov))
-        return false;
-    float *samples = samples_read(renderer);
+    float *samples = samples_read(renderer, image);
     if (!samples)
         return false;
     box_filter(renderer, samples, rgba);
@@ -81,7 +78,13 @@ bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, f
     return true;
 }
 
-static bool picture_draw(struct host_renderer *renderer, float exposure)
+bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, float *rgba)
+{
+    return ensure_shown(renderer, aov) && image_read(renderer, &renderer->targets.hdr, rgba);
+}
+
+/* Fills the picture: with the debug view that has been drawn, or with the colour of the last frame. */
+static bool picture_draw(struct host_renderer *renderer, bool debug, float exposure)
 {
     const struct host_targets *targets = &renderer->targets;
     VkCommandBuffer cmd = host_commands_begin(renderer->device);
@@ -95,21 +98,54 @@ static bool picture_draw(struct host_renderer *renderer, float exposure)
     };
     host_exposure_record(renderer, cmd);
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_tonemap_record(renderer, cmd, renderer->pipelines.tonemap, exposure);
+    if (debug)
+        host_debug_show(renderer, cmd, renderer->pipelines.tonemap);
+    else
+        host_tonemap_record(renderer, cmd, renderer->pipelines.tonemap, exposure);
     vkCmdEndRenderPass(cmd);
     return host_commands_finish(renderer->device, cmd);
+}
+
+static bool debug_draw(struct host_renderer *renderer, enum sdfgi_debug_view view, float exposure)
+{
+    const struct host_debug_desc desc = { view, exposure };
+    if (!host_gi_set(renderer->gi))
+        return host_fail(renderer->device, "global illumination is off: there is nothing to show");
+    VkCommandBuffer cmd = host_commands_begin(renderer->device);
+    if (!cmd)
+        return false;
+    const bool recorded = host_debug_record(renderer, cmd, &desc);
+    return host_commands_finish(renderer->device, cmd) && recorded;
+}
+
+/* Draws the picture to find its exposure, unless one is given. */
+static bool expose(struct host_renderer *renderer, float given, float *exposure)
+{
+    if (!ensure_shown(renderer, HOST_AOV_COLOR) || !picture_draw(renderer, false, given))
+        return false;
+    *exposure = given;
+    if (!(given > 0.0f))
+        memcpy(exposure, renderer->exposure.mapped, sizeof(float));
+    return true;
 }
 
 bool host_renderer_read_picture(struct host_renderer *renderer, const struct host_picture_desc *desc,
                                 uint8_t *rgba)
 {
-    if (!ensure_shown(renderer, HOST_AOV_COLOR) || !picture_draw(renderer, desc->exposure) ||
+    const bool debug = desc->debug && *desc->debug < SDFGI_DEBUG_VIEW_COUNT;
+    float exposure;
+    if (!expose(renderer, desc->exposure, &exposure) ||
+        (debug && (!debug_draw(renderer, *desc->debug, exposure) || !picture_draw(renderer, true, 0.0f))) ||
         !host_image_download(renderer->device, &renderer->targets.picture, 4, rgba))
         return false;
-    if (desc->exposure_out) {
-        *desc->exposure_out = desc->exposure;
-        if (!(desc->exposure > 0.0f))
-            memcpy(desc->exposure_out, renderer->exposure.mapped, sizeof(float));
-    }
+    if (desc->exposure_out)
+        *desc->exposure_out = exposure;
     return true;
+}
+
+bool host_renderer_read_debug(struct host_renderer *renderer, enum sdfgi_debug_view view, float exposure,
+                              float *rgba)
+{
+    return expose(renderer, exposure, &exposure) && debug_draw(renderer, view, exposure) &&
+           image_read(renderer, &renderer->debug.image, rgba);
 }

@@ -69,20 +69,20 @@ static bool target_images(struct host_renderer *r)
            target_image(r, VK_FORMAT_R8G8B8A8_UNORM, color, 1, &t->picture);
 }
 
-static void post_set_write(struct host_renderer *renderer)
+void host_post_set_write(struct host_renderer *renderer, VkDescriptorSet set, const struct host_image *shown)
 {
-    const VkDescriptorImageInfo image = { renderer->nearest, renderer->targets.hdr.view,
+    const VkDescriptorImageInfo image = { renderer->nearest, shown->view,
                                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL };
     const VkDescriptorBufferInfo buffer = { renderer->exposure.buffer, 0, VK_WHOLE_SIZE };
     const VkWriteDescriptorSet writes[] = {
         { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = renderer->post_set,
+          .dstSet = set,
           .dstBinding = 0,
           .descriptorCount = 1,
           .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
           .pImageInfo = &image },
         { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = renderer->post_set,
+          .dstSet = set,
           .dstBinding = 1,
           .descriptorCount = 1,
           .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
@@ -117,7 +117,7 @@ bool host_targets_init(struct host_renderer *renderer)
         !framebuffer_create(renderer, renderer->passes.picture, &t->picture.view, 1, &t->picture,
                             &t->picture_framebuffer))
         return false;
-    post_set_write(renderer);
+    host_post_set_write(renderer, renderer->post_set, &t->hdr);
     return host_fog_targets_init(renderer);
 }
 
@@ -136,6 +136,7 @@ void host_targets_finish(struct host_renderer *renderer)
     if (t->view)
         host_gi_view_destroy(renderer->gi, t->view);
     host_fog_targets_finish(renderer);
+    host_image_destroy(renderer->device, &renderer->debug.image);
     *t = (struct host_targets){ 0 };
     renderer->has_frame = false;
 }
@@ -146,11 +147,11 @@ static bool pool_create(struct host_renderer *renderer)
 {
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS },
-        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * HOST_SLOTS + 1 },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5 * HOST_SLOTS + 1 },
+        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * HOST_SLOTS + 2 },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5 * HOST_SLOTS + 2 },
     };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                              .maxSets = 2 * HOST_SLOTS + 1,
+                                              .maxSets = 2 * HOST_SLOTS + 2,
                                               .poolSizeCount = HOST_COUNT(sizes),
                                               .pPoolSizes = sizes };
     return host_check(renderer->device,
@@ -251,15 +252,25 @@ static bool queries_create(struct host_renderer *renderer)
                       "creating a query pool");
 }
 
+/* Automatic until there is a picture. */
+static bool exposure_init(struct host_renderer *renderer)
+{
+    if (!host_buffer_create(renderer->device, 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true,
+                            &renderer->exposure))
+        return false;
+    memset(renderer->exposure.mapped, 0, 16);
+    return true;
+}
+
 static bool post_init(struct host_renderer *renderer)
 {
     const VkSamplerCreateInfo nearest = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO };
     return host_check(renderer->device,
                       vkCreateSampler(renderer->device->device, &nearest, NULL, &renderer->nearest),
                       "creating a sampler") &&
-           host_buffer_create(renderer->device, 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true,
-                              &renderer->exposure) &&
-           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set);
+           exposure_init(renderer) &&
+           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set) &&
+           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->debug.set);
 }
 
 static bool scratch_init(struct host_renderer *renderer)

@@ -65,3 +65,16 @@ void host_camera_resolve(const struct host_camera *camera, double aspect, struct
     out->tan_x = out->tan_y * aspect;
     fill_clip(out);
 }
+
+/* Columns. A clip position (x, y, z, 1) becomes (z camera + near (x right tan_x - y up tan_y + forward), z).
+ */
+void host_camera_fill_inverse(const struct host_camera_frame *camera, float m[static 16])
+{
+    for (int i = 0; i < 3; i++) {
+        m[i] = (float)(camera->near_m * camera->tan_x * camera->right[i]);
+        m[4 + i] = (float)(-camera->near_m * camera->tan_y * camera->up[i]);
+        m[8 + i] = (float)(camera->position[i] - camera->origin[i]);
+        m[12 + i] = (float)(camera->near_m * camera->forward[i]);
+    }
+    m[11] = 1.0f;
+}

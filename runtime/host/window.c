@@ -1,24 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * `sdfgi view`: a window with a camera that flies.
  *
- * G switches global illumination, F1 walks through the views, WASD moves, Q and E sink and rise, Shift
- * hurries, a held mouse button turns, Escape closes. */
-#define GLFW_INCLUDE_VULKAN
-#include <GLFW/glfw3.h>
-
-#include "host_math.h"
+ * G switches global illumination, F2 walks through the parts of the light, V and Shift V through the debug
+ * views, of which 1 to 9 are the first; 0 is the picture. Escape closes. host_fly.h has the camera's keys. */
+#include "host_fly.h"
 #include "host_swapchain.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct fly_camera {
-    double position[3];
-    double yaw, pitch; /* radians; yaw 0 looks along -Z */
-    float yfov_rad;
-    double speed_m_s;
-};
 
 struct window {
     const struct host_window_desc *desc;
@@ -29,31 +20,44 @@ struct window {
     struct host_swapchain swapchain;
     VkPipeline tonemap;
     struct sdfgi_settings settings;
-    struct fly_camera camera;
-    struct host_camera led; /* where desc->camera leads */
-    uint32_t frame;         /* how many have been drawn */
-    uint32_t shown;         /* index into views */
+    struct host_fly camera;
+    struct host_camera led;      /* where desc->camera leads */
+    uint32_t frame;              /* how many have been drawn */
+    uint32_t shown;              /* index into parts */
+    enum sdfgi_debug_view debug; /* shown instead; SDFGI_DEBUG_VIEW_COUNT: none */
     bool toggle_gi, swapchain_stale;
-    double cursor[2], time_s, title_time_s;
+    double time_s, title_time_s;
     uint32_t title_frames;
 };
 
-static const enum host_aov views[] = { HOST_AOV_COLOR, HOST_AOV_IRRADIANCE, HOST_AOV_DIFFUSE_INDIRECT,
+static const enum host_aov parts[] = { HOST_AOV_COLOR, HOST_AOV_IRRADIANCE, HOST_AOV_DIFFUSE_INDIRECT,
                                        HOST_AOV_NORMAL, HOST_AOV_ALBEDO };
 
 /* ---- Input ------------------------------------------------------------------------------------------ */
+
+/* The picture is one of the views. */
+static enum sdfgi_debug_view debug_step(enum sdfgi_debug_view view, bool back)
+{
+    const int count = SDFGI_DEBUG_VIEW_COUNT + 1;
+    return (enum sdfgi_debug_view)(((int)view + (back ? count - 1 : 1)) % count);
+}
 
 static void key_received(GLFWwindow *glfw, int key, int scancode, int action, int mods)
 {
     struct window *window = glfwGetWindowUserPointer(glfw);
     (void)scancode;
-    (void)mods;
     if (action != GLFW_PRESS)
         return;
     if (key == GLFW_KEY_G)
         window->toggle_gi = true;
-    if (key == GLFW_KEY_F1)
-        window->shown = (window->shown + 1) % HOST_COUNT(views);
+    if (key == GLFW_KEY_F2)
+        window->shown = (window->shown + 1) % HOST_COUNT(parts);
+    if (key == GLFW_KEY_V)
+        window->debug = debug_step(window->debug, (mods & GLFW_MOD_SHIFT) != 0);
+    if (key == GLFW_KEY_0)
+        window->debug = SDFGI_DEBUG_VIEW_COUNT;
+    if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
+        window->debug = (enum sdfgi_debug_view)(key - GLFW_KEY_1);
     if (key == GLFW_KEY_ESCAPE)
         glfwSetWindowShouldClose(glfw, GLFW_TRUE);
 }
@@ -64,73 +68,6 @@ static void size_changed(GLFWwindow *glfw, int width, int height)
     (void)width;
     (void)height;
     window->swapchain_stale = true;
-}
-
-static void fly_forward(const struct fly_camera *camera, double out[3])
-{
-    out[0] = sin(camera->yaw) * cos(camera->pitch);
-    out[1] = sin(camera->pitch);
-    out[2] = -cos(camera->yaw) * cos(camera->pitch);
-}
-
-static void fly_init(struct fly_camera *camera, const struct host_camera *from, double scene_radius)
-{
-    double forward[3];
-    for (int i = 0; i < 3; i++) {
-        camera->position[i] = from->position[i];
-        forward[i] = from->look_at[i] - from->position[i];
-    }
-    host_normalize3(forward);
-    camera->yaw = atan2(forward[0], -forward[2]);
-    camera->pitch = asin(fmin(fmax(forward[1], -1.0), 1.0));
-    camera->yfov_rad = from->yfov_rad;
-    camera->speed_m_s = fmin(fmax(scene_radius * 0.2, 0.5), 10.0);
-}
-
-static double key_axis(GLFWwindow *glfw, int more, int less)
-{
-    return (glfwGetKey(glfw, more) == GLFW_PRESS) - (glfwGetKey(glfw, less) == GLFW_PRESS);
-}
-
-static void fly_turn(struct window *window)
-{
-    double cursor[2];
-    glfwGetCursorPos(window->glfw, &cursor[0], &cursor[1]);
-    const bool held = glfwGetMouseButton(window->glfw, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS ||
-                      glfwGetMouseButton(window->glfw, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-    if (held) {
-        window->camera.yaw += 0.003 * (cursor[0] - window->cursor[0]);
-        window->camera.pitch -= 0.003 * (cursor[1] - window->cursor[1]);
-        window->camera.pitch = fmin(fmax(window->camera.pitch, -1.55), 1.55);
-    }
-    memcpy(window->cursor, cursor, sizeof(cursor));
-}
-
-static void fly_move(struct window *window, double seconds)
-{
-    struct fly_camera *camera = &window->camera;
-    const bool hurry = glfwGetKey(window->glfw, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
-    const double step_m = camera->speed_m_s * (hurry ? 5.0 : 1.0) * seconds;
-    const double ahead = key_axis(window->glfw, GLFW_KEY_W, GLFW_KEY_S);
-    const double aside = key_axis(window->glfw, GLFW_KEY_D, GLFW_KEY_A);
-    const double above = key_axis(window->glfw, GLFW_KEY_E, GLFW_KEY_Q);
-    double forward[3];
-    fly_forward(camera, forward);
-    camera->position[0] += step_m * (ahead * forward[0] + aside * cos(camera->yaw));
-    camera->position[1] += step_m * (ahead * forward[1] + above);
-    camera->position[2] += step_m * (ahead * forward[2] + aside * sin(camera->yaw));
-}
-
-static struct host_camera fly_resolve(const struct fly_camera *camera)
-{
-    struct host_camera out = { .up = { 0, 1, 0 }, .yfov_rad = camera->yfov_rad };
-    double forward[3];
-    fly_forward(camera, forward);
-    for (int i = 0; i < 3; i++) {
-        out.position[i] = camera->position[i];
-        out.look_at[i] = camera->position[i] + forward[i];
-    }
-    return out;
 }
 
 /* ---- Frame ------------------------------------------------------------------------------------------ */
@@ -158,7 +95,32 @@ static bool acquire(struct window *window, VkSemaphore semaphore, uint32_t *imag
     return result == VK_ERROR_OUT_OF_DATE_KHR || host_check(window->device, result, "acquiring an image");
 }
 
-static void record_picture(struct window *window, VkCommandBuffer cmd, uint32_t image)
+/* There are no views of what is switched off. */
+static bool shows_debug(const struct window *window)
+{
+    return window->debug < SDFGI_DEBUG_VIEW_COUNT && host_gi_set(window->renderer->gi);
+}
+
+/* With the exposure of the pictures before. */
+static bool record_debug(struct window *window, VkCommandBuffer cmd)
+{
+    struct host_debug_desc desc = { .view = window->debug };
+    memcpy(&desc.exposure, window->renderer->exposure.mapped, sizeof(float));
+    return !shows_debug(window) || host_debug_record(window->renderer, cmd, &desc);
+}
+
+static void record_shown(struct window *window, VkCommandBuffer cmd)
+{
+    /* Reflectances and directions are shown as they are. */
+    const enum host_aov shown = parts[window->shown];
+    const bool fixed = shown == HOST_AOV_NORMAL || shown == HOST_AOV_ALBEDO;
+    if (shows_debug(window))
+        host_debug_show(window->renderer, cmd, window->tonemap);
+    else
+        host_tonemap_record(window->renderer, cmd, window->tonemap, fixed ? 1.0f : 0.0f);
+}
+
+static bool record_picture(struct window *window, VkCommandBuffer cmd, uint32_t image)
 {
     const struct host_swapchain *swapchain = &window->swapchain;
     const VkRenderPassBeginInfo begin = {
@@ -167,13 +129,15 @@ static void record_picture(struct window *window, VkCommandBuffer cmd, uint32_t 
         .framebuffer = swapchain->framebuffers[image],
         .renderArea = { { 0, 0 }, { swapchain->width, swapchain->height } },
     };
-    /* Reflectances and directions are shown as they are. */
-    const enum host_aov shown = views[window->shown];
-    const bool fixed = shown == HOST_AOV_NORMAL || shown == HOST_AOV_ALBEDO;
     host_exposure_record(window->renderer, cmd);
+    if (!record_debug(window, cmd)) {
+        vkEndCommandBuffer(cmd);
+        return false;
+    }
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_tonemap_record(window->renderer, cmd, window->tonemap, fixed ? 1.0f : 0.0f);
+    record_shown(window, cmd);
     vkCmdEndRenderPass(cmd);
+    return true;
 }
 
 static bool present(struct window *window, uint32_t image)
@@ -205,7 +169,7 @@ static void tell_progress(struct window *window)
 static bool draw(struct window *window)
 {
     struct host_renderer *renderer = window->renderer;
-    const struct host_camera camera = window->desc->camera ? window->led : fly_resolve(&window->camera);
+    const struct host_camera camera = window->desc->camera ? window->led : host_fly_camera(&window->camera);
     const uint64_t slot_number = renderer->submit_count % HOST_SLOTS;
     uint32_t image = 0;
     bool ready = false;
@@ -217,10 +181,9 @@ static bool draw(struct window *window)
         return true;
     const VkSemaphore semaphores[] = { window->swapchain.acquired[slot_number],
                                        window->swapchain.drawn[image] };
-    struct host_slot *slot = host_renderer_frame_begin(renderer, &camera, views[window->shown]);
-    if (!slot)
+    struct host_slot *slot = host_renderer_frame_begin(renderer, &camera, parts[window->shown]);
+    if (!slot || !record_picture(window, slot->cmd, image))
         return false;
-    record_picture(window, slot->cmd, image);
     if (!host_slot_submit(renderer, slot, semaphores) || !present(window, image))
         return false;
     tell_progress(window);
@@ -237,7 +200,8 @@ static void show_title(struct window *window)
     snprintf(title, sizeof(title), "sdfgi - %.1f ms a frame, %.1f ms on the GPU - GI %s - %s",
              1e3 * (now_s - window->title_time_s) / window->title_frames,
              1e-6 * (double)window->renderer->times.frame_ns, window->settings.enabled ? "on" : "off",
-             host_aov_name(views[window->shown]));
+             shows_debug(window) ? sdfgi_debug_view_name(window->debug)
+                                 : host_aov_name(parts[window->shown]));
     glfwSetWindowTitle(window->glfw, title);
     window->title_time_s = now_s;
     window->title_frames = 0;
@@ -253,8 +217,7 @@ static bool toggle_gi(struct window *window)
 static bool step(struct window *window)
 {
     const double now_s = glfwGetTime();
-    fly_turn(window);
-    fly_move(window, fmin(now_s - window->time_s, 0.1));
+    host_fly_step(&window->camera, window->glfw, fmin(now_s - window->time_s, 0.1), true, true);
     window->time_s = now_s;
     if (window->toggle_gi && !toggle_gi(window))
         return false;
@@ -297,7 +260,8 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
     if (!window->renderer)
         return false;
     host_renderer_get_settings(window->renderer, &window->settings);
-    fly_init(&window->camera, &desc->view->camera, window->scene->radius);
+    window->debug = desc->debug ? *desc->debug : SDFGI_DEBUG_VIEW_COUNT;
+    host_fly_init(&window->camera, &desc->view->camera, window->scene->radius);
     window->swapchain_stale = true;
     return host_pipeline_tonemap_create(window->device, &window->renderer->pipelines, window->swapchain.pass,
                                         &window->tonemap);

@@ -9,7 +9,7 @@ layout(set = 0, binding = 1, std430) buffer host_exposure_block
 };
 layout(push_constant) uniform host_tone_block
 {
-    float exposure; /* 0: automatic */
+    float exposure; /* 0: automatic; below 0: colours are shown as they are */
     int supersample;
 };
 

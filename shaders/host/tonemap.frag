@@ -35,8 +35,10 @@ void main()
     const ivec2 base = ivec2(gl_FragCoord.xy) * supersample;
     vec3 sum = vec3(0.0);
     for (int y = 0; y < supersample; y++) {
-        for (int x = 0; x < supersample; x++)
-            sum += tone_curve(max(texelFetch(hdr, base + ivec2(x, y), 0).rgb, 0.0) * factor);
+        for (int x = 0; x < supersample; x++) {
+            const vec3 rgb = max(texelFetch(hdr, base + ivec2(x, y), 0).rgb, 0.0);
+            sum += exposure < 0.0 ? min(rgb, 1.0) : tone_curve(rgb * factor);
+        }
     }
     out_srgb = vec4(srgb_encode(sum / float(supersample * supersample)), 1.0);
 }

@@ -260,7 +260,7 @@ static int walk(void **state)
 {
     (void)state;
     SET_ARGUMENTS("walk", command.scene, "--path", command.path, "--size", "8x8", "--frames", "2", "--hold",
-                  "0", SMALL, "--sample", "0,1,0,0,1,0", "--every", "1", "--out", "w");
+                  "0", SMALL, "--sample", "0,1,0,0,1,0", "--every", "1", "--debug", "albedo", "--out", "w");
     return 0;
 }
 

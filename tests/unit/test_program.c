@@ -4,6 +4,10 @@
 #include "files.h"
 #include "unit.h"
 
+#include "image/image.h"
+#include "image/tone.h"
+
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,6 +83,8 @@ static const char *const bad_input[][2] = {
     { "render none.glb --out a.png --set energy", "key=value" },
     { "render none.glb --out a.png --frames 1x", "1x" },
     { "render none.glb --out a.png --lookup eighth", "--lookup is \"eighth\"" },
+    { "render none.glb --out a.png --debug voxels", "--debug is \"voxels\"" },
+    { "render none.glb --out a.png --debug solid --gi off", "GI is off" },
     { "render none.glb --out a.png --size 10000x10000 --ssaa 4", "--ssaa" },
     { "walk --out w", "out/world.glb" },
     { "walk none.glb --out w", "views/walk.json" },
@@ -104,6 +110,7 @@ static const char *const bad_input[][2] = {
     { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0,5", "--sample" },
     { "walk none.glb --path path.json --out . --sample 1,2,3,0,1,0 --window", "--sample" },
     { "walk none.glb --path path.json --out . --lookup eighth", "--lookup is \"eighth\"" },
+    { "walk none.glb --path path.json --out . --debug Solid", "--debug is \"Solid\"" },
     { "walk none.glb --path path.json --out . --view none.json", "none.json" },
     { "walk none.glb --path path.json --out . --set energy=-1", "sdfgi_energy" },
     { "info --set cascades=9", "sdfgi_cascades" },
@@ -147,6 +154,7 @@ static void without_a_vulkan_device_info_says_so(void **state)
     assert_ptr_equal(strchr(run.err, '\n'), run.err + strlen(run.err) - 1);
     /* The memory estimate needs no device. */
     assert_non_null(strstr(run.out, "total"));
+    assert_non_null(strstr(run.out, "  probes_state "));
 }
 
 static void listing_devices_leaves_nothing_behind(void **state)
@@ -225,6 +233,43 @@ static void a_picture_needs_no_cache_and_a_damaged_one_is_no_harm(void **state)
     run_in_folder("rm -rf cache mesa *.png tiny.gltf");
 }
 
+/* The triangle stands where the default camera looks, and faces +z. */
+static struct image render_debug(const char *picture)
+{
+    char arguments[256], error[256];
+    snprintf(
+        arguments, sizeof arguments,
+        "render tiny.gltf --size 8x8 --frames 1 --quiet --set cascades=1 --set resolution=32 --debug solid "
+        "--out %s",
+        picture);
+    const struct run run = run_program("SDFGI_VALIDATION=1", arguments);
+    assert_string_equal(run.err, "");
+    assert_int_equal(run.code, 0);
+    struct image image;
+    assert_true(image_read(&image, files_path(picture), error, sizeof error));
+    return image;
+}
+
+static void a_debug_view_is_written_instead_of_the_picture(void **state)
+{
+    (void)state;
+    if (run_program("", "info").code != 0)
+        skip();
+    files_write_triangle("tiny.gltf");
+    struct image linear = render_debug("linear.pfm"), encoded = render_debug("encoded.png");
+    int solid = 0;
+    for (int i = 0; i < 4 * 8 * 8; i++) {
+        const float value = i % 4 == 3 ? 1 : tone_srgb_encode(linear.rgba[i]);
+        assert_true(fabsf(encoded.rgba[i] - value) < 0.003f);
+        solid += i % 4 == 0 && fabsf(linear.rgba[i] - 0.75f) < 0.001f;
+        assert_true(i % 4 != 0 || linear.rgba[i] > 0.3f || linear.rgba[i] < 0.02f);
+    }
+    assert_in_range(solid, 4, 48);
+    image_finish(&linear);
+    image_finish(&encoded);
+    run_in_folder("rm -f linear.pfm encoded.png tiny.gltf");
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2)
@@ -237,6 +282,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(every_command_has_help),
         cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
         cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),
+        cmocka_unit_test(a_debug_view_is_written_instead_of_the_picture),
     };
     return cmocka_run_group_tests(tests, make_files, files_teardown);
 }
