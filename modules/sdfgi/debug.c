@@ -107,7 +107,7 @@ enum sdfgi_result sdfgi_debug_draw(sdfgi *gi, VkCommandBuffer cmd, const struct 
         result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->debug_views, &result) : NULL;
     if (!view)
         return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_debug_draw");
-    sdfgi_view_write_set(&gi->backend, view, &(struct view_pictures){ .diffuse = desc->output });
+    sdfgi_view_write_set(&gi->backend, view, view, &(struct view_pictures){ .diffuse = desc->output });
     sdfgi_picture_record(gi, cmd, view, &work);
     return SDFGI_OK;
 }

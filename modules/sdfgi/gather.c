@@ -56,7 +56,7 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
                                             .normal = desc->normal,
                                             .input_layout = desc->input_layout,
                                             .diffuse = desc->output };
-    sdfgi_view_write_set(&gi->backend, view, &pictures);
+    sdfgi_view_write_set(&gi->backend, view, view, &pictures);
     sdfgi_picture_record(gi, cmd, view, &work);
     return SDFGI_OK;
 }
@@ -169,13 +169,15 @@ enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffe
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_view_resolve");
     const struct work work = sdfgi_picture_work(&gather);
-    const VkResult result = prepare(gi, view, desc, work.pass);
-    if (result != VK_SUCCESS)
+    VkResult result = prepare(gi, view, desc, work.pass);
+    const struct sdfgi_view *holder =
+        result == VK_SUCCESS ? sdfgi_view_next_resolve(&gi->backend, view, &result) : NULL;
+    if (!holder)
         return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_view_resolve");
     const struct view_pictures pictures = { desc->depth, desc->normal, desc->roughness, desc->input_layout,
                                             view->diffuse.view };
-    sdfgi_view_write_set(&gi->backend, view, &pictures);
-    begin(gi, cmd, view);
+    sdfgi_view_write_set(&gi->backend, holder, view, &pictures);
+    begin(gi, cmd, holder);
     if (!view->diffuse_ready)
         gpu_image_to_general(&gi->recorder.gpu, &view->diffuse, 1);
     view->diffuse_ready = true;

@@ -18,6 +18,14 @@ static VkResult create_pool(const struct backend *backend, VkDescriptorPool *poo
     return sdfgi_backend_pool_create(backend, sets, sizes, 3, 0, pool);
 }
 
+static VkResult create_sets(const struct backend *backend, struct sdfgi_view *view)
+{
+    VkResult result = create_pool(backend, &view->pool);
+    for (uint32_t f = 0; f < backend->retired.frames_in_flight && result == VK_SUCCESS; f++)
+        result = sdfgi_backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
+    return result;
+}
+
 static VkResult create_picture(struct backend *backend, const struct sdfgi_view *view,
                                struct gpu_image *image, const char *name)
 {
@@ -27,10 +35,13 @@ static VkResult create_picture(struct backend *backend, const struct sdfgi_view 
         SDFGI_MEMORY_VIEWS, name);
 }
 
+static void finish_list(struct backend *backend, struct sdfgi_view **first);
+
 static void destroy(struct gpu_retired *item, void *user)
 {
     struct backend *backend = user;
     struct sdfgi_view *view = (struct sdfgi_view *)item;
+    finish_list(backend, &view->resolves.of_gathers);
     sdfgi_backend_image_finish(backend, &view->diffuse, SDFGI_MEMORY_VIEWS);
     sdfgi_backend_image_finish(backend, &view->reflection, SDFGI_MEMORY_VIEWS);
     sdfgi_backend_image_finish(backend, &view->filtered, SDFGI_MEMORY_VIEWS);
@@ -49,11 +60,8 @@ struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_v
     if (!view)
         return NULL;
     view->desc = *desc;
-    *result = create_pool(backend, &view->pool);
-    for (uint32_t f = 0; f < backend->retired.frames_in_flight && *result == VK_SUCCESS; f++)
-        *result = sdfgi_backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
-    if (*result == VK_SUCCESS && desc->width > 0)
-        *result = create_picture(backend, view, &view->diffuse, "sdfgi diffuse");
+    *result = desc->width > 0 ? create_picture(backend, view, &view->diffuse, "sdfgi diffuse")
+                              : create_sets(backend, view);
     if (*result == VK_SUCCESS)
         return view;
     destroy(&view->retired, backend);
@@ -112,6 +120,14 @@ struct sdfgi_view *sdfgi_views_next(struct backend *backend, struct views *views
     return *link;
 }
 
+struct sdfgi_view *sdfgi_view_next_resolve(struct backend *backend, struct sdfgi_view *view, VkResult *result)
+{
+    if (view->frame != backend->retired.frame)
+        view->resolves.used = 0;
+    view->frame = backend->retired.frame;
+    return sdfgi_views_next(backend, &view->resolves, result);
+}
+
 void sdfgi_views_retire(struct backend *backend, struct views *views, struct sdfgi_view *view)
 {
     struct sdfgi_view **link = &views->of_host;
@@ -146,13 +162,13 @@ static void add_image(struct writes *w, VkDescriptorSet set, uint32_t binding, V
     w->count++;
 }
 
-void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view *view,
-                          const struct view_pictures *p)
+void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view *holder,
+                          const struct sdfgi_view *view, const struct view_pictures *p)
 {
     const VkDescriptorType in = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                            out = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     const VkImageLayout layout = p->input_layout ? p->input_layout : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    const VkDescriptorSet set = view->sets[sdfgi_backend_slot(backend)];
+    const VkDescriptorSet set = holder->sets[sdfgi_backend_slot(backend)];
     const VkDescriptorBufferInfo tiles = { view->tiles.handle, 0, VK_WHOLE_SIZE };
     struct writes w = { .count = 0 };
     add_image(&w, set, SDFGI_BINDING_VIEW_DEPTH, in, p->depth, layout);

@@ -9,6 +9,15 @@
 #include "pass/pass_record.h"
 #include "pass/resources.h"
 
+struct sdfgi_view;
+
+/* Those of gathers are made when a frame asks for more pictures than any frame before. */
+struct views {
+    struct sdfgi_view *of_gathers;
+    uint32_t used; /* of these, in this frame */
+    struct sdfgi_view *of_host;
+};
+
 struct sdfgi_view {
     struct gpu_retired retired;
     struct sdfgi_view_desc desc;
@@ -19,21 +28,16 @@ struct sdfgi_view {
     struct gpu_buffer tiles;
     bool diffuse_ready, reflection_ready; /* in their layout */
     bool reflects;                        /* the last resolve made reflections */
+    struct views resolves; /* these have the sets: a picture may be resolved again without an update */
+    uint64_t frame;        /* of the last resolve */
     struct sdfgi_view *next;
-};
-
-/* Those of gathers are made when a frame asks for more pictures than any frame before. */
-struct views {
-    struct sdfgi_view *of_gathers;
-    uint32_t used; /* of these, in this frame */
-    struct sdfgi_view *of_host;
 };
 
 void sdfgi_views_finish(struct backend *backend, struct views *views);
 /* The next view for a gather in this frame, or NULL and a reason. */
 struct sdfgi_view *sdfgi_views_next(struct backend *backend, struct views *views, VkResult *result);
 
-/* A view with a picture of diffuse light, if the description has a size. */
+/* A view with a picture of diffuse light if the description has a size, else one with sets. */
 struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_view_desc *desc,
                                    VkResult *result);
 /* Adds what reflections need, unless it is there. */
@@ -48,8 +52,11 @@ struct view_pictures {
     VkImageView diffuse;
 };
 
-/* Writes the pictures into the view's set of this frame. */
-void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view *view,
-                          const struct view_pictures *pictures);
+/* Writes these pictures, and those of the view, into the set of this frame that `holder` has. */
+void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view *holder,
+                          const struct sdfgi_view *view, const struct view_pictures *pictures);
+/* What holds the set of the next resolve of a view, or NULL and a reason. */
+struct sdfgi_view *sdfgi_view_next_resolve(struct backend *backend, struct sdfgi_view *view,
+                                           VkResult *result);
 
 #endif
