@@ -23,11 +23,18 @@ uint accumulator(uint plane, uint block)
     return plane * (sdfgi_scratch_part_cells(sdfgi_frame.resolution_log2) / 8u) + block;
 }
 
-/* The first of two words with the emissive bits of a cell. */
-uint emissive_word(voxel_part part, ivec3 cell)
+/* False if nothing has emitted yet, or there was no memory for emission: its accumulators are not there. */
+bool emission_is_kept()
+{
+    return sdfgi_frame.lists_emitters != 0u;
+}
+
+/* The first of two words with the bits of a cell's sub-voxels that emit along an axis. */
+uint emissive_word(voxel_part part, int axis, ivec3 cell)
 {
     const uvec3 at = uvec3(cell - part.low), size = uvec3(part.high - part.low);
-    return sdfgi_scratch_emissive_bits(sdfgi_frame.resolution_log2) +
+    const uint bits = sdfgi_frame.resolution_log2;
+    return sdfgi_scratch_emissive_bits(bits) + 2u * uint(axis) * sdfgi_scratch_part_cells(bits) +
            2u * (at.x + size.x * (at.y + size.y * at.z));
 }
 

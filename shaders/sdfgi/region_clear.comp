@@ -21,15 +21,17 @@ layout(push_constant) uniform sdfgi_push
 void clear_accumulators(ivec3 cell)
 {
     const uint block = part_block(voxel_part(args.low, args.high), cell);
-    const uint planes = sdfgi_surfaces_emit() ? uint(SDFGI_ACCUM_PLANES) : uint(SDFGI_ACCUM_EMISSION);
+    const uint planes = emission_is_kept() ? uint(SDFGI_ACCUM_PLANES) : uint(SDFGI_ACCUM_EMISSION);
     for (uint plane = 0u; plane < planes; plane++)
         sdfgi_scratch[accumulator(plane, block)] = 0u;
 }
 
 void clear_emissive_bits(ivec3 cell)
 {
-    const uint word = emissive_word(voxel_part(args.low, args.high), cell);
-    sdfgi_scratch[word] = sdfgi_scratch[word + 1u] = 0u;
+    for (int axis = 0; axis < 3; axis++) {
+        const uint word = emissive_word(voxel_part(args.low, args.high), axis, cell);
+        sdfgi_scratch[word] = sdfgi_scratch[word + 1u] = 0u;
+    }
 }
 
 /* Adds those of four cells that hold bits to the dirty bounds; `held` has a bit per cell. Volumes are
@@ -57,7 +59,7 @@ void main()
         add_removed(first, held);
     for (int k = 0; k < 4; k++)
         sdfgi_bits[sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0))] = uvec2(0u);
-    for (int k = 0; k < (sdfgi_surfaces_emit() ? 4 : 0); k++)
+    for (int k = 0; k < (emission_is_kept() ? 4 : 0); k++)
         clear_emissive_bits(first + ivec3(0, k, 0));
     if (((first.x | first.z) & 1) == 0) {
         clear_accumulators(first);

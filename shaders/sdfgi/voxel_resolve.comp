@@ -59,15 +59,18 @@ uint resolve_normals(uint block)
     return packed;
 }
 
-/* Per cell (bit 0 of the index: x, bit 1: y, bit 2: z) its occupancy bits, and its emissive bits. */
+/* Per cell (bit 0 of the index: x, bit 1: y, bit 2: z) its occupancy bits, its emissive bits, and those that
+ * emit along an axis. */
 uvec2 block_bits[8];
 uvec2 block_emissive[8];
+uvec2 block_facing[3][8];
 
 /* What one side of the block shows. */
 struct side_view {
     uint seen;    /* lines of sight, of 64, that meet a set sub-voxel */
-    uint emits;   /* those that meet one that emits */
-    uint reaches; /* those that would, if nothing else were there */
+    uint emits;   /* those that meet what emits along them */
+    uint walls;   /* those that meet what emits, but along other axes */
+    uint reaches; /* those that would meet what emits along them if nothing but walls were there */
     float depth;  /* mean depth behind the side, in sub-voxels, of what emits */
 };
 
@@ -77,34 +80,40 @@ struct side_view {
 side_view view_from(uint side)
 {
     const int axis = int(side >> 1u);
-    uvec2 hidden = uvec2(0u), emissive = uvec2(0u);
+    uvec2 hidden = uvec2(0u), facing = uvec2(0u), walls = uvec2(0u);
     uint emits = 0u, depths = 0u;
     [[unroll]] for (int i = 0; i < 8; i++)
     {
         const int depth = (side & 1u) == 0u ? 7 - i : i;
-        const uvec2 solid = slice_of_block(block_bits, axis, depth),
-                    shines = slice_of_block(block_emissive, axis, depth);
-        const uint first = slice_count(solid & shines & ~hidden);
-        emits += first;
-        depths += first * uint(i);
-        hidden |= solid;
-        emissive |= shines;
+        const uvec2 first = slice_of_block(block_bits, axis, depth) & ~hidden,
+                    faces = slice_of_block(block_facing[axis], axis, depth);
+        const uint count = slice_count(first & faces);
+        emits += count;
+        depths += count * uint(i);
+        hidden |= first;
+        facing |= faces;
+        walls |= first & slice_of_block(block_emissive, axis, depth) & ~faces;
     }
-    return side_view(slice_count(hidden), emits, slice_count(emissive),
+    return side_view(slice_count(hidden), emits, slice_count(walls), slice_count(facing & ~walls),
                      float(depths) / float(max(emits, 1u)));
 }
 
 /* ---- Emission */
 
-/* Loads the bits and emissive bits of the block that begins at a cell. */
+/* Loads the bits of the block that begins at a cell. */
 void load_block(ivec3 first)
 {
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
         const ivec3 cell = first + ivec3(i & 1u, i >> 1u & 1u, i >> 2u);
         block_bits[i] = sdfgi_cell_bits(args.cascade, cell);
-        const uint word = emissive_word(voxel_part(args.low, args.high), cell);
-        block_emissive[i] = uvec2(sdfgi_scratch[word], sdfgi_scratch[word + 1u]);
+        block_emissive[i] = uvec2(0u);
+        [[unroll]] for (int axis = 0; axis < 3; axis++)
+        {
+            const uint word = emissive_word(voxel_part(args.low, args.high), axis, cell);
+            block_facing[axis][i] = uvec2(sdfgi_scratch[word], sdfgi_scratch[word + 1u]);
+            block_emissive[i] |= block_facing[axis][i];
+        }
     }
 }
 
@@ -122,11 +131,14 @@ float facing_area(uint block, uint side)
     return float(accumulated(SDFGI_ACCUM_EMISSION_SIDES + side, block)) / SDFGI_AREA_STEPS;
 }
 
-/* The part of it that the side sees: as much as of the lines of sight that meet an emitter. On each the first
- * layer counts, however many there are. */
-float area_seen(float facing, side_view shown)
+/* The share of what a side sees that emits. Of lines that meet an emitter its area covers a part: at most all
+ * of it, however many layers lie there. Where a wall that emits stands on a floor that emits everywhere,
+ * lines through the wall see no face, and what is in the room never sees along them: they do not count. */
+float share_that_emits(float area, side_view shown)
 {
-    return min(facing / float(max(shown.reaches, 1u)), 1.0) * float(shown.emits);
+    const float covered = min(area / float(max(shown.reaches, 1u)), 1.0);
+    const float walls = float(shown.walls) * clamp(10.0 * covered - 9.0, 0.0, 1.0);
+    return covered * float(shown.emits) / max(float(shown.seen) - walls, 1.0);
 }
 
 /* True if an emitter fills its box badly: it lies deep behind a face, like a room's corner in which floor and
@@ -165,7 +177,7 @@ void store_emitter_shape(uint block, ivec3 first, emitter_view view)
 /* Emission of the brightest side, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, ivec3 first)
 {
-    if (!sdfgi_surfaces_emit() || accumulated(SDFGI_ACCUM_EMISSION_AREA, block) == 0u)
+    if (!emission_is_kept() || accumulated(SDFGI_ACCUM_EMISSION_AREA, block) == 0u)
         return uvec2(0u);
     load_block(first);
     emitter_view view;
@@ -176,12 +188,12 @@ uvec2 resolve_emission(uint block, ivec3 first)
         const side_view shown = view_from(side);
         const float facing = facing_area(block, side);
         all_sides += facing;
-        view.areas[side] = area_seen(facing, shown);
+        fractions[side] = share_that_emits(facing, shown);
+        largest = max(largest, fractions[side]);
+        view.areas[side] = fractions[side] * float(shown.seen);
         view.depths[side] = shown.depth;
         view.largest = max(view.largest, view.areas[side]);
         view.projected += view.areas[side] * slices_column_area(int(side >> 1u));
-        fractions[side] = view.areas[side] / float(max(shown.seen, 1u));
-        largest = max(largest, fractions[side]);
     }
     store_emitter_shape(block, first, view);
     /* Relative to the largest, because that of a lamp in a thousandth of its block would round to 0. */

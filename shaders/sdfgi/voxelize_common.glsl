@@ -31,6 +31,9 @@ const float SEGMENT = 0.5 + EDGE_MARGIN;
 const float FLAT_SLOPE = 1.0 / 64.0;
 /* Of the cross-section of a column: more than rounding makes of an emitter's edge on the border of two. */
 const float LEAST_COVERED = 1.0 / 1024.0;
+/* Emitters of smaller slopes do not face along an axis: the walls of a room that is turned a little do not
+ * face up. */
+const float LEAST_SLOPE = 0.1;
 
 struct triangle {
     vec3 v[3];                   /* sub-voxels from the anchor; axes permuted so that z is the dominant one */
@@ -341,9 +344,15 @@ void accumulate_emission(triangle t, float covered, uint block, surface_sample s
     }
 }
 
-void store_emissive_bit(ivec3 cell, uint bit)
+/* Notes that a sub-voxel emits, and along which axes. */
+void store_emitter(triangle t, ivec3 cell, uint bit)
 {
-    atomicOr(sdfgi_scratch[emissive_word(drawn_part(), cell) + (bit >> 5u)], 1u << (bit & 31u));
+    for (int n = 0; n < 3; n++) {
+        const int axis = (t.axis + n) % 3;
+        const uint word = emissive_word(drawn_part(), axis, cell) + (bit >> 5u);
+        if (n == 0 || abs(t.slope[max(n, 1) - 1]) > LEAST_SLOPE)
+            atomicOr(sdfgi_scratch[word], 1u << (bit & 31u));
+    }
 }
 
 /* The test spares an atomic, because many triangles may share a sub-voxel and their atomics would wait for
@@ -367,8 +376,8 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
     accumulate_surface(t, block, s);
-    if (s.emission != vec3(0.0))
-        store_emissive_bit(cell, bit);
+    if (emission_is_kept() && s.emission != vec3(0.0))
+        store_emitter(t, cell, bit);
 }
 
 /* Tests one column of those that lie in the box, and stores the sample that the triangle has there. Emitters
@@ -376,7 +385,7 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
  * its rim misses centres. */
 void triangle_store_column(triangle t, ivec2 column)
 {
-    const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
+    const bool emits = emission_is_kept() && sdfgi_materials[args.material].emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
     covered_part part = covered_part(0.0, vec2(column) + 0.5);

@@ -120,11 +120,13 @@
 #define SDFGI_SAMPLE_STEP_MAX 4
 
 /* A cascade is voxelised in parts, one after another, which share the accumulators: in SDFGI_VOXEL_PARTS, or
- * fewer if they have less than SDFGI_VOXEL_PART_CELLS. Two parts instead of one save 20 MiB with 128^3. */
-#define SDFGI_VOXEL_PARTS      4
-#define SDFGI_VOXEL_PART_CELLS (1u << 20)
+ * fewer if they have less than SDFGI_VOXEL_PART_CELLS. With 128^3 cells four parts instead of two save
+ * 18 MiB where something emits. */
+#define SDFGI_VOXEL_PARTS      8
+#define SDFGI_VOXEL_PART_CELLS (1u << 19)
 
-/* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h). */
+/* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h).
+ * Those from SDFGI_ACCUM_EMISSION on are there only if something emits. */
 #define SDFGI_ACCUM_ALBEDO         0  /* 3 planes: sum of albedo, in 1/SDFGI_ALBEDO_STEPS */
 #define SDFGI_ACCUM_NORMAL         3  /* per dominant axis 3 planes: count, sums of two slopes */
 #define SDFGI_ACCUM_EMISSION       12 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */

@@ -2,8 +2,8 @@
  * The scratch buffer. Its tenants use it in turn within a frame. Each begins at word 0, and none keeps
  * anything for a later one. Offsets are in words (4 bytes); `bits` is the logarithm of the resolution N.
  *
- * - Accumulators (region_clear, voxelize, voxel_resolve): SDFGI_ACCUM_PLANES words per albedo block of the
- *   part that is voxelised, and the emissive bits of each of its cells: see accumulators.glsl.
+ * - Accumulators (region_clear, voxelize, voxel_resolve): words per albedo block of the part that is
+ *   voxelised, and, if something emits, the emissive bits of each of its cells: see accumulators.glsl.
  * - Distance search (distance_plane, _exact): planes, see occupancy.glsl.
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
  * - Light list (light_mark, _list, _direct, _bounce, cell_mask): light blocks, rows and entries, see
@@ -24,15 +24,21 @@ SDFGI_FUNCTION uint sdfgi_scratch_part_cells(uint bits)
     return cells < least ? cells : part > least ? part : least;
 }
 
-/* Accumulators of albedo blocks (2^3 cells) from word 0, then two words of emissive bits per cell. */
+/* Accumulators of albedo blocks (2^3 cells) from word 0, then per axis two words of emissive bits per cell.
+ * Where nothing emits, they end with the accumulators of surfaces. */
 SDFGI_FUNCTION uint sdfgi_scratch_emissive_bits(uint bits)
 {
     return SDFGI_ACCUM_PLANES * (sdfgi_scratch_part_cells(bits) / 8u);
 }
 
-SDFGI_FUNCTION uint sdfgi_scratch_accumulators_end(uint bits)
+SDFGI_FUNCTION uint sdfgi_scratch_surfaces_end(uint bits)
 {
-    return sdfgi_scratch_emissive_bits(bits) + 2u * sdfgi_scratch_part_cells(bits);
+    return SDFGI_ACCUM_EMISSION * (sdfgi_scratch_part_cells(bits) / 8u);
+}
+
+SDFGI_FUNCTION uint sdfgi_scratch_emission_end(uint bits)
+{
+    return sdfgi_scratch_emissive_bits(bits) + 6u * sdfgi_scratch_part_cells(bits);
 }
 
 /* Distance search: planes from word 0. Two cells share a word, four layers of sub-voxels per cell. */

@@ -66,7 +66,7 @@ static uint64_t scratch_size(const struct extent *e)
 {
     const uint32_t bits = sdfgi_log2(e->cells) / 3;
     const uint64_t tenants[] = {
-        sdfgi_scratch_accumulators_end(bits),
+        e->emits ? sdfgi_scratch_emission_end(bits) : sdfgi_scratch_surfaces_end(bits),
         sdfgi_scratch_distance_end(bits),
         sdfgi_scratch_flood_end(bits),
         sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells),
@@ -81,6 +81,12 @@ static uint64_t scratch_size(const struct extent *e)
 void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells)
 {
     extent->light_cells = light_cells;
+    extent->scratch = scratch_size(extent);
+}
+
+void sdfgi_extent_set_emits(struct extent *extent)
+{
+    extent->emits = true;
     extent->scratch = scratch_size(extent);
 }
 

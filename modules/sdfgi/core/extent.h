@@ -16,12 +16,14 @@ struct extent {
     uint64_t light_cells,
         light_cells_max; /* room in the light list of a cascade, and how much it may become */
     bool gathers;        /* light cells gather with rays of their own */
-    bool emits;          /* something in the scene emits: emitters are listed */
+    bool emits;          /* something in the scene emits: there is room for emission and for emitters */
 };
 
 struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings);
 /* The same with another room in the light lists. */
 void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells);
+/* The same for a scene in which something emits. */
+void sdfgi_extent_set_emits(struct extent *extent);
 
 /* Rays that a visit of a light cell sends along an axis. */
 uint32_t sdfgi_extent_visit_rays(const struct extent *extent);

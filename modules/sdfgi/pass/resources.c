@@ -153,7 +153,9 @@ static enum resource too_large(const struct backend *backend, const struct exten
 
 static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent)
 {
-    const enum resource resource = too_large(backend, extent);
+    struct extent most = *extent;
+    sdfgi_extent_set_emits(&most);
+    const enum resource resource = too_large(backend, &most);
     if (resource == RESOURCE_COUNT)
         return SDFGI_OK;
     return sdfgi_message_invalid(
@@ -217,8 +219,8 @@ void sdfgi_resources_retire(struct backend *backend, struct resources *resources
 /* What is as long as the light list, or grows with it. */
 static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_LIGHT, RESOURCE_SURFACES,
                                         RESOURCE_GATHERED,    RESOURCE_SEEN,  RESOURCE_SCRATCH };
-/* What is there only if something emits. */
-static const enum resource emitting[] = { RESOURCE_EMITTERS };
+/* What is there only if something emits, or is larger then. */
+static const enum resource emitting[] = { RESOURCE_EMITTERS, RESOURCE_SCRATCH };
 
 enum { MAX_GROWN = sizeof listed / sizeof *listed };
 
@@ -299,7 +301,7 @@ bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources 
 bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *r)
 {
     struct extent extent = r->extent;
-    extent.emits = true;
+    sdfgi_extent_set_emits(&extent);
     return grow(backend, r, &extent, emitting, sizeof emitting / sizeof *emitting);
 }
 

@@ -124,7 +124,7 @@ void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
     }
     volume->feedback.emitters_refused = true;
     sdfgi_message_log(&volume->backend->hooks, SDFGI_MESSAGE_NO_EMITTER_LISTS,
-                      "sdfgi_update: no memory for lists of emitters: light of small lamps will be noisy");
+                      "sdfgi_update: no memory for emission: what emits stays dark");
 }
 
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume)

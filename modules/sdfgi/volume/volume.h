@@ -48,7 +48,7 @@ struct feedback {
     uint32_t counters[SDFGI_COUNTER_COUNT]; /* of the newest finished frame */
     struct feedback_time times[PASS_COUNT];
     uint64_t light_cells_refused; /* light cells for which there was no room; 0: there always was */
-    bool emitters_refused;        /* there was no memory for the emitter lists */
+    bool emitters_refused;        /* there was no memory for emission */
 };
 
 /* Buffers that have been made and that no frame has filled. */
@@ -99,7 +99,7 @@ bool sdfgi_volume_has_converged(const struct volume *volume);
 VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t slot, bool *has_run);
 /* Makes the light lists longer where the newest counters say that they were too short. */
 void sdfgi_volume_make_room(struct volume *volume);
-/* Makes the emitter lists as soon as something emits. */
+/* Makes room for emission and for emitters as soon as something emits. */
 void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
 /* The lists as far as counters know them. */
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume);

@@ -28,7 +28,7 @@
     X(BOUNDS_MISS_VERTICES, WARNING,                                                                         \
       "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")            \
     X(SURFACES_CROWDED, WARNING, "hundreds of surfaces lie in one another: their mean leaves some out")      \
-    X(NO_EMITTER_LISTS, WARNING, "no memory for lists of emitters: light of small lamps is noisy")
+    X(NO_EMITTER_LISTS, WARNING, "no memory for emission: what emits stays dark")
 
 enum sdfgi_message {
 #define SDFGI_MESSAGE_ENUM(id, level, hint) SDFGI_MESSAGE_##id,
