@@ -64,7 +64,7 @@ vec3 from_lamps(vec3 eye, vec3 direction, vec2 range_m, float tile_rad, int coun
         const float mean = (far - near) / (h * (range_m.y - range_m.x));
         sum += light.intensity.rgb *
                (mean * light_share(light, to_light, distance2) * fog_phase(dot(to_light, direction)) *
-                shadow_punctual(light, offset, to_light));
+                shadow_punctual_in_air(light, offset));
     }
     return sum;
 }

@@ -173,3 +173,19 @@ float shadow_punctual(host_light_data light, vec3 d, vec3 normal)
     plane.bias = plane.depth * (shadow_bias_m(face.up.w * z, -dot(normal, normalize(d))) / z + 1e-6);
     return shadow_tent(punctual_map, layer, plane);
 }
+
+/* 1 where a lamp reaches a point in the air, else 0. `d` leads from the lamp to it. */
+float shadow_punctual_in_air(host_light_data light, vec3 d)
+{
+    if (light.intensity.w < 0.0)
+        return 1.0;
+    const int layer = int(light.intensity.w) + (light.direction.w > 0.5 ? shadow_cube_face(d) : 0);
+    const host_layer_data face = layers[layer];
+    const int map_size = textureSize(punctual_map, 0).x;
+    const float z = dot(face.forward.xyz, d);
+    if (z <= 0.0)
+        return 1.0;
+    const vec2 at = vec2(dot(face.right.xyz, d), dot(face.up.xyz, d)) / z * 0.5 + 0.5;
+    const ivec2 texel = clamp(ivec2(at * float(map_size)), ivec2(0), ivec2(map_size - 1));
+    return texelFetch(punctual_map, ivec3(texel, layer), 0).r <= face.right.w / z ? 1.0 : 0.0;
+}

@@ -219,28 +219,44 @@ static void exact_lamp(const struct fog_scene *scene, const double ray[3], doubl
         radiance[c] = (double)fog->density * 10 * sum;
 }
 
+/* The black wall, and a black box around the lamp. */
+static const struct fog_box lamp_boxes[] = {
+    { { 0, 0, -WALL_M - 1 }, { 80, 80, 2 }, { 0, 0, 0, 1 }, 0 },
+    { { 0.7, 0.4, -3 }, { 0.3, 0.3, 0.3 }, { 0, 0, 0, 1 }, 0 },
+};
+
+static double lamp_light(struct fog_scene *scene, uint32_t boxes)
+{
+    struct host_light lamp = { .type = HOST_LIGHT_POINT, .intensity = { 10, 10, 10 } };
+    double sum = 0;
+    memcpy(lamp.position, lamp_at, sizeof lamp_at);
+    scene->view.fog.anisotropy = 0.3f;
+    scene->view.lights = &lamp;
+    scene->view.light_count = 1;
+    scene->boxes = lamp_boxes;
+    scene->box_count = boxes;
+    fog_scene_draw(device, scene, picture);
+    for (int i = 0; i < FOG_PIXELS; i++)
+        sum += (double)picture[4 * i];
+    return sum;
+}
+
 static void a_lamp_has_a_halo(void **state)
 {
     (void)state;
-    struct host_light lamp = { .type = HOST_LIGHT_POINT, .intensity = { 10, 10, 10 } };
     struct fog_scene scene = fog_scene_empty(0.05f);
-    memcpy(lamp.position, lamp_at, sizeof lamp_at);
-    scene.view.fog.anisotropy = 0.3f;
-    scene.view.lights = &lamp;
-    scene.view.light_count = 1;
-    scene.boxes = black_wall;
-    scene.box_count = 1;
-    fog_scene_draw(device, &scene, picture);
-    double found = 0, expected = 0;
+    const double found = lamp_light(&scene, 1);
+    double expected = 0;
     for (int i = 0; i < FOG_PIXELS; i++) {
         double ray[3], exact[3];
         fog_ray(&scene.view, i % FOG_WIDTH, i / FOG_WIDTH, ray);
         exact_lamp(&scene, ray, exact);
-        found += (double)picture[4 * i];
         expected += exact[0];
     }
-    printf("lamp: %.4f of the light of its halo\n", found / expected);
+    const double boxed = lamp_light(&scene, 2);
+    printf("lamp: %.4f of the light of its halo; in a box %.5f\n", found / expected, boxed / expected);
     REQUIRE_NEAR(found / expected, 1, 0.03);
+    REQUIRE_CMP(boxed, <=, 0.01 * expected);
 }
 
 /* ---- Furnace */
@@ -320,6 +336,90 @@ static void fog_is_the_same_in_every_frame(void **state)
     fog_stage_close(&stage);
 }
 
+/* GI that is switched on later lights the fog as well, and another size has froxels of its own. */
+static void fog_follows_what_changes(void **state)
+{
+    (void)state;
+    struct fog_stage stage;
+    struct sdfgi_settings settings;
+    struct fog_scene scene = fog_scene_empty(0.1f);
+    scene.view.sky = (struct host_sky){ { 2, 2, 2 }, { 2, 2, 2 }, { 2, 2, 2 } };
+    fog_stage_open(&stage, device, &scene);
+    fog_stage_read(&stage, picture);
+    REQUIRE_NEAR(picture[0], 0, 1e-3);
+    host_renderer_get_settings(stage.renderer, &settings);
+    settings.enabled = true;
+    assert_true(host_renderer_set_settings(stage.renderer, &settings));
+    assert_true(host_renderer_resize(stage.renderer, FOG_WIDTH / 4 - 1, FOG_HEIGHT / 4 - 1));
+    assert_true(host_renderer_frame(stage.renderer, &stage.camera));
+    fog_stage_read(&stage, picture);
+    REQUIRE_NEAR(picture[0], 2, 0.02);
+    assert_true(host_renderer_resize(stage.renderer, FOG_WIDTH, FOG_HEIGHT));
+    assert_true(host_renderer_frame_without_gi(stage.renderer, &stage.camera));
+    assert_true(host_renderer_frame(stage.renderer, &stage.camera));
+    fog_stage_read(&stage, picture);
+    REQUIRE_NEAR(picture[4 * FOG_PIXELS - 4], 2, 0.02);
+    fog_stage_close(&stage);
+}
+
+/* ---- A moving camera */
+
+enum { SLATS = 12 };
+
+/* Slats of 0.5 m with gaps as wide, under a slanting sun, in front of a black wall: all that is seen are
+ * shafts in the fog. The view is narrow, so that froxels are about as wide as in a picture of 1,000 pixels.
+ */
+static void open_slats(struct fog_stage *stage)
+{
+    static struct fog_box boxes[SLATS + 1];
+    struct fog_scene scene = fog_scene_empty(0.1f);
+    boxes[SLATS] = black_wall[0];
+    for (int i = 0; i < SLATS; i++)
+        boxes[i] = (struct fog_box){ { i - SLATS / 2, 3, -6 }, { 0.5, 0.1, 12 }, { 0, 0, 0, 1 }, 0 };
+    scene.view.camera.yfov_rad = 0.2618f;
+    scene.view.sun = (struct host_sun){ true, { 0.4f, -1, -0.2f }, { SUN_WATTS, SUN_WATTS, SUN_WATTS }, 0 };
+    scene.boxes = boxes;
+    scene.box_count = SLATS + 1;
+    fog_stage_open(stage, device, &scene);
+}
+
+/* What pixels do while the camera moves evenly: the change of their change from frame to frame, over the
+ * light. */
+static void require_calm(struct fog_stage *stage, int axis, double step_m)
+{
+    static float frames[3][4 * FOG_PIXELS];
+    const struct host_camera start = stage->camera;
+    double sum = 0, worst = 0, light = 0;
+    for (int i = 0; i < 3; i++) {
+        stage->camera.position[axis] = start.position[axis] - i * step_m;
+        stage->camera.look_at[axis] = start.look_at[axis] - i * step_m;
+        assert_true(host_renderer_frame(stage->renderer, &stage->camera));
+        fog_stage_read(stage, frames[i]);
+    }
+    for (int i = 0; i < 4 * FOG_PIXELS; i += 4) {
+        const double change = fabs((double)frames[0][i] - 2 * (double)frames[1][i] + (double)frames[2][i]);
+        worst = fmax(worst, change);
+        sum += change;
+        light += (double)frames[1][i];
+    }
+    printf("along %c: %.4f of the light, %.4f at worst\n", "xyz"[axis], sum / light,
+           worst * FOG_PIXELS / light);
+    REQUIRE_CMP(sum / light, <=, 0.02);
+    REQUIRE_CMP(worst * FOG_PIXELS / light, <=, 0.1);
+    stage->camera = start;
+}
+
+/* Steps of a walk at 60 frames a second. With one look at the shadow map per froxel, shafts jump by 0.17. */
+static void nothing_crawls(void **state)
+{
+    (void)state;
+    struct fog_stage stage;
+    open_slats(&stage);
+    require_calm(&stage, 0, 0.015);
+    require_calm(&stage, 2, 0.015);
+    fog_stage_close(&stage);
+}
+
 int main(void)
 {
     char error[256];
@@ -338,6 +438,8 @@ int main(void)
         cmocka_unit_test(a_furnace_with_fog_stays_white),
         cmocka_unit_test(glass_in_fog_stays_white),
         cmocka_unit_test(fog_is_the_same_in_every_frame),
+        cmocka_unit_test(fog_follows_what_changes),
+        cmocka_unit_test(nothing_crawls),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     const bool quiet = host_device_validation_count(device) == 0;
