@@ -213,8 +213,8 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, ui
  *
  * A first try begins right above the surface. Where that finds nothing, in a niche or at a small thing,
  * others begin farther off and nearer to the viewer. A point in the air has no other places: what is near it
- * need not be on its side of a wall. But the surfaces around stand for one that the air's cell does not know.
- */
+ * need not be on its side of a wall, and its normal may lead into one. But the surfaces around stand for one
+ * that the air's cell does not know. */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
@@ -227,6 +227,8 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
         const vec3 above = (place + 1.0) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias * normal;
         const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
         vec3 at = clamp(pos + sdfgi_cells_from_metric(above + towards), low, high);
+        if (!at_surface && sdfgi_cell_bits(cascade, ivec3(floor(at))) != uvec2(0u))
+            at = clamp(pos, low, high);
         if (sdfgi_cells_find_open(cascade, normal, eye, at))
             sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0, what);
     }

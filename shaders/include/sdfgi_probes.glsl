@@ -43,11 +43,17 @@ float sdfgi_probe_weight_at(uint cascade, ivec3 cage, int k, vec3 pos, vec3 norm
     return sdfgi_probe_weight(sdfgi_probe_trilinear(cage, k, pos), offset, normal);
 }
 
+/* The cell that holds a position, or the nearest in the valid region. */
+ivec3 sdfgi_valid_cell(uint cascade, vec3 pos)
+{
+    return clamp(ivec3(floor(pos)), sdfgi_frame.cascades[cascade].valid_low,
+                 sdfgi_frame.cascades[cascade].valid_high - 1);
+}
+
 /* The radius, in cell widths, of a sphere around a point of the cell space that holds no set sub-voxel. */
 float sdfgi_free_radius(uint cascade, vec3 pos)
 {
-    const ivec3 cell = clamp(ivec3(floor(pos)), sdfgi_frame.cascades[cascade].valid_low,
-                             sdfgi_frame.cascades[cascade].valid_high - 1);
+    const ivec3 cell = sdfgi_valid_cell(cascade, pos);
     const float off_centre = length(sdfgi_metric_from_cells(pos - vec3(cell) - 0.5));
     return sdfgi_cell_distance(cascade, cell) - off_centre - SDFGI_TRACE_MARGIN;
 }
@@ -79,15 +85,25 @@ uint sdfgi_probes_seen(uint cascade, ivec3 cage, vec3 pos, float free)
     return seen;
 }
 
-/* The place with the most room around it, of six within the free sphere around a position. */
+bool sdfgi_is_in_empty_cell(uint cascade, vec3 pos)
+{
+    return sdfgi_cell_bits(cascade, sdfgi_valid_cell(cascade, pos)) == uvec2(0u);
+}
+
+/* The place with the most room around it, of six that a position sees: within the free sphere around it, or,
+ * where that is small, in the middle of an empty cell next to its own empty one. */
 vec3 sdfgi_probes_step_out(uint cascade, vec3 pos, inout float free)
 {
     vec3 best = pos;
     float most = free;
+    const bool by_cells = free < 1.0 && sdfgi_is_in_empty_cell(cascade, pos);
     for (int side = 0; side < 6; side++) {
         const vec3 unit =
             vec3(side >> 1 == 0, side >> 1 == 1, side >> 1 == 2) * ((side & 1) == 0 ? 1.0 : -1.0);
-        const vec3 at = pos + sdfgi_cells_from_metric(unit * free);
+        const vec3 next = floor(pos) + unit + 0.5;
+        const vec3 at = by_cells && sdfgi_is_in_empty_cell(cascade, next)
+                            ? next
+                            : pos + sdfgi_cells_from_metric(unit * max(free, 0.0));
         const float radius = sdfgi_free_radius(cascade, at);
         best = radius > most ? at : best;
         most = max(most, radius);
@@ -108,7 +124,8 @@ uint sdfgi_probes_around(uint cascade, ivec3 cage, vec3 pos)
             if ((k >> axis & 1) == 0 && !sdfgi_probe_is_dead(state) && sdfgi_probe_is_linked(state, axis))
                 links |= 1u << (8 * axis + k);
     }
-    for (int i = 0; i < SDFGI_PROBES_STEPS && free > 0.0 && seen == 0u; i++) {
+    const bool has_room = free > 0.0 || sdfgi_is_in_empty_cell(cascade, pos);
+    for (int i = 0; i < SDFGI_PROBES_STEPS && has_room && seen == 0u; i++) {
         seen = sdfgi_probes_seen(cascade, cage, pos, free);
         if (seen == 0u)
             pos = sdfgi_probes_step_out(cascade, pos, free);
@@ -123,7 +140,7 @@ uint sdfgi_probes_around(uint cascade, ivec3 cage, vec3 pos)
 vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 eye)
 {
     vec3 pos = surface;
-    if (sdfgi_free_radius(cascade, pos) <= 0.0)
+    if (!sdfgi_is_in_empty_cell(cascade, pos) && sdfgi_free_radius(cascade, pos) <= 0.0)
         pos += sdfgi_cells_from_metric(normal * sdfgi_frame.normal_bias + SDFGI_CELLS_TOWARDS_EYE * eye);
     const ivec3 cage = sdfgi_cage_of(cascade, pos);
     const uint around = sdfgi_probes_around(cascade, cage, pos);

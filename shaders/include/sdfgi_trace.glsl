@@ -99,7 +99,10 @@ void sdfgi_trace_enter_cascade(uint cascade, ivec3 base, vec3 origin, inout sdfg
     ray.volume = sdfgi_trace_volume_of(cascade, base);
     ray.border = sdfgi_trace_border(ray.volume, origin, ray.inv_dir);
     ray.at_border = false;
-    ray.cell = ivec3(floor(origin));
+    /* A ray that begins on the far face of the valid region, as those of probes there do, and leads back into
+     * it begins in the last cell. */
+    ray.cell = ivec3(floor(origin)) -
+               ivec3(equal(origin, vec3(ray.volume.valid_high))) * ivec3(lessThan(ray.dir, vec3(0.0)));
 }
 
 sdfgi_trace_state sdfgi_trace_start(sdfgi_trace_query query)

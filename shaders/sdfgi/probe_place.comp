@@ -36,6 +36,9 @@ const int NEAR_PLACE = REACH + int(ENOUGH_ROOM) + 1;
 /* Cells around the segment between two corners on which a link depends: as far as probes move, and as far as
  * the longest step of a ray looks. */
 const int NEAR_LINK = 8;
+/* Cells. On the far faces of the cascade sight lines run so far inside them: on a face itself they would meet
+ * nothing, and connect rooms. */
+const float INSIDE = 1.0 / 16.0;
 const uint CANDIDATES = uint(8 * REACH * REACH * REACH);
 const uint PER_THREAD = (CANDIDATES - 1u) / uint(SDFGI_GROUP_LINEAR) + 1u;
 const int NO_ROOM = -0x7fffffff; /* score of a cell that no probe can move to */
@@ -162,10 +165,12 @@ uint find_links(ivec3 probe, uint state)
         const uint other = place(probe, i);
         next = gl_LocalInvocationIndex + 1u == i ? other : next;
     }
-    const ivec3 to_next = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u);
+    const ivec3 to_next = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u),
+                base = probe * SDFGI_PROBE_SPACING;
+    const vec3 last = vec3(sdfgi_space_resolution() - base) - INSIDE;
     if (!sdfgi_probe_is_dead(state) && !sdfgi_probe_is_dead(next) &&
-        sdfgi_trace_visible_from(args.cascade, probe * SDFGI_PROBE_SPACING,
-                                 sdfgi_probe_position(ivec3(0), state), sdfgi_probe_position(to_next, next)))
+        sdfgi_trace_visible_from(args.cascade, base, min(sdfgi_probe_position(ivec3(0), state), last),
+                                 min(sdfgi_probe_position(to_next, next), last)))
         atomicOr(links, 1u << SDFGI_PROBE_LINK_SHIFT + gl_LocalInvocationIndex);
     barrier();
     return links;
