@@ -63,14 +63,19 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
 
 /* ---- Views of the host's */
 
+static void check_resolution(struct problem *p, const char *field, enum sdfgi_gather_resolution resolution)
+{
+    if ((unsigned)resolution > SDFGI_GATHER_QUARTER)
+        sdfgi_problem_add(p, "%s is %d, must be one of enum sdfgi_gather_resolution", field, (int)resolution);
+}
+
 enum sdfgi_result sdfgi_view_create(sdfgi *gi, const struct sdfgi_view_desc *desc, sdfgi_view **out)
 {
     struct problem problem = { "" };
     if (desc->width == 0 || desc->height == 0)
         sdfgi_problem_add(&problem, "%s is 0", desc->width == 0 ? "width" : "height");
-    if ((unsigned)desc->diffuse > SDFGI_GATHER_QUARTER)
-        sdfgi_problem_add(&problem, "diffuse is %d, must be one of enum sdfgi_gather_resolution",
-                          (int)desc->diffuse);
+    check_resolution(&problem, "diffuse", desc->diffuse);
+    check_resolution(&problem, "reflection", desc->reflection);
     sdfgi_picture_check_size(&problem, &gi->backend.device.limits, desc->width, desc->height);
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_view_create");
@@ -136,8 +141,10 @@ static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct 
 static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const struct work *gather)
 {
     struct pass_recorder *rec = &gi->recorder;
-    struct work tiles = *gather, rays = *gather, filter[2] = { *gather, *gather };
+    struct work tiles = *gather;
     tiles.pass = PASS_REFLECT_TILES;
+    tiles.args.gather.ray_step = sdfgi_picture_step(view->desc.reflection);
+    struct work rays = tiles, filter[2] = { tiles, tiles };
     rays.pass = PASS_REFLECT_RAYS;
     filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;
     filter[0].args.gather.filter_step = 1;
@@ -151,9 +158,9 @@ static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const 
     gpu_use(&rec->gpu, GPU_USAGE_TRANSFER, 0, VIEW_BIT(TILES));
     gpu_fill(&rec->gpu, &view->tiles, 0, sizeof(uint32_t) * SDFGI_TILES_HEADER, 0);
     sdfgi_pass_record(rec, &tiles);
-    sdfgi_pass_record_indirect(rec, &rays, &view->tiles, 0);
+    sdfgi_pass_record_indirect(rec, &rays, &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
     for (int run = 0; run < 2; run++)
-        sdfgi_pass_record_indirect(rec, &filter[run], &view->tiles, 0);
+        sdfgi_pass_record_indirect(rec, &filter[run], &view->tiles, sizeof(uint32_t) * SDFGI_TILES_TILES);
     sdfgi_pass_close(rec);
 }
 

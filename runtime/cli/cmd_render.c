@@ -17,7 +17,8 @@
 enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2, FRAMES_OFF = 5 };
 
 struct options {
-    const char *scene, *view, *frames, *report, *device, *out, *lookup_name, *debug_name;
+    const char *scene, *view, *frames, *report, *device, *out, *debug_name;
+    struct run_lookup_names lookup_names;
     struct cli_size size;
     bool gi, quiet;
     struct cli_list set, aov;
@@ -26,7 +27,7 @@ struct options {
     /* Derived. */
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
-    enum host_lookup lookup;
+    struct host_lookups lookups;
     enum sdfgi_debug_view debug; /* SDFGI_DEBUG_VIEW_COUNT: none */
 };
 
@@ -101,7 +102,7 @@ static bool resolve_options(struct options *options)
     sdfgi_settings_default(&options->settings);
     options->settings.enabled = options->gi;
     if (!run_apply_settings("render", &options->set, &options->settings) ||
-        !run_parse_lookup("render", options->lookup_name, &options->lookup) ||
+        !run_parse_lookups("render", &options->lookup_names, &options->lookups) ||
         !run_parse_debug("render", options->debug_name, options->settings.enabled, &options->debug))
         return false;
     if (!parse_frames(options)) {
@@ -124,7 +125,8 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
-        { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "lookup", CLI_TEXT, &o->lookup_names.diffuse, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "reflections", CLI_TEXT, &o->lookup_names.reflection, "WHERE", .help = RUN_REFLECTIONS_HELP },
         { "gi-exposure", CLI_FLOAT, &o->gi_exposure, "X", .help = RUN_GI_EXPOSURE_HELP, .minimum = 0,
           .maximum = 1e12 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
@@ -171,7 +173,7 @@ static bool start(struct run *run, const struct options *options)
                                              .log = { options->quiet ? NULL : run_log, NULL },
                                              .seed = options->seed,
                                              .gi_exposure = (float)options->gi_exposure,
-                                             .lookup = options->lookup };
+                                             .lookups = options->lookups };
     run->renderer = run->scene ? host_renderer_create(run->device, run->scene, &desc) : NULL;
     if (!run->renderer)
         cli_error("%s", host_device_error(run->device));
@@ -367,7 +369,7 @@ static void print_stop(const struct run *run, const struct options *options)
 int cmd_render(int argc, char **argv)
 {
     struct options options = { .frames = "converged",
-                               .lookup_name = RUN_LOOKUP_DEFAULT,
+                               .lookup_names = RUN_LOOKUP_NAMES,
                                .size = { 1280, 720 },
                                .gi = true,
                                .supersample = 1 };

@@ -10,7 +10,8 @@
 #include <modules/gltf/gltf_scene.h>
 
 struct options {
-    const char *scene, *view, *device, *lookup_name, *debug_name;
+    const char *scene, *view, *device, *debug_name;
+    struct run_lookup_names lookup_names;
     struct cli_size size;
     struct cli_list set;
     bool gi;
@@ -23,7 +24,8 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "view", CLI_TEXT, &o->view, "VIEW.json", .help = "camera, sky and lights; else from the scene" },
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination at the start; on" },
-        { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "lookup", CLI_TEXT, &o->lookup_names.diffuse, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "reflections", CLI_TEXT, &o->lookup_names.reflection, "WHERE", .help = RUN_REFLECTIONS_HELP },
         { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
@@ -50,9 +52,9 @@ static bool stop_view(void)
 
 int cmd_view(int argc, char **argv)
 {
-    struct options options = { .lookup_name = RUN_LOOKUP_DEFAULT, .gi = true, .size = { 1280, 720 } };
+    struct options options = { .lookup_names = RUN_LOOKUP_NAMES, .gi = true, .size = { 1280, 720 } };
     struct sdfgi_settings settings;
-    enum host_lookup lookup;
+    struct host_lookups lookups;
     enum sdfgi_debug_view debug;
     struct host_view view;
     char error[CLI_ERROR_BYTES];
@@ -62,7 +64,7 @@ int cmd_view(int argc, char **argv)
     sdfgi_settings_default(&settings);
     settings.enabled = options.gi;
     if (!run_apply_settings("view", &options.set, &settings) ||
-        !run_parse_lookup("view", options.lookup_name, &lookup) ||
+        !run_parse_lookups("view", &options.lookup_names, &lookups) ||
         !run_parse_debug("view", options.debug_name, settings.enabled, &debug))
         return CLI_EXIT_USAGE;
     struct gltf_scene *gltf = run_load_scene(options.scene, options.view, &view);
@@ -73,7 +75,7 @@ int cmd_view(int argc, char **argv)
                                            .gltf = gltf,
                                            .view = &view,
                                            .settings = &settings,
-                                           .lookup = lookup,
+                                           .lookups = lookups,
                                            .debug = &debug,
                                            .width = options.size.width,
                                            .height = options.size.height,

@@ -19,7 +19,8 @@
 static const char default_scene[] = "out/world.glb";
 
 struct options {
-    const char *scene, *path, *view, *device, *report, *out, *lookup_name, *debug_name;
+    const char *scene, *path, *view, *device, *report, *out, *debug_name;
+    struct run_lookup_names lookup_names;
     struct cli_size size;
     struct cli_list set, samples;
     double speed_m_s, fps, start_m, exposure, gi_exposure;
@@ -48,7 +49,8 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
           .minimum = 1, .maximum = WALK_FRAMES_MAX },
         { "sample", CLI_LIST, &o->samples, "X,Y,Z,NX,NY,NZ", .help = "report diffuse light at a point" },
         { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
-        { "lookup", CLI_TEXT, &o->lookup_name, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "lookup", CLI_TEXT, &o->lookup_names.diffuse, "WHERE", .help = RUN_LOOKUP_HELP },
+        { "reflections", CLI_TEXT, &o->lookup_names.reflection, "WHERE", .help = RUN_REFLECTIONS_HELP },
         { "gi-exposure", CLI_FLOAT, &o->gi_exposure, "X", .help = RUN_GI_EXPOSURE_HELP, .minimum = 0,
           .maximum = 1e12 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
@@ -286,7 +288,7 @@ static bool resolve(const struct options *o, struct walk_order *order, char **pa
     order->window = o->window;
     order->quiet = o->quiet;
     if (!run_apply_settings("walk", &o->set, &order->settings) ||
-        !run_parse_lookup("walk", o->lookup_name, &order->lookup) ||
+        !run_parse_lookups("walk", &o->lookup_names, &order->lookups) ||
         !run_parse_debug("walk", o->debug_name, order->settings.enabled, &order->debug) ||
         !load_path(o, order, path_name))
         return false;
@@ -316,7 +318,7 @@ static int walk(const struct options *options, struct walk_order *order)
 
 int cmd_walk(int argc, char **argv)
 {
-    struct options options = { .lookup_name = RUN_LOOKUP_DEFAULT, .size = { 640, 360 } };
+    struct options options = { .lookup_names = RUN_LOOKUP_NAMES, .size = { 640, 360 } };
     struct walk_order order = { .path = { NULL } };
     char *path_name = NULL;
     const enum cli_outcome outcome = parse(&options, argc, argv);

@@ -31,12 +31,18 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
     return true;
 }
 
-bool run_parse_lookup(const char *command, const char *text, enum host_lookup *lookup)
+bool run_parse_lookups(const char *command, const struct run_lookup_names *names,
+                       struct host_lookups *lookups)
 {
-    *lookup = host_lookup_from_name(text);
-    if (*lookup < HOST_LOOKUP_COUNT)
+    *lookups = (struct host_lookups){ host_lookup_from_name(names->diffuse),
+                                      host_lookup_from_name(names->reflection) };
+    const enum host_lookup reflection = lookups->reflection;
+    if (lookups->diffuse == HOST_LOOKUP_COUNT)
+        cli_error("%s: --lookup is \"%s\", expected forward, full, half or quarter", command, names->diffuse);
+    else if (reflection == HOST_LOOKUP_FORWARD || reflection == HOST_LOOKUP_COUNT)
+        cli_error("%s: --reflections is \"%s\", expected full, half or quarter", command, names->reflection);
+    else
         return true;
-    cli_error("%s: --lookup is \"%s\", expected forward, full, half or quarter", command, text);
     return false;
 }
 

@@ -22,8 +22,20 @@ bool run_apply_settings(const char *command, const struct cli_list *pairs, struc
 
 #define RUN_GI_EXPOSURE_HELP "what brings the light near 1, as a hint; 0, the default: from the lights"
 
-/* Reads the value of --lookup; on failure prints one line and returns false. */
-bool run_parse_lookup(const char *command, const char *text, enum host_lookup *lookup);
+#define RUN_REFLECTIONS_HELP "at which resolution rays are sent: full, half, quarter; " RUN_LOOKUP_DEFAULT
+
+/* Values of --lookup and --reflections. */
+struct run_lookup_names {
+    const char *diffuse, *reflection;
+};
+#define RUN_LOOKUP_NAMES                                                                                     \
+    {                                                                                                        \
+        RUN_LOOKUP_DEFAULT, RUN_LOOKUP_DEFAULT                                                               \
+    }
+
+/* Reads them; on failure prints one line and returns false. */
+bool run_parse_lookups(const char *command, const struct run_lookup_names *names,
+                       struct host_lookups *lookups);
 
 #define RUN_DEBUG_HELP "show a debug view instead, see sdfgi info"
 

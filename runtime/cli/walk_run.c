@@ -188,7 +188,7 @@ static struct host_renderer *start_renderer(struct run *run, bool gi)
                                              .log = { gi && !order->quiet ? run_log : NULL, NULL },
                                              .seed = order->seed,
                                              .gi_exposure = (float)order->gi_exposure,
-                                             .lookup = order->lookup };
+                                             .lookups = order->lookups };
     return host_renderer_create(run->device, run->scene, &desc);
 }
 
@@ -338,7 +338,7 @@ static bool walk_in_window(struct run *run)
                                            .gltf = run->gltf,
                                            .view = &run->view,
                                            .settings = &order->settings,
-                                           .lookup = order->lookup,
+                                           .lookups = order->lookups,
                                            .debug = &order->debug,
                                            .width = order->size.width,
                                            .height = order->size.height,

@@ -16,7 +16,7 @@ struct walk_order {
     const char *device, *out;
     struct cli_size size;
     struct sdfgi_settings settings;
-    enum host_lookup lookup;
+    struct host_lookups lookups;
     enum sdfgi_debug_view debug; /* shown with GI; SDFGI_DEBUG_VIEW_COUNT: the picture */
     double speed_m_s, fps, start_m, exposure, gi_exposure;
     uint32_t frames, seed;

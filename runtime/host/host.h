@@ -113,6 +113,10 @@ const char *host_lookup_name(enum host_lookup lookup);
 /* HOST_LOOKUP_COUNT if there is none of that name. */
 enum host_lookup host_lookup_from_name(const char *name);
 
+struct host_lookups {
+    enum host_lookup diffuse, reflection; /* HOST_LOOKUP_FORWARD of diffuse light holds for both */
+};
+
 struct host_renderer_desc {
     uint32_t width, height;                /* [1, 16384] after supersampling */
     uint32_t supersample;                  /* samples along each side of a pixel, [1, 4]; 0: 1 */
@@ -120,7 +124,7 @@ struct host_renderer_desc {
     struct sdfgi_log log; /* warnings of the library, and less; its errors are in host_device_error() */
     uint32_t seed;
     float gi_exposure; /* sdfgi_frame_desc::exposure */
-    enum host_lookup lookup;
+    struct host_lookups lookups;
 };
 
 struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,
@@ -239,7 +243,7 @@ struct host_window_desc {
     const struct gltf_scene *gltf;
     const struct host_view *view;
     const struct sdfgi_settings *settings; /* GI starts as `enabled` says */
-    enum host_lookup lookup;
+    struct host_lookups lookups;
     const enum sdfgi_debug_view *debug; /* what is shown at first; NULL or SDFGI_DEBUG_VIEW_COUNT: the
                                            picture */
     uint32_t width, height;             /* 0: 1280 x 720 */

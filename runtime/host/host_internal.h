@@ -380,7 +380,7 @@ struct host_renderer {
     uint32_t width, height, supersample; /* of the picture, in pixels */
     uint32_t seed;
     float gi_exposure;
-    enum host_lookup lookup;
+    struct host_lookups lookups;
     bool without_gi; /* the frame being recorded */
     struct host_passes passes;
     struct host_pipelines pipelines;

@@ -32,8 +32,10 @@ bool host_lookup_init(struct host_renderer *renderer, uint32_t width, uint32_t h
         [HOST_LOOKUP_HALF] = SDFGI_GATHER_HALF,
         [HOST_LOOKUP_QUARTER] = SDFGI_GATHER_QUARTER,
     };
-    const struct sdfgi_view_desc desc = { width, height, resolutions[renderer->lookup] };
-    if (renderer->lookup == HOST_LOOKUP_FORWARD)
+    const struct host_lookups *lookups = &renderer->lookups;
+    const struct sdfgi_view_desc desc = { width, height, resolutions[lookups->diffuse],
+                                          resolutions[lookups->reflection] };
+    if (lookups->diffuse == HOST_LOOKUP_FORWARD)
         return true;
     renderer->targets.view = host_gi_view_create(renderer->gi, &desc);
     return renderer->targets.view != NULL;

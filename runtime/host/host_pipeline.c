@@ -290,7 +290,8 @@ enum host_forward host_forward_kind(const struct host_renderer *renderer, bool b
 {
     if (renderer->without_gi || !host_gi_set(renderer->gi))
         return HOST_FORWARD_PLAIN;
-    return blended || renderer->lookup == HOST_LOOKUP_FORWARD ? HOST_FORWARD_GI : HOST_FORWARD_GATHERED;
+    return blended || renderer->lookups.diffuse == HOST_LOOKUP_FORWARD ? HOST_FORWARD_GI
+                                                                       : HOST_FORWARD_GATHERED;
 }
 
 bool host_forward_prepare(struct host_renderer *renderer)

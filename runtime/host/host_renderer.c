@@ -223,7 +223,7 @@ static bool slot_init(struct host_renderer *renderer, struct host_slot *slot)
         !host_buffer_create(device, light_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->lights) ||
         !host_buffer_create(device, layer_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->layers) ||
         !set_allocate(renderer, renderer->pipelines.frame_layout, &slot->set) ||
-        (renderer->lookup != HOST_LOOKUP_FORWARD &&
+        (renderer->lookups.diffuse != HOST_LOOKUP_FORWARD &&
          !set_allocate(renderer, renderer->pipelines.light_layout, &slot->light_set)))
         return false;
     frame_set_write(renderer, slot);
@@ -327,7 +327,7 @@ struct host_renderer *host_renderer_create(struct host_device *device, struct ho
     renderer->supersample = supersample;
     renderer->seed = desc->seed;
     renderer->gi_exposure = desc->gi_exposure;
-    renderer->lookup = desc->lookup;
+    renderer->lookups = desc->lookups;
     if (!renderer_init(renderer, desc)) {
         host_renderer_destroy(renderer);
         return NULL;

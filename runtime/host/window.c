@@ -253,7 +253,7 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
     const struct host_renderer_desc renderer = { .width = width > 0 ? (uint32_t)width : 1,
                                                  .height = height > 0 ? (uint32_t)height : 1,
                                                  .settings = desc->settings,
-                                                 .lookup = desc->lookup,
+                                                 .lookups = desc->lookups,
                                                  .log = desc->log };
     window->scene = host_scene_create(window->device, desc->gltf, desc->view);
     window->renderer = window->scene ? host_renderer_create(window->device, window->scene, &renderer) : NULL;

@@ -1,25 +1,50 @@
 /* SPDX-License-Identifier: MIT
- * What passes over the reflections of a picture share: its images, and a list of the tiles that show
- * something smooth. A tile has 8 x 8 pixels. */
+ * What passes over the reflections of a picture share: its images, a list of the tiles that show something
+ * smooth, and one of the pixels that send a ray. A tile has 8 x 8 pixels. */
 #ifndef SDFGI_PICTURE_REFLECT_GLSL
 #define SDFGI_PICTURE_REFLECT_GLSL
 
 #include "picture.glsl"
 
-/* Radiance times the scale in rgb, and metres to what is reflected in a. Rays, and at last the result; and
- * what the filter's first run has made of the rays, in listed tiles. */
+/* Radiance times the scale in rgb, and metres to what is reflected in a: PICTURE_NO_RAY where a pixel needs
+ * its neighbours' rays. Rays, and at last the result; and what the filter's first run has made of the rays,
+ * in listed tiles. */
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_REFLECTION,
        rgba16f) uniform image2D reflection_image;
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_FILTERED, rgba16f) uniform image2D filtered_image;
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_ROUGHNESS) uniform sampler2D roughness_image;
 
-/* Three words of indirect arguments, the count of listed tiles, and the tiles: x | y << 16. */
+/* The counts and indirect arguments of both lists, all tiles, and all pixels: x | y << 16. */
 layout(std430, set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_TILES) buffer sdfgi_tiles_buffer
 {
     uint sdfgi_tiles[];
 };
 
-const uint TILES_COUNT = 3u;
+const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TILES_TILES) + 3u;
+const float PICTURE_NO_RAY = -1.0;
+
+uint picture_pack(ivec2 place)
+{
+    return uint(place.x) | uint(place.y) << 16u;
+}
+
+ivec2 picture_unpack(uint place)
+{
+    return ivec2(place & 0xffffu, place >> 16u);
+}
+
+/* The word of a tile of the list, and that of a ray. */
+uint picture_tile_word(uint i)
+{
+    return uint(SDFGI_TILES_HEADER) + i;
+}
+
+uint picture_ray_word(uint i)
+{
+    const uvec2 tiles =
+        (uvec2(args.width, args.height) + uint(SDFGI_GROUP_PIXELS) - 1u) / uint(SDFGI_GROUP_PIXELS);
+    return uint(SDFGI_TILES_HEADER) + tiles.x * tiles.y + i;
+}
 
 float picture_roughness(ivec2 pixel)
 {
@@ -30,8 +55,8 @@ float picture_roughness(ivec2 pixel)
 /* The pixel of this thread in the tile of a number of the list. */
 ivec2 picture_listed(uint i)
 {
-    const uint tile = sdfgi_tiles[uint(SDFGI_TILES_HEADER) + i];
-    return ivec2(tile & 0xffffu, tile >> 16u) * SDFGI_GROUP_PIXELS + ivec2(gl_LocalInvocationID.xy);
+    return picture_unpack(sdfgi_tiles[picture_tile_word(i)]) * SDFGI_GROUP_PIXELS +
+           ivec2(gl_LocalInvocationID.xy);
 }
 
 /* What a pixel shows, if it reflects by rays. */
@@ -43,6 +68,21 @@ bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
         return false;
     roughness = picture_roughness(pixel);
     return sdfgi_reflection_ray_share(roughness) > 0.0;
+}
+
+/* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
+ * the square that the filter looks at, differs in roughness by a fifth, or leans by more than the lobe is
+ * wide: 2 alpha. */
+float picture_likeness(picture_surface s, float roughness, float reach, ivec2 pixel)
+{
+    picture_surface other;
+    float other_roughness;
+    if (!picture_reflects(pixel, other, other_roughness))
+        return 0.0;
+    const float off_plane = abs(dot(other.pos - s.pos, s.normal)) / (reach * s.pixel_m);
+    const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, other.normal);
+    return max(1.0 - off_plane, 0.0) * max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
+           max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
 }
 
 #endif

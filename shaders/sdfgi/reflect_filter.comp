@@ -26,36 +26,41 @@ vec4 before_at(ivec2 pixel)
     return is_first() ? imageLoad(reflection_image, pixel) : imageLoad(filtered_image, pixel);
 }
 
-/* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
- * the square, differs in roughness by a fifth, or leans by more than the lobe is wide: 2 alpha. */
-float likeness(picture_surface s, float roughness, ivec2 pixel)
+/* How near a pixel is to one that sends a ray: weights of bilinear interpolation. */
+float nearness(ivec2 pixel, ivec2 ray, int step)
 {
-    picture_surface other;
-    float other_roughness;
-    if (!picture_reflects(pixel, other, other_roughness))
-        return 0.0;
-    const float reach_m = float(SDFGI_RAYS_SIDE) * float(args.filter_step) * s.pixel_m;
-    const float off_plane = abs(dot(other.pos - s.pos, s.normal)) / reach_m;
-    const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, other.normal);
-    return max(1.0 - off_plane, 0.0) * max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
-           max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
+    const vec2 near = max(1.0 - abs(vec2(pixel - ray)) / float(step), 0.0);
+    return near.x * near.y;
 }
 
+void add(inout vec4 sum, inout float weights, float weight, vec4 value)
+{
+    if (weight <= 0.0 || value.a < 0.0)
+        return;
+    sum += weight * value;
+    weights += weight;
+}
+
+/* The first run interpolates between rays, which may lie apart; the second begins with pixels. */
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
 {
     const vec2 range = is_first() ? FIRST : SECOND;
     const float spread = smoothstep(range.x, range.y, roughness);
-    vec4 sum = before_at(pixel);
-    float weights = 1.0;
-    for (int i = 0; i < SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE && spread > 0.0; i++) {
+    const int ray_step = int(args.ray_step), step = ray_step * int(args.filter_step);
+    const float reach = float(SDFGI_RAYS_SIDE * step);
+    const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
+    const bool interpolates = is_first() && ray_step > 1;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    add(sum, weights, 1.0, before_at(pixel));
+    for (int i = 0; i < SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE && (spread > 0.0 || interpolates); i++) {
         const ivec2 tap = ivec2(i % SDFGI_RAYS_SIDE, i / SDFGI_RAYS_SIDE) - (SDFGI_RAYS_SIDE / 2 - 1);
-        const ivec2 at = pixel + tap * int(args.filter_step);
-        const float weight = at == pixel ? 0.0 : spread * likeness(s, roughness, at);
-        if (weight > 0.0)
-            sum += weight * before_at(at);
-        weights += weight;
+        const ivec2 at = center + tap * step;
+        const float near = interpolates ? nearness(pixel, at, ray_step) : 0.0, share = mix(near, 1.0, spread);
+        if (at != pixel && share > 0.0)
+            add(sum, weights, share * picture_likeness(s, roughness, reach, at), before_at(at));
     }
-    return sum / weights;
+    return weights > 0.0 ? sum / weights : vec4(before_at(pixel).rgb, 0.0);
 }
 
 void filter_pixel(ivec2 pixel)

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Sends a ray from each pixel of the listed tiles, and reads the light that leaves what it hits. The rays of
- * neighbouring pixels are spread over the lobe of a rough surface; reflect_filter takes their mean. Which
- * part of the lobe a pixel samples depends on its place in the picture alone, so that nothing flickers while
- * the camera rests. A workgroup per tile, a thread per pixel. */
+ * Sends a ray from each listed pixel, and reads the light that leaves what it hits. The rays of neighbouring
+ * pixels are spread over the lobe of a rough surface; reflect_filter takes their mean. Which part of the lobe
+ * a pixel samples depends on its place in the picture alone, so that nothing flickers while the camera rests.
+ * A thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../include/sdfgi_reflection.glsl"
 #include "../lib/random.glsl"
 #include "picture_reflect.glsl"
 
-layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
+layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
 /* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
  * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
@@ -29,8 +29,8 @@ vec3 lobe_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
     return normalize(frame * vec3(dir.xy, max(abs(dir.z), 1e-3)));
 }
 
-/* Every square of SDFGI_RAYS_SIDE pixels a side, wherever it begins, holds each point of a sequence once, and
- * squares side by side hold it with other shifts. */
+/* Every square of SDFGI_RAYS_SIDE rays a side, wherever it begins, holds each point of a sequence once, and
+ * squares side by side hold it with other shifts. `pixel` is in steps from ray to ray. */
 vec2 pattern_point(ivec2 pixel)
 {
     const uvec2 side = uvec2(SDFGI_RAYS_SIDE), at = uvec2(pixel) % side, square = uvec2(pixel) / side % side;
@@ -46,7 +46,8 @@ void reflect_pixel(ivec2 pixel)
         return;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
-    const vec3 dir = lobe_direction(s.normal, s.to_eye, roughness * roughness, pattern_point(pixel));
+    const vec3 dir =
+        lobe_direction(s.normal, s.to_eye, roughness * roughness, pattern_point(pixel / int(args.ray_step)));
     const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), s.normal, dir);
     const vec3 light = scale * sdfgi_reflection_light(ray, dir, rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));
@@ -54,6 +55,7 @@ void reflect_pixel(ivec2 pixel)
 
 void main()
 {
-    for (uint i = gl_WorkGroupID.x; i < sdfgi_tiles[TILES_COUNT]; i += gl_NumWorkGroups.x)
-        reflect_pixel(picture_listed(i));
+    const uint threads = gl_NumWorkGroups.x * uint(SDFGI_GROUP_LINEAR);
+    for (uint i = gl_GlobalInvocationID.x; i < sdfgi_tiles[RAYS_COUNT]; i += threads)
+        reflect_pixel(picture_unpack(sdfgi_tiles[picture_ray_word(i)]));
 }

@@ -127,9 +127,10 @@ struct sdfgi_gather_args {
     float background_depth;
     uint step;        /* gather_sparse: pixels from one sample to the next, a power of two */
     float scale;      /* factor on the output */
-    uint filter_step; /* reflect_filter: pixels from tap to tap */
+    uint ray_step;    /* reflect_*: pixels from one ray to the next, a power of two */
+    uint filter_step; /* reflect_filter: rays from tap to tap */
 };
-SDFGI_ASSERT_SIZE(sdfgi_gather_args, 88);
+SDFGI_ASSERT_SIZE(sdfgi_gather_args, 92);
 
 /* debug_view. Begins as sdfgi_gather_args does. */
 struct sdfgi_debug_view_args {

@@ -110,8 +110,11 @@
 #define SDFGI_RAYS_END   0.7
 /* Pixels along a side of the square over which the rays of a rough surface are spread. */
 #define SDFGI_RAYS_SIDE 4
-/* Words of the tile list of a view before the tiles: three of indirect arguments, and a count. */
-#define SDFGI_TILES_HEADER 4
+/* Words before the lists of rays and tiles that a view has. Each list has three words of indirect arguments,
+ * and a count. */
+#define SDFGI_TILES_RAYS   0
+#define SDFGI_TILES_TILES  4
+#define SDFGI_TILES_HEADER 8
 
 /* gather_sparse: a workgroup looks up so many samples, one a thread, and fills the squares between them. Its
  * list of pixels must fit 16 KiB, and 128 threads are what every device has. */

@@ -76,12 +76,17 @@ static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
     REQUIRE_CMP((int)sdfgi_view_resolve(r->stage->t.gi, r->view, cmd, &r->desc), ==, (int)SDFGI_OK);
 }
 
-static sdfgi_view *create_view(struct stage *s)
+static sdfgi_view *create_view_at(struct stage *s, enum sdfgi_gather_resolution reflection)
 {
     sdfgi_view *view = NULL;
-    const struct sdfgi_view_desc desc = { .width = SIDE, .height = SIDE };
+    const struct sdfgi_view_desc desc = { .width = SIDE, .height = SIDE, .reflection = reflection };
     REQUIRE_CMP((int)sdfgi_view_create(s->t.gi, &desc, &view), ==, (int)SDFGI_OK);
     return view;
+}
+
+static sdfgi_view *create_view(struct stage *s)
+{
+    return create_view_at(s, SDFGI_GATHER_FULL);
 }
 
 static struct sdfgi_resolve_desc resolve_desc(const struct stage *s, VkImageView roughness)
@@ -244,7 +249,7 @@ static void views_have_pictures_of_their_own_and_give_them_back(void **state)
     REQUIRE_CMP(memcmp(a, b, sizeof a), ==, 0);
     const uint64_t all = view_bytes(&stage);
     REQUIRE_CMP(diffuse, >=, none + 2 * 8 * PIXELS);
-    REQUIRE_CMP(all, >=, diffuse + 2 * 16 * PIXELS);
+    REQUIRE_CMP(all, >=, diffuse + 2 * 20 * PIXELS);
     sdfgi_view_destroy(stage.t.gi, one);
     sdfgi_view_destroy(stage.t.gi, NULL);
     gi_test_update(&stage.t, 4);
@@ -252,6 +257,50 @@ static void views_have_pictures_of_their_own_and_give_them_back(void **state)
     sdfgi_view_destroy(stage.t.gi, two);
     gi_test_update(&stage.t, 4);
     REQUIRE_CMP(view_bytes(&stage), ==, none);
+    close_stage(&stage);
+}
+
+static uint32_t rays_sent(struct stage *s, const sdfgi_view *view)
+{
+    uint32_t header[SDFGI_TILES_HEADER];
+    gpu_test_buffer_read(&s->t.gpu, view->tiles.handle, 0, sizeof header, header);
+    return header[SDFGI_TILES_RAYS + 3];
+}
+
+/* A quarter and a sixteenth of the rays, and those of pixels that lie fewer than a step beside the wall,
+ * which is background. */
+static void fewer_rays_show_the_same(void **state)
+{
+    (void)state;
+    static float full[PIXELS][4], other[PIXELS][4];
+    static const float roughness[] = { 0, 0.2f, 0.5f };
+    static const struct {
+        enum sdfgi_gather_resolution resolution;
+        uint32_t step;
+    } rows[] = { { SDFGI_GATHER_HALF, 2 }, { SDFGI_GATHER_QUARTER, 4 } };
+    open_stage(&stage, 1);
+    sdfgi_view *whole = create_view(&stage);
+    uint32_t surfaces = 0;
+    for (int i = 0; i < PIXELS; i++)
+        surfaces += stage.depths[i] < 1;
+    for (int k = 0; k < 6; k++) {
+        sdfgi_view *view = create_view_at(&stage, rows[k % 2].resolution);
+        resolve(&stage, whole, roughness[k / 2]);
+        REQUIRE_CMP(rays_sent(&stage, whole), ==, surfaces);
+        read_picture(&stage, &whole->reflection, full);
+        resolve(&stage, view, roughness[k / 2]);
+        read_picture(&stage, &view->reflection, other);
+        const uint32_t sent = rays_sent(&stage, view), step = rows[k % 2].step;
+        const double off = fabs(mean_luminance(other) / mean_luminance(full) - 1);
+        for (int i = 0; i < PIXELS; i++)
+            REQUIRE_TRUE(other[i][3] >= 0 && (other[i][3] > 0) == (stage.depths[i] < 1));
+        printf("roughness %.1f, a ray every %u pixels: %u rays instead of %u, mean off by %.4f\n",
+               (double)roughness[k / 2], step, sent, surfaces, off);
+        REQUIRE_CMP(sent, >=, surfaces / (step * step));
+        REQUIRE_CMP(sent, <, surfaces / (step * step) + 2 * step * SIDE);
+        REQUIRE_CMP(off, <=, roughness[k / 2] > 0 ? 0.02 : 1e-6);
+        sdfgi_view_destroy(stage.t.gi, view);
+    }
     close_stage(&stage);
 }
 
@@ -274,10 +323,11 @@ static void bad_views_are_refused(void **state)
 {
     (void)state;
     open_stage(&stage, 1);
-    static const struct sdfgi_view_desc wrong[] = { { 0, 4, SDFGI_GATHER_FULL },
-                                                    { 4, 0, SDFGI_GATHER_FULL },
-                                                    { 4, UINT32_MAX, SDFGI_GATHER_FULL },
-                                                    { 4, 4, (enum sdfgi_gather_resolution)7 } };
+    static const struct sdfgi_view_desc wrong[] = { { .height = 4 },
+                                                    { .width = 4 },
+                                                    { .width = 4, .height = UINT32_MAX },
+                                                    { 4, 4, .diffuse = (enum sdfgi_gather_resolution)7 },
+                                                    { 4, 4, .reflection = (enum sdfgi_gather_resolution)3 } };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         sdfgi_view *view = (sdfgi_view *)&stage;
         REQUIRE_CMP((int)sdfgi_view_create(stage.t.gi, &wrong[i], &view), ==,
@@ -317,6 +367,7 @@ int main(void)
         cmocka_unit_test(mirrors_show_the_sky_where_nothing_is_above),
         cmocka_unit_test(roughness_changes_reflections_without_a_step),
         cmocka_unit_test(views_have_pictures_of_their_own_and_give_them_back),
+        cmocka_unit_test(fewer_rays_show_the_same),
         cmocka_unit_test(without_a_picture_of_roughness_there_are_no_reflections),
         cmocka_unit_test(bad_views_are_refused),
     };

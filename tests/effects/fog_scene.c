@@ -118,9 +118,10 @@ void fog_stage_open(struct fog_stage *stage, struct host_device *device, const s
     settings.min_cell_size_m = 0.25f;
     settings.ray_count = 125;
     settings.frames_to_converge = 4;
-    const struct host_renderer_desc desc = {
-        .width = FOG_WIDTH, .height = FOG_HEIGHT, .settings = &settings, .lookup = HOST_LOOKUP_FULL
-    };
+    const struct host_renderer_desc desc = { .width = FOG_WIDTH,
+                                             .height = FOG_HEIGHT,
+                                             .settings = &settings,
+                                             .lookups = { HOST_LOOKUP_FULL, HOST_LOOKUP_FULL } };
     const struct host_until_desc until = { .max_frames = MAX_FRAMES };
     stage->camera = scene->view.camera;
     stage->scene = scene_create(device, scene);

@@ -146,6 +146,7 @@
     X(sdfgi_gather_args, background_depth)                                                                   \
     X(sdfgi_gather_args, step)                                                                               \
     X(sdfgi_gather_args, scale)                                                                              \
+    X(sdfgi_gather_args, ray_step)                                                                           \
     X(sdfgi_gather_args, filter_step)                                                                        \
     X(sdfgi_debug_view_args, inverse_view_projection)                                                        \
     X(sdfgi_debug_view_args, width)                                                                          \

@@ -15,9 +15,10 @@ static struct host_renderer *renderer_open(const struct far_stage *stage, enum h
 {
     struct sdfgi_settings settings;
     host_renderer_get_settings(stage->renderer, &settings);
-    const struct host_renderer_desc desc = {
-        .width = FAR_WIDTH, .height = FAR_HEIGHT, .settings = &settings, .lookup = lookup
-    };
+    const struct host_renderer_desc desc = { .width = FAR_WIDTH,
+                                             .height = FAR_HEIGHT,
+                                             .settings = &settings,
+                                             .lookups = { lookup, HOST_LOOKUP_FULL } };
     struct host_renderer *renderer = host_renderer_create(device, stage->scene, &desc);
     const struct host_until_desc until = { .frames = 8 };
     if (!renderer || !host_render_until(renderer, &stage->view.camera, &until, NULL))

@@ -36,11 +36,16 @@ void sdfgi_picture_check_size(struct problem *p, const VkPhysicalDeviceLimits *l
                           (unsigned)width, (unsigned)height);
 }
 
-struct work sdfgi_picture_work(const struct sdfgi_gather_desc *d)
+uint32_t sdfgi_picture_step(enum sdfgi_gather_resolution resolution)
 {
     static const uint32_t steps[] = {
         [SDFGI_GATHER_FULL] = 1, [SDFGI_GATHER_HALF] = 2, [SDFGI_GATHER_QUARTER] = SDFGI_SAMPLE_STEP_MAX
     };
+    return steps[resolution];
+}
+
+struct work sdfgi_picture_work(const struct sdfgi_gather_desc *d)
+{
     struct work work = {
         .pass = d->resolution == SDFGI_GATHER_FULL ? PASS_GATHER : PASS_GATHER_SPARSE,
         .indirect = WORK_DIRECT,
@@ -48,7 +53,7 @@ struct work sdfgi_picture_work(const struct sdfgi_gather_desc *d)
         .args.gather = { .width = d->width,
                          .height = d->height,
                          .background_depth = d->background_depth,
-                         .step = steps[d->resolution],
+                         .step = sdfgi_picture_step(d->resolution),
                          .scale = d->scale > 0 ? d->scale : 1 },
     };
     memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,

@@ -13,6 +13,8 @@ struct problem sdfgi_picture_problem(const struct sdfgi_gather_desc *desc);
 /* Adds a problem if a picture is larger than the device takes. */
 void sdfgi_picture_check_size(struct problem *problem, const VkPhysicalDeviceLimits *limits, uint32_t width,
                               uint32_t height);
+/* Pixels from one sample to the next. */
+uint32_t sdfgi_picture_step(enum sdfgi_gather_resolution resolution);
 /* The gather of a picture as an item of work. */
 struct work sdfgi_picture_work(const struct sdfgi_gather_desc *desc);
 

@@ -68,11 +68,11 @@ struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_v
     return NULL;
 }
 
-/* A list of all tiles. */
+/* A list of all tiles, and one of all pixels. */
 static uint64_t tiles_size(const struct sdfgi_view_desc *desc)
 {
     const uint64_t x = (desc->width + TILE - 1) / TILE, y = (desc->height + TILE - 1) / TILE;
-    return sizeof(uint32_t) * (SDFGI_TILES_HEADER + x * y);
+    return sizeof(uint32_t) * (SDFGI_TILES_HEADER + x * y + (uint64_t)desc->width * desc->height);
 }
 
 VkResult sdfgi_view_add_reflection(struct backend *backend, struct sdfgi_view *view)
@@ -83,11 +83,11 @@ VkResult sdfgi_view_add_reflection(struct backend *backend, struct sdfgi_view *v
     if (result == VK_SUCCESS && !view->filtered.handle)
         result = create_picture(backend, view, &view->filtered, "sdfgi filtered");
     if (result == VK_SUCCESS && !view->tiles.handle)
-        result = sdfgi_backend_buffer_init(backend, &view->tiles, tiles_size(&view->desc),
-                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                           GPU_DEVICE_LOCAL, SDFGI_MEMORY_VIEWS, "sdfgi tiles");
+        result = sdfgi_backend_buffer_init(
+            backend, &view->tiles, tiles_size(&view->desc),
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+            GPU_DEVICE_LOCAL, SDFGI_MEMORY_VIEWS, "sdfgi tiles");
     return result;
 }
 

@@ -16,12 +16,15 @@ extern "C" {
 typedef struct sdfgi_view sdfgi_view;
 
 struct sdfgi_view_desc {
-    uint32_t width, height;               /* pixels: 1 to the device's maxImageDimension2D */
-    enum sdfgi_gather_resolution diffuse; /* at which diffuse light is looked up; 0: SDFGI_GATHER_FULL */
+    uint32_t width, height; /* pixels: 1 to the device's maxImageDimension2D */
+    /* At which diffuse light is looked up, and at which rays are sent; 0: SDFGI_GATHER_FULL. Reflections
+     * interpolate as sdfgi_gather does, but by surface alone: edges of surfaces stay sharp, and those of what
+     * a mirror shows are a pixel or two softer. */
+    enum sdfgi_gather_resolution diffuse, reflection;
 };
 
-/* Creates a view: its picture of diffuse light takes 8 bytes a pixel. A picture of reflections, as large, is
- * added by the first sdfgi_view_resolve that asks for it while a material is smooth. */
+/* Creates a view: its picture of diffuse light takes 8 bytes a pixel. What reflections need, 20 bytes a
+ * pixel, is added by the first sdfgi_view_resolve that asks for it while a material is smooth. */
 SDFGI_API enum sdfgi_result sdfgi_view_create(sdfgi *gi, const struct sdfgi_view_desc *desc,
                                               sdfgi_view **out);
 
