@@ -7,6 +7,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Names for the linker, since this lies in the static library, too: see gpu/gpu_names.h. */
+#define base_arena_init   sdfgi_base_arena_init
+#define base_arena_alloc  sdfgi_base_arena_alloc
+#define base_arena_finish sdfgi_base_arena_finish
+
 #ifdef __cplusplus
 extern "C" {
 #endif

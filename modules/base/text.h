@@ -8,6 +8,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 
+/* Names for the linker, since this lies in the static library, too: see gpu/gpu_names.h. */
+#define base_text_error     sdfgi_base_text_error
+#define base_text_error_va  sdfgi_base_text_error_va
+#define base_text_to_double sdfgi_base_text_to_double
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -13,6 +13,8 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include "gpu_names.h"
+
 /* The version of Vulkan that shaders and calls need. */
 #define GPU_API_VERSION VK_API_VERSION_1_2
 

@@ -196,6 +196,13 @@ void sdfgi_reset(sdfgi *gi)
     sdfgi_volume_forget(&gi->volume, &gi->settings);
 }
 
+/* ---- Version */
+
+uint32_t sdfgi_version(void)
+{
+    return SDFGI_VERSION;
+}
+
 /* ---- What hosts bind */
 
 bool sdfgi_is_active(const sdfgi *gi)

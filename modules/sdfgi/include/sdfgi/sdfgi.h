@@ -44,13 +44,10 @@
 
 #include <sdfgi/messages.h>
 #include <sdfgi/settings.h>
+#include <sdfgi/version.h>
 
 #ifdef __cplusplus
 extern "C" {
-#endif
-
-#ifndef SDFGI_API
-#define SDFGI_API __attribute__((visibility("default")))
 #endif
 
 enum sdfgi_result {

@@ -8,12 +8,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <sdfgi/version.h>
+
 #ifdef __cplusplus
 extern "C" {
-#endif
-
-#ifndef SDFGI_API
-#define SDFGI_API __attribute__((visibility("default")))
 #endif
 
 enum sdfgi_y_scale { SDFGI_Y_SCALE_50 = 0, SDFGI_Y_SCALE_75 = 1, SDFGI_Y_SCALE_100 = 2 };

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Views: what belongs to one picture. A view holds the pictures of light that it resolves, and what it needs
  * to make them. Each eye and each part of a split screen has a view of its own; all views of a context share
- * its volumes, so that an update serves them all. Include sdfgi.h. */
+ * its volumes, so that an update serves them all. Conventions as in sdfgi.h, which includes this. */
 #ifndef SDFGI_VIEW_H
 #define SDFGI_VIEW_H
 
-#ifndef SDFGI_H
-#error "include sdfgi/sdfgi.h"
-#endif
+#include <sdfgi/sdfgi.h>
 
 #ifdef __cplusplus
 extern "C" {
