@@ -113,8 +113,10 @@ VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysi
                          VkDevice handle, uint32_t queue_family, PFN_vkGetInstanceProcAddr get,
                          const VkAllocationCallbacks *callbacks);
 
-/* Names an object for debuggers; does nothing without VK_EXT_debug_utils. */
-void gpu_object_name(const struct gpu_device *device, VkObjectType type, uint64_t handle, const char *name);
+/* Names what a call has made, if `result` says that it has, for debuggers; `handle` points to it. Does
+ * nothing without VK_EXT_debug_utils. Returns `result`. */
+VkResult gpu_named(const struct gpu_device *device, VkResult result, VkObjectType type, const void *handle,
+                   const char *name);
 
 /* ---- Memory: gpu_memory.c */
 

@@ -58,15 +58,15 @@ VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysi
     return VK_SUCCESS;
 }
 
-void gpu_object_name(const struct gpu_device *device, VkObjectType type, uint64_t handle, const char *name)
+VkResult gpu_named(const struct gpu_device *device, VkResult result, VkObjectType type, const void *handle,
+                   const char *name)
 {
-    if (!device->fn.SetDebugUtilsObjectNameEXT)
-        return;
-    device->fn.SetDebugUtilsObjectNameEXT(device->handle,
-                                          &(VkDebugUtilsObjectNameInfoEXT){
-                                              .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-                                              .objectType = type,
-                                              .objectHandle = handle,
-                                              .pObjectName = name,
-                                          });
+    if (result != VK_SUCCESS || !device->fn.SetDebugUtilsObjectNameEXT)
+        return result;
+    VkDebugUtilsObjectNameInfoEXT info = { .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                           .objectType = type,
+                                           .pObjectName = name };
+    memcpy(&info.objectHandle, handle, sizeof info.objectHandle); /* all but dispatchable ones have 64 bits */
+    device->fn.SetDebugUtilsObjectNameEXT(device->handle, &info); /* a name that is missing harms nobody */
+    return VK_SUCCESS;
 }

@@ -33,27 +33,29 @@ static uint32_t memory_type(const struct gpu_device *device, uint32_t allowed, e
 }
 
 static VkResult allocate(const struct gpu_device *device, const VkMemoryRequirements *needs,
-                         enum gpu_placement placement, VkDeviceMemory *memory, uint32_t *type)
+                         enum gpu_placement placement, const char *name, VkDeviceMemory *memory,
+                         uint32_t *type)
 {
     *type = memory_type(device, needs->memoryTypeBits, placement);
     if (*type == UINT32_MAX)
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    return device->fn.AllocateMemory(device->handle,
-                                     &(VkMemoryAllocateInfo){
-                                         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                         .allocationSize = needs->size,
-                                         .memoryTypeIndex = *type,
-                                     },
-                                     device->callbacks, memory);
+    const VkResult result = device->fn.AllocateMemory(device->handle,
+                                                      &(VkMemoryAllocateInfo){
+                                                          .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                                          .allocationSize = needs->size,
+                                                          .memoryTypeIndex = *type,
+                                                      },
+                                                      device->callbacks, memory);
+    return gpu_named(device, result, VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
 }
 
 static VkResult buffer_back(const struct gpu_device *device, struct gpu_buffer *buffer,
-                            enum gpu_placement placement)
+                            enum gpu_placement placement, const char *name)
 {
     VkMemoryRequirements needs;
     device->fn.GetBufferMemoryRequirements(device->handle, buffer->handle, &needs);
     uint32_t type;
-    VkResult result = allocate(device, &needs, placement, &buffer->memory, &type);
+    VkResult result = allocate(device, &needs, placement, name, &buffer->memory, &type);
     if (result != VK_SUCCESS)
         return result;
     buffer->coherent = device->memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -77,13 +79,12 @@ VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buf
                                               },
                                               device->callbacks, &buffer->handle);
     if (result == VK_SUCCESS)
-        result = buffer_back(device, buffer, placement);
+        result = buffer_back(device, buffer, placement, name);
     if (result != VK_SUCCESS) {
         gpu_buffer_finish(device, buffer);
         return result;
     }
-    gpu_object_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)buffer->handle, name);
-    return VK_SUCCESS;
+    return gpu_named(device, result, VK_OBJECT_TYPE_BUFFER, &buffer->handle, name);
 }
 
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer)
@@ -134,13 +135,13 @@ static VkResult image_view(const struct gpu_device *device, struct gpu_image *im
         device->callbacks, &image->view);
 }
 
-static VkResult image_back(const struct gpu_device *device, struct gpu_image *image)
+static VkResult image_back(const struct gpu_device *device, struct gpu_image *image, const char *name)
 {
     VkMemoryRequirements needs;
     device->fn.GetImageMemoryRequirements(device->handle, image->handle, &needs);
     image->size = needs.size;
     uint32_t type;
-    const VkResult result = allocate(device, &needs, GPU_DEVICE_LOCAL, &image->memory, &type);
+    const VkResult result = allocate(device, &needs, GPU_DEVICE_LOCAL, name, &image->memory, &type);
     if (result != VK_SUCCESS)
         return result;
     return device->fn.BindImageMemory(device->handle, image->handle, image->memory, 0);
@@ -164,15 +165,15 @@ VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image
                                              },
                                              device->callbacks, &image->handle);
     if (result == VK_SUCCESS)
-        result = image_back(device, image);
+        result = image_back(device, image, name);
     if (result == VK_SUCCESS)
-        result = image_view(device, image, format, layers);
+        result = gpu_named(device, image_view(device, image, format, layers), VK_OBJECT_TYPE_IMAGE_VIEW,
+                           &image->view, name);
     if (result != VK_SUCCESS) {
         gpu_image_finish(device, image);
         return result;
     }
-    gpu_object_name(device, VK_OBJECT_TYPE_IMAGE, (uint64_t)(uintptr_t)image->handle, name);
-    return VK_SUCCESS;
+    return gpu_named(device, result, VK_OBJECT_TYPE_IMAGE, &image->handle, name);
 }
 
 void gpu_image_finish(const struct gpu_device *device, struct gpu_image *image)

@@ -23,7 +23,7 @@
 #define gpu_image_to_general        sdfgi_gpu_image_to_general
 #define gpu_label_begin             sdfgi_gpu_label_begin
 #define gpu_label_end               sdfgi_gpu_label_end
-#define gpu_object_name             sdfgi_gpu_object_name
+#define gpu_named                   sdfgi_gpu_named
 #define gpu_push                    sdfgi_gpu_push
 #define gpu_raster_pipeline_create  sdfgi_gpu_raster_pipeline_create
 #define gpu_recorder_begin          sdfgi_gpu_recorder_begin

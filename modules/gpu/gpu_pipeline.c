@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "gpu.h"
 
-static VkResult shader_module(const struct gpu_device *device, struct gpu_shader shader,
+static VkResult shader_module(const struct gpu_device *device, struct gpu_shader shader, const char *name,
                               VkShaderModule *module)
 {
-    return device->fn.CreateShaderModule(device->handle,
-                                         &(VkShaderModuleCreateInfo){
-                                             .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                             .codeSize = shader.size,
-                                             .pCode = shader.code,
-                                         },
-                                         device->callbacks, module);
+    const VkResult result =
+        device->fn.CreateShaderModule(device->handle,
+                                      &(VkShaderModuleCreateInfo){
+                                          .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                          .codeSize = shader.size,
+                                          .pCode = shader.code,
+                                      },
+                                      device->callbacks, module);
+    return gpu_named(device, result, VK_OBJECT_TYPE_SHADER_MODULE, module, name);
 }
 
 static VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module)
@@ -27,7 +29,7 @@ VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu
                                      VkPipelineLayout layout, const char *name, VkPipeline *pipeline)
 {
     VkShaderModule module = VK_NULL_HANDLE;
-    VkResult result = shader_module(device, shader, &module);
+    VkResult result = shader_module(device, shader, name, &module);
     if (result != VK_SUCCESS)
         return result;
     result = device->fn.CreateComputePipelines(device->handle, device->pipeline_cache, 1,
@@ -38,9 +40,7 @@ VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu
                                                },
                                                device->callbacks, pipeline);
     device->fn.DestroyShaderModule(device->handle, module, device->callbacks);
-    if (result == VK_SUCCESS)
-        gpu_object_name(device, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)*pipeline, name);
-    return result;
+    return gpu_named(device, result, VK_OBJECT_TYPE_PIPELINE, pipeline, name);
 }
 
 static VkResult raster_pipeline(const struct gpu_device *device,
@@ -90,9 +90,9 @@ VkResult gpu_raster_pipeline_create(const struct gpu_device *device, struct gpu_
                                     VkPipeline *pipeline)
 {
     VkShaderModule modules[2] = { VK_NULL_HANDLE, VK_NULL_HANDLE };
-    VkResult result = shader_module(device, vertex, &modules[0]);
+    VkResult result = shader_module(device, vertex, name, &modules[0]);
     if (result == VK_SUCCESS)
-        result = shader_module(device, fragment, &modules[1]);
+        result = shader_module(device, fragment, name, &modules[1]);
     if (result == VK_SUCCESS) {
         const VkPipelineShaderStageCreateInfo stages[2] = {
             stage_info(VK_SHADER_STAGE_VERTEX_BIT, modules[0]),
@@ -102,7 +102,5 @@ VkResult gpu_raster_pipeline_create(const struct gpu_device *device, struct gpu_
     }
     for (int i = 0; i < 2; i++)
         device->fn.DestroyShaderModule(device->handle, modules[i], device->callbacks);
-    if (result == VK_SUCCESS)
-        gpu_object_name(device, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)*pipeline, name);
-    return result;
+    return gpu_named(device, result, VK_OBJECT_TYPE_PIPELINE, pipeline, name);
 }

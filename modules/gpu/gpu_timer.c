@@ -10,13 +10,14 @@ VkResult gpu_timer_init(const struct gpu_device *device, struct gpu_timer *timer
     memset(counts, 0, slots * sizeof *counts);
     if (device->timestamp_bits == 0)
         return VK_SUCCESS;
-    return device->fn.CreateQueryPool(device->handle,
-                                      &(VkQueryPoolCreateInfo){
-                                          .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                          .queryCount = slots * GPU_TIMER_SPANS * 2,
-                                      },
-                                      device->callbacks, &timer->pool);
+    const VkResult result = device->fn.CreateQueryPool(device->handle,
+                                                       &(VkQueryPoolCreateInfo){
+                                                           .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                                           .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                                           .queryCount = slots * GPU_TIMER_SPANS * 2,
+                                                       },
+                                                       device->callbacks, &timer->pool);
+    return gpu_named(device, result, VK_OBJECT_TYPE_QUERY_POOL, &timer->pool, "sdfgi times");
 }
 
 void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer)

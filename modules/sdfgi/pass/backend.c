@@ -55,11 +55,11 @@ void sdfgi_backend_image_finish(struct backend *backend, struct gpu_image *image
     gpu_image_finish(&backend->device, image);
 }
 
-VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
+VkResult sdfgi_backend_pool_create(const struct backend *backend, const char *name, uint32_t sets,
                                    const VkDescriptorPoolSize *sizes, uint32_t count,
                                    VkDescriptorPoolCreateFlags flags, VkDescriptorPool *pool)
 {
-    return backend->device.fn.CreateDescriptorPool(
+    const VkResult result = backend->device.fn.CreateDescriptorPool(
         backend->device.handle,
         &(VkDescriptorPoolCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                        .flags = flags,
@@ -67,16 +67,18 @@ VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
                                        .poolSizeCount = count,
                                        .pPoolSizes = sizes },
         backend->device.callbacks, pool);
+    return gpu_named(&backend->device, result, VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, name);
 }
 
-VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
+VkResult sdfgi_backend_set_allocate(const struct backend *backend, const char *name, VkDescriptorPool pool,
                                     VkDescriptorSetLayout layout, VkDescriptorSet *set)
 {
-    return backend->device.fn.AllocateDescriptorSets(
+    const VkResult result = backend->device.fn.AllocateDescriptorSets(
         backend->device.handle,
         &(VkDescriptorSetAllocateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                         .descriptorPool = pool,
                                         .descriptorSetCount = 1,
                                         .pSetLayouts = &layout },
         set);
+    return gpu_named(&backend->device, result, VK_OBJECT_TYPE_DESCRIPTOR_SET, set, name);
 }

@@ -57,11 +57,11 @@ VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_
                                 VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline);
 
 /* A pool for `sets` descriptor sets, with room for descriptors of `count` types in all. */
-VkResult sdfgi_backend_pool_create(const struct backend *backend, uint32_t sets,
+VkResult sdfgi_backend_pool_create(const struct backend *backend, const char *name, uint32_t sets,
                                    const VkDescriptorPoolSize *sizes, uint32_t count,
                                    VkDescriptorPoolCreateFlags flags, VkDescriptorPool *pool);
 /* One set from a pool. */
-VkResult sdfgi_backend_set_allocate(const struct backend *backend, VkDescriptorPool pool,
+VkResult sdfgi_backend_set_allocate(const struct backend *backend, const char *name, VkDescriptorPool pool,
                                     VkDescriptorSetLayout layout, VkDescriptorSet *set);
 
 #endif

@@ -28,6 +28,7 @@ static const struct pass_row rows[PASS_COUNT] = {
 #define ROW(id, kind_, shader, unit_, need_, phase_, made_, domain_, args_, group_, set_, reads_, writes_)   \
     [PASS_##id] = {                                                                                          \
         .name = #shader,                                                                                     \
+        .object_name = "sdfgi " #shader,                                                                     \
         .unit = UNIT_##unit_,                                                                                \
         .kind = PASS_KIND_##kind_,                                                                           \
         .need = NEED_##need_,                                                                                \

@@ -92,6 +92,7 @@ enum pass_args {
 
 struct pass_row {
     const char *name;
+    const char *object_name; /* of its pipeline, for debuggers: "sdfgi light_direct" */
     enum pass_unit unit;
     enum pass_kind kind;
     enum need need;

@@ -46,15 +46,17 @@ static const struct pass_shaders shaders[PASS_COUNT] = {
 #undef ROW
 };
 
-static VkResult set_layout(const struct gpu_device *device, const VkDescriptorSetLayoutBinding *bindings,
-                           uint32_t count, VkDescriptorSetLayout *layout)
+static VkResult set_layout(const struct gpu_device *device, const char *name,
+                           const VkDescriptorSetLayoutBinding *bindings, uint32_t count,
+                           VkDescriptorSetLayout *layout)
 {
-    return device->fn.CreateDescriptorSetLayout(
+    const VkResult result = device->fn.CreateDescriptorSetLayout(
         device->handle,
         &(VkDescriptorSetLayoutCreateInfo){ .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                             .bindingCount = count,
                                             .pBindings = bindings },
         device->callbacks, layout);
+    return gpu_named(device, result, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
 }
 
 static VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType type, const VkSampler *sampler)
@@ -71,7 +73,8 @@ static VkResult resource_set_layout(struct backend *backend, enum resource_set s
         if (row->set == set)
             bindings[count++] = binding(row->binding, sdfgi_resource_descriptor((enum resource)i), NULL);
     }
-    return set_layout(&backend->device, bindings, count, &backend->pipelines.sets[set]);
+    return set_layout(&backend->device, sdfgi_resource_set_name(set), bindings, count,
+                      &backend->pipelines.sets[set]);
 }
 
 static VkResult mesh_layout(struct backend *backend)
@@ -79,7 +82,7 @@ static VkResult mesh_layout(struct backend *backend)
     VkDescriptorSetLayoutBinding bindings[4];
     for (uint32_t i = 0; i < 4; i++)
         bindings[i] = binding(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, NULL);
-    return set_layout(&backend->device, bindings, 4, &backend->pipelines.mesh);
+    return set_layout(&backend->device, "sdfgi mesh", bindings, 4, &backend->pipelines.mesh);
 }
 
 static VkResult material_layout(struct backend *backend)
@@ -88,7 +91,7 @@ static VkResult material_layout(struct backend *backend)
         binding(SDFGI_BINDING_MATERIAL_ALBEDO, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, NULL),
         binding(SDFGI_BINDING_MATERIAL_EMISSION, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, NULL),
     };
-    return set_layout(&backend->device, bindings, 2, &backend->pipelines.material);
+    return set_layout(&backend->device, "sdfgi material", bindings, 2, &backend->pipelines.material);
 }
 
 static VkResult view_layout(struct backend *backend)
@@ -103,9 +106,16 @@ static VkResult view_layout(struct backend *backend)
         binding(SDFGI_BINDING_VIEW_TILES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, NULL),
         binding(SDFGI_BINDING_VIEW_FILTERED, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, NULL),
     };
-    return set_layout(&backend->device, bindings, sizeof bindings / sizeof *bindings,
+    return set_layout(&backend->device, "sdfgi view", bindings, sizeof bindings / sizeof *bindings,
                       &backend->pipelines.view);
 }
+
+/* Named by the set beside LOOKUP and WORK. */
+static const char *const layout_names[PASS_SET_COUNT] = {
+    [PASS_SET_NONE] = "sdfgi passes",
+    [PASS_SET_MESH] = "sdfgi mesh passes",
+    [PASS_SET_VIEW] = "sdfgi view passes",
+};
 
 static VkResult pipeline_layout(struct backend *backend, enum pass_set beside)
 {
@@ -118,7 +128,7 @@ static VkResult pipeline_layout(struct backend *backend, enum pass_set beside)
                                             extra[beside][0], extra[beside][1] };
     const uint32_t count = 2 + (extra[beside][0] != VK_NULL_HANDLE) + (extra[beside][1] != VK_NULL_HANDLE);
     const VkPushConstantRange range = { VK_SHADER_STAGE_ALL, 0, PUSH_BYTES };
-    return backend->device.fn.CreatePipelineLayout(
+    const VkResult result = backend->device.fn.CreatePipelineLayout(
         backend->device.handle,
         &(VkPipelineLayoutCreateInfo){ .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                        .setLayoutCount = count,
@@ -126,6 +136,8 @@ static VkResult pipeline_layout(struct backend *backend, enum pass_set beside)
                                        .pushConstantRangeCount = 1,
                                        .pPushConstantRanges = &range },
         backend->device.callbacks, &p->layouts[beside]);
+    return gpu_named(&backend->device, result, VK_OBJECT_TYPE_PIPELINE_LAYOUT, &p->layouts[beside],
+                     layout_names[beside]);
 }
 
 static VkResult make_layouts(struct backend *backend)
@@ -151,7 +163,7 @@ VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32
         return VK_SUCCESS;
     return gpu_compute_pipeline_create(&backend->device, shaders[pass].compute[variant],
                                        backend->pipelines.layouts[sdfgi_pass_row(pass)->set],
-                                       sdfgi_pass_row(pass)->name, pipeline);
+                                       sdfgi_pass_row(pass)->object_name, pipeline);
 }
 
 VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
@@ -159,12 +171,12 @@ VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_
 {
     return gpu_raster_pipeline_create(&backend->device, shaders[pass].vertex, shaders[pass].fragment[variant],
                                       backend->pipelines.layouts[sdfgi_pass_row(pass)->set], render_pass,
-                                      extent, sdfgi_pass_row(pass)->name, pipeline);
+                                      extent, sdfgi_pass_row(pass)->object_name, pipeline);
 }
 
 static VkResult make_sampler(struct backend *backend)
 {
-    return backend->device.fn.CreateSampler(
+    const VkResult result = backend->device.fn.CreateSampler(
         backend->device.handle,
         &(VkSamplerCreateInfo){ .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                 .magFilter = VK_FILTER_NEAREST,
@@ -173,6 +185,8 @@ static VkResult make_sampler(struct backend *backend)
                                 .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                 .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE },
         backend->device.callbacks, &backend->pipelines.nearest);
+    return gpu_named(&backend->device, result, VK_OBJECT_TYPE_SAMPLER, &backend->pipelines.nearest,
+                     "sdfgi nearest");
 }
 
 VkResult sdfgi_pipelines_init(struct backend *backend)

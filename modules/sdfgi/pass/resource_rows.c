@@ -49,6 +49,12 @@ VkDescriptorType sdfgi_resource_descriptor(enum resource resource)
                                                         : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
+const char *sdfgi_resource_set_name(enum resource_set set)
+{
+    static const char *const names[RESOURCE_SET_COUNT] = { "sdfgi LOOKUP", "sdfgi WORK" };
+    return names[set];
+}
+
 uint32_t sdfgi_resource_set_size(enum resource_set set)
 {
     uint32_t count = 0;

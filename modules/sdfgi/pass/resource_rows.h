@@ -27,6 +27,8 @@ const struct resource_row *sdfgi_resource_row(enum resource resource);
 /* Bytes. */
 uint64_t sdfgi_resource_size(enum resource resource, const struct extent *extent);
 VkDescriptorType sdfgi_resource_descriptor(enum resource resource);
+/* "sdfgi LOOKUP" */
+const char *sdfgi_resource_set_name(enum resource_set set);
 /* How many resources of a set are bound. */
 uint32_t sdfgi_resource_set_size(enum resource_set set);
 /* Bytes that come back to the host. */

@@ -32,22 +32,23 @@ static VkResult create_buffers(struct backend *backend, struct resources *r)
 /* ---- Descriptor sets */
 
 /* A pool for `sets` sets with one binding for each of `count` resources. */
-static VkResult create_pool(const struct backend *backend, uint32_t sets, uint32_t count,
+static VkResult create_pool(const struct backend *backend, const char *name, uint32_t sets, uint32_t count,
                             VkDescriptorPool *pool)
 {
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
     };
-    return sdfgi_backend_pool_create(backend, sets, sizes, 2, 0, pool);
+    return sdfgi_backend_pool_create(backend, name, sets, sizes, 2, 0, pool);
 }
 
 static VkResult create_sets(const struct backend *backend, VkDescriptorPool *pool,
                             VkDescriptorSet sets[static RESOURCE_SET_COUNT])
 {
-    VkResult result = create_pool(backend, RESOURCE_SET_COUNT, RESOURCE_COUNT, pool);
+    VkResult result = create_pool(backend, "sdfgi volume", RESOURCE_SET_COUNT, RESOURCE_COUNT, pool);
     for (int i = 0; i < RESOURCE_SET_COUNT && result == VK_SUCCESS; i++)
-        result = sdfgi_backend_set_allocate(backend, *pool, backend->pipelines.sets[i], &sets[i]);
+        result = sdfgi_backend_set_allocate(backend, sdfgi_resource_set_name((enum resource_set)i), *pool,
+                                            backend->pipelines.sets[i], &sets[i]);
     return result;
 }
 
@@ -78,14 +79,15 @@ static void write_sets(const struct backend *backend, const struct resources *r)
 static VkResult create_framebuffer(const struct gpu_device *d, struct raster_target *target)
 {
     const VkSubpassDescription subpass = { .pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS };
-    const VkResult result = d->fn.CreateRenderPass(
+    VkResult result = d->fn.CreateRenderPass(
         d->handle,
         &(VkRenderPassCreateInfo){
             .sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO, .subpassCount = 1, .pSubpasses = &subpass },
         d->callbacks, &target->pass);
+    result = gpu_named(d, result, VK_OBJECT_TYPE_RENDER_PASS, &target->pass, "sdfgi raster");
     if (result != VK_SUCCESS)
         return result;
-    return d->fn.CreateFramebuffer(
+    result = d->fn.CreateFramebuffer(
         d->handle,
         &(VkFramebufferCreateInfo){ .sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
                                     .renderPass = target->pass,
@@ -93,6 +95,7 @@ static VkResult create_framebuffer(const struct gpu_device *d, struct raster_tar
                                     .height = target->extent,
                                     .layers = 1 },
         d->callbacks, &target->framebuffer);
+    return gpu_named(d, result, VK_OBJECT_TYPE_FRAMEBUFFER, &target->framebuffer, "sdfgi raster");
 }
 
 static VkResult create_raster(struct backend *backend, struct raster_target *target, uint32_t resolution)
@@ -316,9 +319,10 @@ VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
     if (result == VK_SUCCESS)
         result = gpu_buffer_zero(&backend->device, &blank->buffer);
     if (result == VK_SUCCESS)
-        result = create_pool(backend, 1, sdfgi_resource_set_size(RESOURCE_SET_LOOKUP), &blank->pool);
+        result = create_pool(backend, "sdfgi blank", 1, sdfgi_resource_set_size(RESOURCE_SET_LOOKUP),
+                             &blank->pool);
     if (result == VK_SUCCESS)
-        result = sdfgi_backend_set_allocate(backend, blank->pool,
+        result = sdfgi_backend_set_allocate(backend, "sdfgi blank", blank->pool,
                                             backend->pipelines.sets[RESOURCE_SET_LOOKUP], &blank->set);
     if (result != VK_SUCCESS)
         return result;

@@ -18,7 +18,7 @@ static VkResult add_pool(struct scene *scene)
         { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * SETS_PER_POOL },
     };
     const VkResult result =
-        sdfgi_backend_pool_create(scene->backend, SETS_PER_POOL, sizes, 2,
+        sdfgi_backend_pool_create(scene->backend, "sdfgi scene", SETS_PER_POOL, sizes, 2,
                                   VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT, &pool->handle);
     if (result != VK_SUCCESS) {
         sdfgi_hooks_free(&scene->backend->hooks, pool);
@@ -38,7 +38,8 @@ static struct set_pool *pool_with_room(const struct scene *scene)
     return NULL;
 }
 
-static VkResult allocate(struct scene *scene, VkDescriptorSetLayout layout, struct object_set *set)
+static VkResult allocate(struct scene *scene, const char *name, VkDescriptorSetLayout layout,
+                         struct object_set *set)
 {
     if (!pool_with_room(scene)) {
         const VkResult result = add_pool(scene);
@@ -46,18 +47,20 @@ static VkResult allocate(struct scene *scene, VkDescriptorSetLayout layout, stru
             return result;
     }
     set->pool = pool_with_room(scene);
-    const VkResult result = sdfgi_backend_set_allocate(scene->backend, set->pool->handle, layout, &set->set);
+    const VkResult result =
+        sdfgi_backend_set_allocate(scene->backend, name, set->pool->handle, layout, &set->set);
     if (result == VK_SUCCESS)
         set->pool->free--;
     return result;
 }
 
-static VkResult create(struct scene *scene, VkDescriptorSetLayout layout, struct object_set **out)
+static VkResult create(struct scene *scene, const char *name, VkDescriptorSetLayout layout,
+                       struct object_set **out)
 {
     struct object_set *set = sdfgi_hooks_alloc_zeroed(&scene->backend->hooks, sizeof *set);
     if (!set)
         return VK_ERROR_OUT_OF_HOST_MEMORY;
-    const VkResult result = allocate(scene, layout, set);
+    const VkResult result = allocate(scene, name, layout, set);
     if (result != VK_SUCCESS) {
         sdfgi_hooks_free(&scene->backend->hooks, set);
         return result;
@@ -69,7 +72,7 @@ static VkResult create(struct scene *scene, VkDescriptorSetLayout layout, struct
 VkResult sdfgi_scene_sets_mesh(struct scene *scene, struct mesh *mesh)
 {
     const struct gpu_device *device = &scene->backend->device;
-    const VkResult result = create(scene, scene->backend->pipelines.mesh, &mesh->set);
+    const VkResult result = create(scene, "sdfgi mesh", scene->backend->pipelines.mesh, &mesh->set);
     if (result != VK_SUCCESS)
         return result;
     /* Shaders do not read what the mesh lacks, but every binding needs a buffer. */
@@ -105,15 +108,17 @@ static VkResult require_sampler(struct scene *scene, const struct sdfgi_texture 
     VkSampler *sampler = &scene->samplers[texture->address_u][texture->address_v];
     if (*sampler || !texture->view)
         return VK_SUCCESS;
-    return device->fn.CreateSampler(device->handle,
-                                    &(VkSamplerCreateInfo){ .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-                                                            .magFilter = VK_FILTER_LINEAR,
-                                                            .minFilter = VK_FILTER_LINEAR,
-                                                            .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
-                                                            .addressModeU = texture->address_u,
-                                                            .addressModeV = texture->address_v,
-                                                            .maxLod = VK_LOD_CLAMP_NONE },
-                                    device->callbacks, sampler);
+    const VkResult result =
+        device->fn.CreateSampler(device->handle,
+                                 &(VkSamplerCreateInfo){ .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                                         .magFilter = VK_FILTER_LINEAR,
+                                                         .minFilter = VK_FILTER_LINEAR,
+                                                         .mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                                         .addressModeU = texture->address_u,
+                                                         .addressModeV = texture->address_v,
+                                                         .maxLod = VK_LOD_CLAMP_NONE },
+                                 device->callbacks, sampler);
+    return gpu_named(device, result, VK_OBJECT_TYPE_SAMPLER, sampler, "sdfgi texture");
 }
 
 static void destroy_samplers(struct scene *scene)
@@ -164,7 +169,7 @@ VkResult sdfgi_scene_sets_material(struct scene *scene, struct material *materia
     if (result == VK_SUCCESS)
         result = require_sampler(scene, &material->desc.emission_texture);
     if (result == VK_SUCCESS)
-        result = create(scene, scene->backend->pipelines.material, &material->set);
+        result = create(scene, "sdfgi material", scene->backend->pipelines.material, &material->set);
     if (result != VK_SUCCESS)
         return result;
     write_textures(scene, material);

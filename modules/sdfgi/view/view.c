@@ -15,14 +15,15 @@ static VkResult create_pool(const struct backend *backend, VkDescriptorPool *poo
         { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 3 * sets },
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets },
     };
-    return sdfgi_backend_pool_create(backend, sets, sizes, 3, 0, pool);
+    return sdfgi_backend_pool_create(backend, "sdfgi view", sets, sizes, 3, 0, pool);
 }
 
 static VkResult create_sets(const struct backend *backend, struct sdfgi_view *view)
 {
     VkResult result = create_pool(backend, &view->pool);
     for (uint32_t f = 0; f < backend->retired.frames_in_flight && result == VK_SUCCESS; f++)
-        result = sdfgi_backend_set_allocate(backend, view->pool, backend->pipelines.view, &view->sets[f]);
+        result = sdfgi_backend_set_allocate(backend, "sdfgi view", view->pool, backend->pipelines.view,
+                                            &view->sets[f]);
     return result;
 }
 

@@ -124,7 +124,7 @@ SDFGI_API enum sdfgi_result sdfgi_estimate_memory(const struct sdfgi_settings *s
 /* ---- Context ---------------------------------------------------------------------------------------- */
 
 struct sdfgi_vulkan {
-    VkInstance instance;
+    VkInstance instance; /* with VK_EXT_debug_utils: all that the library makes has a name, "sdfgi ..." */
     VkPhysicalDevice physical_device;
     VkDevice device;
     uint32_t queue_family_index; /* of the command buffers given to sdfgi_update: compute, and graphics too
