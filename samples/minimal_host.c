@@ -78,7 +78,7 @@ static sdfgi *make_gi(void)
     sdfgi_settings_default(&settings);
     settings.enabled = true, settings.frames_to_converge = 4; /* the first is the one switch */
     settings.cascades = 2, settings.ray_count = 125, settings.cell_rays = 64; /* few long frames */
-    CHECK(sdfgi_create(&(struct sdfgi_desc){ vk, 1, &settings, { print_message, stderr }, { 0 }, 0 }, &gi));
+    CHECK(sdfgi_create(&(struct sdfgi_desc){ vk, 1, &settings, .log = { print_message, stderr } }, &gi));
     static const float vertices[2][6][3] = {
         { { -6, 0, 6 }, { 6, 0, 6 }, { 6, 0, -6 }, { -6, 0, 6 }, { 6, 0, -6 }, { -6, 0, -6 } },
         { { -3, 0, -2 }, { 3, 0, -2 }, { 3, 3, -2 }, { -3, 0, -2 }, { 3, 3, -2 }, { -3, 3, -2 } } };

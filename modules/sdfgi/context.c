@@ -98,9 +98,17 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     return result;
 }
 
+static void log_created(const struct sdfgi *gi, VkPhysicalDevice physical)
+{
+    VkPhysicalDeviceProperties properties;
+    gi->backend.device.fn.GetPhysicalDeviceProperties(physical, &properties);
+    sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_CREATED, "sdfgi_create: version %d.%d.%d on %s",
+                      SDFGI_VERSION_MAJOR, SDFGI_VERSION_MINOR, SDFGI_VERSION_PATCH, properties.deviceName);
+}
+
 enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out)
 {
-    const struct hooks hooks = { .log = desc->log, .allocator = desc->allocator };
+    const struct hooks hooks = { .log = desc->log, .log_info = desc->log_info, .allocator = desc->allocator };
     const struct problem problem = desc_problem(desc);
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &hooks, "sdfgi_create");
@@ -120,6 +128,7 @@ enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out)
         sdfgi_destroy(gi);
         return result;
     }
+    log_created(gi, desc->vulkan.physical_device);
     *out = gi;
     return SDFGI_OK;
 }
@@ -155,6 +164,19 @@ static enum sdfgi_result check_settings(struct sdfgi *gi, const struct sdfgi_set
     return SDFGI_OK;
 }
 
+static void log_switched(const struct sdfgi *gi, const struct sdfgi_settings *settings)
+{
+    const double mib = (double)gi->backend.held.total_bytes / (1024 * 1024);
+    if (settings->enabled)
+        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_SWITCHED,
+                          "sdfgi_set_settings: on, %u cascades of %u^3 cells; %.1f MiB are held",
+                          (unsigned)settings->cascades, (unsigned)settings->resolution, mib);
+    else
+        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_SWITCHED,
+                          "sdfgi_set_settings: off; %.1f MiB are held until the frames in flight are over",
+                          mib);
+}
+
 static enum sdfgi_result replace_resources(struct sdfgi *gi, const struct sdfgi_settings *settings)
 {
     struct resources *created = NULL;
@@ -165,6 +187,7 @@ static enum sdfgi_result replace_resources(struct sdfgi *gi, const struct sdfgi_
     }
     sdfgi_volume_reset(&gi->volume, created, settings);
     memset(gi->passes, 0, sizeof gi->passes);
+    log_switched(gi, settings);
     return SDFGI_OK;
 }
 

@@ -26,6 +26,7 @@ struct sdfgi {
     uint32_t command_count;
     float exposure_hint;   /* of the last update */
     bool can_cancel;       /* the last update has not been cancelled */
+    bool has_settled;      /* light had with the last update */
     uint32_t updates_lost; /* that never ran, as far as is known */
 };
 

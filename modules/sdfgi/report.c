@@ -105,8 +105,7 @@ void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
     memset(report, 0, sizeof *report);
     report->update_count = gi->volume.state.updates;
     report->active = active;
-    report->converged =
-        active && sdfgi_volume_has_converged(&gi->volume) && gi->volume.state.scroll.blends_moving == 0;
+    report->converged = active && sdfgi_volume_has_settled(&gi->volume);
     report->converged_fraction = active ? converged_fraction(&gi->volume) : 0.0f;
     report->command_count = gi->command_count;
     report->memory = gi->backend.held;

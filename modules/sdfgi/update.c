@@ -51,6 +51,20 @@ static void report_frame(struct sdfgi *gi)
     gi->command_count = gi->recorder.gpu.command_count;
 }
 
+/* What the host may want to know of an update that has been taken over. */
+static void log_light(struct sdfgi *gi, enum lighting_phase before)
+{
+    const bool had_settled = gi->has_settled;
+    const unsigned long long updates = gi->volume.state.updates;
+    gi->has_settled = sdfgi_volume_has_settled(&gi->volume);
+    if (before == LIGHTING_DARK && gi->volume.state.accumulation.phase != LIGHTING_DARK)
+        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_FIRST_LIGHT,
+                          "sdfgi_update: update %llu is the first to give light", updates);
+    if (gi->has_settled && !had_settled)
+        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_SETTLED,
+                          "sdfgi_update: light has settled in update %llu", updates);
+}
+
 /* Takes in what the frame found out that used this slot before. */
 static enum sdfgi_result read_back(struct sdfgi *gi, uint32_t slot)
 {
@@ -108,8 +122,10 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     sdfgi_pass_recorder_end(&gi->recorder);
 
     /* Take it over as done. */
+    const enum lighting_phase before = gi->volume.state.accumulation.phase;
     sdfgi_frame_commit(&gi->frame, &gi->settings, &gi->volume);
     report_frame(gi);
+    log_light(gi, before);
     return SDFGI_OK;
 }
 

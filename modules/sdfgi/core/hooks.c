@@ -22,7 +22,7 @@ const char *sdfgi_message_hint(enum sdfgi_message id)
 
 static void send(const struct hooks *hooks, enum sdfgi_message id, const char *format, va_list arguments)
 {
-    if (!hooks->log.fn)
+    if (!hooks->log.fn || (rows[id].level == SDFGI_LOG_INFO && !hooks->log_info))
         return;
     char text[256];
     vsnprintf(text, sizeof text, format, arguments);

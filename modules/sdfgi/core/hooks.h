@@ -7,6 +7,7 @@
 
 struct hooks {
     struct sdfgi_log log;
+    bool log_info;
     struct sdfgi_allocator allocator;
     bool device_lost;
 };

@@ -86,6 +86,11 @@ bool sdfgi_volume_has_converged(const struct volume *volume)
     return volume->state.accumulation.phase == LIGHTING_CONVERGED && sdfgi_journal_is_empty(&volume->journal);
 }
 
+bool sdfgi_volume_has_settled(const struct volume *volume)
+{
+    return sdfgi_volume_has_converged(volume) && volume->state.scroll.blends_moving == 0;
+}
+
 static uint64_t most_light_cells(const struct volume *volume)
 {
     uint64_t most = 0;

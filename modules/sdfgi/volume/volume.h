@@ -22,7 +22,7 @@ struct volume_state {
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders */
     struct exposure exposure;
     uint32_t seed;
-    uint32_t seed_asked; /* by the last frame: taken over once two in a row ask for it */
+    uint32_t seed_asked;              /* by the last frame: taken over once two in a row ask for it */
     struct sdfgi_frame_params params; /* as last uploaded */
     uint64_t updates;                 /* frames recorded since there was nothing */
 };
@@ -94,6 +94,8 @@ void sdfgi_volume_invalidate(struct volume *volume);
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state);
 /* True if the light has converged and nothing has changed since. */
 bool sdfgi_volume_has_converged(const struct volume *volume);
+/* And nothing that lookups show moves any more. */
+bool sdfgi_volume_has_settled(const struct volume *volume);
 
 /* Takes in what the frame that last used the slot left there, if it has run. */
 VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t slot, bool *has_run);

@@ -28,7 +28,11 @@
     X(BOUNDS_MISS_VERTICES, WARNING,                                                                         \
       "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")            \
     X(SURFACES_CROWDED, WARNING, "hundreds of surfaces lie in one another: their mean leaves some out")      \
-    X(NO_EMITTER_LISTS, WARNING, "no memory for emission: what emits stays dark")
+    X(NO_EMITTER_LISTS, WARNING, "no memory for emission: what emits stays dark")                            \
+    X(CREATED, INFO, "version and device")                                                                   \
+    X(SWITCHED, INFO, "on or off, and how much memory the volumes take")                                     \
+    X(FIRST_LIGHT, INFO, "lookups give light from this update on")                                           \
+    X(SETTLED, INFO, "light changes no more until the scene does")
 
 enum sdfgi_message {
 #define SDFGI_MESSAGE_ENUM(id, level, hint) SDFGI_MESSAGE_##id,

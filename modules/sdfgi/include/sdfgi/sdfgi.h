@@ -149,6 +149,7 @@ struct sdfgi_desc {
      * during these functions; if VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT is set, no other
      * thread may use the cache at all meanwhile. */
     VkPipelineCache pipeline_cache;
+    bool log_info; /* whether `log` receives SDFGI_LOG_INFO, too: what goes as it should */
 };
 
 typedef struct sdfgi sdfgi;
