@@ -217,6 +217,8 @@ void sdfgi_get_settings(const sdfgi *gi, struct sdfgi_settings *settings)
 void sdfgi_reset(sdfgi *gi)
 {
     sdfgi_volume_forget(&gi->volume, &gi->settings);
+    /* To a new context all lights are new, too. */
+    sdfgi_gathering_outdate(&gi->volume.state.gathering);
 }
 
 /* ---- Version */

@@ -78,7 +78,7 @@ static enum sdfgi_result read_back(struct sdfgi *gi, uint32_t slot)
     sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_UPDATE_LOST,
                       "sdfgi_update: an update was recorded %u updates ago and has not run: all is made anew",
                       (unsigned)gi->backend.retired.frames_in_flight);
-    sdfgi_volume_forget(&gi->volume, &gi->settings);
+    sdfgi_reset(gi);
     return SDFGI_OK;
 }
 

@@ -33,9 +33,10 @@ static void add_box(struct gi_test *t, const double center[static 3], const doub
     test_mesh_destroy(&box);
 }
 
-static void start(struct gi_test *t, uint32_t cascades)
+static void start_with(struct gi_test *t, uint32_t cascades, enum sdfgi_surface_light surface_light)
 {
     struct sdfgi_settings settings = gi_test_settings();
+    settings.surface_light = surface_light;
     settings.resolution = 32;
     settings.cascades = cascades;
     settings.ray_count = 25;
@@ -46,6 +47,11 @@ static void start(struct gi_test *t, uint32_t cascades)
     const struct sdfgi_sky sky = { { 1, 1, 1 }, { 1, 1, 1 }, { 0 } };
     REQUIRE_CMP((int)sdfgi_set_sky(t->gi, &sky), ==, (int)SDFGI_OK);
     add_box(t, (double[]){ 0, -1.1, 0 }, (double[]){ 20, 0.4, 20 }, grey(t));
+}
+
+static void start(struct gi_test *t, uint32_t cascades)
+{
+    start_with(t, cascades, SDFGI_SURFACE_LIGHT_PROBES);
 }
 
 /* ---- What may happen in a frame */
@@ -215,27 +221,46 @@ static void lost_updates_are_noticed_and_made_good(void **state)
 
 /* ---- Resets */
 
+/* All but what holds nothing between frames, and the bounds of what the last scroll or edit changed: a start
+ * has none. */
+static void take_all_hashes(struct gi_test *t, uint64_t hashes[static RESOURCE_COUNT])
+{
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        hashes[i] =
+            i == RESOURCE_BOUNDS || sdfgi_resource_row((enum resource)i)->keep == RESOURCE_KEEP_SCRATCH
+                ? 0
+                : hash(t, (enum resource)i);
+}
+
+static void compare_reset_and_start(struct gi_test *t, enum sdfgi_surface_light surface_light)
+{
+    uint64_t fresh[RESOURCE_COUNT], found[RESOURCE_COUNT];
+    start_with(t, 1, surface_light);
+    add_lamp(t);
+    gi_test_update(t, 8);
+    take_all_hashes(t, fresh);
+    const uint64_t bytes = t->gi->backend.held.total_bytes;
+    walk_on(t);
+    gi_test_update(t, 8);
+    t->frame.camera_position[0] = 0;
+    sdfgi_reset(t->gi);
+    REQUIRE_TRUE(!sdfgi_is_active(t->gi));
+    gi_test_update(t, 8);
+    take_all_hashes(t, found);
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        if (fresh[i] != found[i])
+            require_fail(__FILE__, __LINE__, "%s differs", sdfgi_resource_row((enum resource)i)->name);
+    REQUIRE_CMP(t->gi->backend.held.total_bytes, ==, bytes);
+}
+
 static void a_reset_is_a_fresh_start_in_the_same_memory(void **state)
 {
     (void)state;
     static struct gi_test t;
     const struct sdfgi_settings settings = gi_test_settings();
-    uint64_t fresh[KEPT], found[KEPT];
     gi_test_open(&t, &settings);
-    start(&t, 1);
-    add_lamp(&t);
-    gi_test_update(&t, 8);
-    take_hashes(&t, fresh);
-    const uint64_t bytes = t.gi->backend.held.total_bytes;
-    walk_on(&t);
-    gi_test_update(&t, 8);
-    t.frame.camera_position[0] = 0;
-    sdfgi_reset(t.gi);
-    REQUIRE_TRUE(!sdfgi_is_active(t.gi));
-    gi_test_update(&t, 8);
-    take_hashes(&t, found);
-    REQUIRE_CMP(memcmp(fresh, found, sizeof fresh), ==, 0);
-    REQUIRE_CMP(t.gi->backend.held.total_bytes, ==, bytes);
+    compare_reset_and_start(&t, SDFGI_SURFACE_LIGHT_PROBES);
+    compare_reset_and_start(&t, SDFGI_SURFACE_LIGHT_CELLS);
     gi_test_close(&t);
 }
 
