@@ -136,9 +136,11 @@ static void move(struct walk *w)
         turn(w);
     for (int i = 0; i < 3; i++)
         w->d.desc.camera_position[i] += w->velocity[i];
-    if (once_in(w, 150))
-        for (int i = 0; i < 3; i++)
-            w->d.desc.camera_position[i] += spacing(w) * test_random_real(&w->random, -60, 60);
+    if (!once_in(w, 150))
+        return;
+    for (int i = 0; i < 3; i++)
+        w->d.desc.camera_position[i] += spacing(w) * test_random_real(&w->random, -60, 60);
+    w->d.desc.cut = once_in(w, 2);
 }
 
 static void act(struct walk *w)
@@ -158,6 +160,7 @@ static void act(struct walk *w)
 
 void walk_on(struct walk *walk)
 {
+    walk->d.desc.cut = false;
     if (walk->rest > 0)
         walk->rest--;
     else

@@ -93,6 +93,7 @@ void api_frame(struct api_world *w)
 {
     const uint32_t fate = api_below(w, 40);
     choose_exposure(w);
+    w->t->frame.cut = api_below(w, 16) == 0;
     if (fate < 4) { /* the swapchain was out of date */
         gpu_test_record_and_drop(&w->t->gpu, record, w);
         sdfgi_cancel_update(w->t->gi);

@@ -80,7 +80,8 @@
     X(double,   camera_position, MANY, SEEN,   0, 3.7, -4.1)                                                 \
     X(double,   origin,          MANY, UNSEEN, 0, 0.7, -120, 5000)                                           \
     X(uint32_t, seed,            ONE,  UNSEEN, 0, 1, 77)                                                     \
-    X(float,    exposure,        ONE,  UNSEEN, 0, 1, 0.02, 1e-4, 300)
+    X(float,    exposure,        ONE,  UNSEEN, 0, 1, 0.02, 1e-4, 300)                                        \
+    X(bool,     cut,             ONE,  UNSEEN, 0, 1)
 /* clang-format on */
 
 #define TABLES(TABLE)                                                                                        \

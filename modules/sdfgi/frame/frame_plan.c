@@ -62,6 +62,8 @@ static void plan_scroll(struct frame *frame, const struct frame_input *input)
     const struct scroll_limits limits = { input->settings->max_scroll_cells,
                                           input->settings->sdf_method == SDFGI_SDF_FLOOD };
     const bool nothing_shown = next->accumulation.phase < LIGHTING_RUNNING;
+    if (input->desc->cut)
+        sdfgi_scroll_cut(&next->scroll, &next->cascades);
     sdfgi_scroll_plan(&next->scroll, &next->cascades, &limits, input->desc->camera_position, nothing_shown,
                       &frame->scroll);
     if (frame->scroll.begins)

@@ -75,5 +75,5 @@ void sdfgi_blend_move(struct cascades *cascades, struct scroll *scroll, bool jum
     scroll->blends_moving = 0;
     for (uint32_t c = 0; c < cascades->count; c++)
         scroll->blends_moving += move(&cascades->at[c], scroll, cascades->resolution,
-                                      jumps ? INFINITY : speed(scroll, c, ADVANCE));
+                                      jumps || cascades->at[c].cut ? INFINITY : speed(scroll, c, ADVANCE));
 }

@@ -14,8 +14,8 @@
 
 /* Leaves cells free on the sides that the camera leaves. */
 void sdfgi_blend_reserve(struct cascades *cascades, const struct scroll *scroll);
-/* Moves all borders towards where the camera and the valid regions would have them: at once if `jumps`.
- * Counts those that have not arrived. */
+/* Moves all borders towards where the camera and the valid regions would have them: at once if `jumps`, and
+ * in cascades that follow a cut. Counts those that have not arrived. */
 void sdfgi_blend_move(struct cascades *cascades, struct scroll *scroll, bool jumps);
 
 #endif

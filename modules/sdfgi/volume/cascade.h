@@ -68,6 +68,7 @@ struct cascade {
     struct cell_box valid;              /* valid region: complete cells, which shaders may read */
     double blend_low[3], blend_high[3]; /* blend region: the part of it that lookups sample, see blend.h */
     double spare[3]; /* cells left free on the side that the camera leaves: the low one if positive */
+    bool cut;        /* since a camera cut it has not arrived: its blend region need not move smoothly */
     struct box edits[SDFGI_MAX_CHANGES]; /* world: geometry changed there since the last change began */
     uint32_t edit_count;
 };

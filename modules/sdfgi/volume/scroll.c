@@ -204,11 +204,11 @@ static bool falls_behind(const struct run *run, const struct cascade *cascade)
 }
 
 /* True if a change calls for the whole budget: geometry changed in sight, nothing is shown yet, or the camera
- * runs away. */
+ * runs away or was elsewhere. */
 static bool hurries(const struct run *run, const struct cascade *cascade)
 {
-    return cascade->change.cause != CHANGE_NONE &&
-           (cascade->change.cause == CHANGE_EDIT || run->plan->from_nothing || falls_behind(run, cascade));
+    return cascade->change.cause != CHANGE_NONE && (cascade->change.cause == CHANGE_EDIT || cascade->cut ||
+                                                    run->plan->from_nothing || falls_behind(run, cascade));
 }
 
 static bool any_hurries(const struct run *run)
@@ -298,6 +298,28 @@ void sdfgi_scroll_init(struct scroll *scroll)
     *scroll = (struct scroll){ .calm_frames = 1 };
 }
 
+void sdfgi_scroll_cut(struct scroll *scroll, struct cascades *cascades)
+{
+    scroll->frames = 0;
+    scroll->moved = scroll->pace = 0;
+    for (int i = 0; i < 3; i++)
+        scroll->heading[i] = 0;
+    for (uint32_t c = 0; c < cascades->count; c++) {
+        cascades->at[c].cut = true;
+        for (int i = 0; i < 3; i++)
+            cascades->at[c].spare[i] = 0;
+    }
+}
+
+/* A cascade has arrived where the camera wants it, and all that it has is shown. */
+static void end_cut(const struct run *run, struct cascade *cascade)
+{
+    struct cascade next = *cascade;
+    const bool changes = cascade->change.cause != CHANGE_NONE && !sdfgi_cascade_completes(cascade);
+    if (!changes && !sdfgi_cascade_place(&next, run->cascades->resolution, run->scroll->camera))
+        cascade->cut = false;
+}
+
 void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,
                        const double camera[static 3], bool blend_jumps, struct scroll_plan *plan)
 {
@@ -315,6 +337,8 @@ void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const s
         if (sdfgi_cascade_completes(&cascades->at[c]))
             cascades->at[c].valid = sdfgi_cell_box_whole(cascades->resolution);
     sdfgi_blend_move(cascades, scroll, blend_jumps || plan->from_nothing);
+    for (uint32_t c = 0; c < cascades->count; c++)
+        end_cut(&run, &cascades->at[c]);
 }
 
 void sdfgi_scroll_finish(struct scroll *scroll, struct cascades *cascades)

@@ -58,6 +58,8 @@ struct scroll_limits {
 };
 
 void sdfgi_scroll_init(struct scroll *scroll);
+/* Before the plan of a frame whose picture has nothing to do with the one before. */
+void sdfgi_scroll_cut(struct scroll *scroll, struct cascades *cascades);
 /* Begins what cascades need and decides how much of it this frame does. `blend_jumps`: no light has been
  * shown yet, so that blend regions need not move smoothly. */
 void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const struct scroll_limits *limits,

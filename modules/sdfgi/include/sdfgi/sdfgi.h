@@ -315,6 +315,10 @@ struct sdfgi_frame_desc {
                        and goes on to settle where a far larger one shows what was too dim.
                        However large it is, the scene's brightest light fits. Light that lookups return
                        does not depend on it */
+    bool cut; /* This picture has nothing to do with the one before: a teleport, a change of shots. Lookups
+                 take what is made at the new place as soon as it is there, within the same budget, and not at
+                 a pace that nobody sees; the way that the camera came says nothing of where it goes. Unlike
+                 with sdfgi_reset, light that is known there stays */
 };
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
