@@ -60,6 +60,11 @@ enum sdfgi_result sdfgi_set_sky(sdfgi *gi, const struct sdfgi_sky *sky)
     return sdfgi_scene_set_sky(&gi->scene, sky);
 }
 
+enum sdfgi_result sdfgi_set_sky_harmonics(sdfgi *gi, const struct sdfgi_sky_harmonics *harmonics)
+{
+    return sdfgi_scene_set_harmonics(&gi->scene, harmonics);
+}
+
 enum sdfgi_result sdfgi_invalidate_box(sdfgi *gi, const double box_min[3], const double box_max[3])
 {
     return sdfgi_scene_invalidate_box(&gi->scene, box_min, box_max);

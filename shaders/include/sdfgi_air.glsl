@@ -106,10 +106,8 @@ sdfgi_air_light sdfgi_air_lookup(vec3 pos_first, vec3 direction)
         result.towards += rest * weight * sums.towards.rgb / sums.towards.a;
         rest *= 1.0 - weight;
     }
-    result.mean +=
-        outside * sdfgi_sky_mean(sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground);
-    result.towards += outside * sdfgi_sky_irradiance(direction, sdfgi_frame.sky_zenith,
-                                                     sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground);
+    result.mean += outside * sdfgi_sky_everywhere();
+    result.towards += outside * sdfgi_sky_around(direction);
     result.known = 1.0 - rest + outside;
     const float scale = result.known > 1e-3 ? 1.0 / result.known : 0.0;
     result.mean *= scale;

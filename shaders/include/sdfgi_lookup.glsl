@@ -7,7 +7,7 @@
 
 #include "sdfgi_cells.glsl"
 #include "sdfgi_probes.glsl"
-#include "../lib/sky.glsl"
+#include "sdfgi_sky.glsl"
 
 /* The weight of a cascade at a position. It falls from 1 to 0 across the cascade blend: a band along the edge
  * of the blend region, one probe spacing wide, that ends one cell before that edge. The region moves smoothly
@@ -62,8 +62,7 @@ vec4 sdfgi_lookup(sdfgi_lookup_query query)
         result += rest * weight * light.rgb / light.a;
         rest *= 1.0 - weight;
     }
-    const vec3 sky = sdfgi_sky_irradiance(query.normal, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
-                                          sdfgi_frame.sky_ground);
+    const vec3 sky = sdfgi_sky_around(query.normal);
     /* What no cascade has answered, although it lies within one, is not outside: the others stand for it. */
     const float answered = 1.0 - rest + outside;
     return answered > 1e-3 ? vec4((result + outside * sky) / answered, 1.0) : vec4(0.0);

@@ -90,8 +90,7 @@ sdfgi_reflection_ray sdfgi_reflection_trace(vec3 pos_first, vec3 normal, vec3 di
         if (of_surface >= 1.0)
             start_m += cell_m * sdfgi_reflection_handover(c, from, dir);
     }
-    ray.light += rest * sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
-                                           sdfgi_frame.sky_ground);
+    ray.light += rest * sdfgi_sky_towards(dir);
     ray.distance_m += rest * SDFGI_REFLECTION_SKY_M;
     return ray;
 }

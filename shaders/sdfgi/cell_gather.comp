@@ -17,9 +17,9 @@
 #include "gathered.glsl"
 #include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
+#include "../include/sdfgi_sky.glsl"
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/irradiance_pack.glsl"
-#include "../lib/sky.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform sdfgi_push
@@ -191,9 +191,7 @@ vec4 send_random_ray(uint cascade, ray_source source, vec3 dir)
     const sdfgi_trace_hit hit =
         sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, source.pos, dir, 1e9);
     if (!hit.hit)
-        return vec4(
-            sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground),
-            1.0);
+        return vec4(sdfgi_sky_towards(dir), 1.0);
     if (!hit.has_cell)
         return vec4(0.0);
     uint entry;

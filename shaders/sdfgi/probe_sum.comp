@@ -11,8 +11,8 @@
 #include "ray_queue.glsl"
 #include "surface.glsl"
 #include "../include/sdfgi_cells.glsl"
+#include "../include/sdfgi_sky.glsl"
 #include "../lib/rgbe.glsl"
-#include "../lib/sky.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PROBE) in;
 
@@ -48,8 +48,7 @@ bool hit_light(uint code, vec3 dir, out vec3 light)
 {
     light = vec3(0.0);
     if (code == SDFGI_RAY_SKY)
-        light =
-            sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground);
+        light = sdfgi_sky_towards(dir);
     if (code >= SDFGI_RAY_UNLIT)
         return true;
     uint axis, entry;

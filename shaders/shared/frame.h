@@ -51,7 +51,7 @@ SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 176 + 32 * SDFGI_MAX_CHANGES);
 struct sdfgi_frame_params {
     SDFGI_STRUCT(sdfgi_cascade_params) cascades[SDFGI_MAX_CASCADES];
     vec3 sky_zenith; /* radiance times exposure; zero when the sky is not read */
-    uint padding_0;
+    uint sky_has_harmonics;
     vec3 sky_horizon;
     uint padding_1;
     vec3 sky_ground;
@@ -79,8 +79,9 @@ struct sdfgi_frame_params {
     uint lists_emitters; /* 1: something emits, and emitters are listed */
     float dark;          /* light times exposure that counts as dark */
     uint padding_3, padding_4;
+    vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 9 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 18 * 16);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

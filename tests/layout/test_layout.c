@@ -41,7 +41,7 @@
     X(sdfgi_cascade_params, dirty)                                                                           \
     X(sdfgi_frame_params, cascades)                                                                          \
     X(sdfgi_frame_params, sky_zenith)                                                                        \
-    X(sdfgi_frame_params, padding_0)                                                                         \
+    X(sdfgi_frame_params, sky_has_harmonics)                                                                 \
     X(sdfgi_frame_params, sky_horizon)                                                                       \
     X(sdfgi_frame_params, padding_1)                                                                         \
     X(sdfgi_frame_params, sky_ground)                                                                        \
@@ -70,6 +70,7 @@
     X(sdfgi_frame_params, dark)                                                                              \
     X(sdfgi_frame_params, padding_3)                                                                         \
     X(sdfgi_frame_params, padding_4)                                                                         \
+    X(sdfgi_frame_params, sky_harmonics)                                                                     \
     X(sdfgi_light_params, position)                                                                          \
     X(sdfgi_light_params, range_m)                                                                           \
     X(sdfgi_light_params, direction)                                                                         \

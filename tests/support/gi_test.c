@@ -90,6 +90,7 @@ static void empty_scene(sdfgi *gi)
         if (sdfgi_pool_at(&scene->materials, i))
             sdfgi_material_destroy(gi, (sdfgi_material){ sdfgi_pool_id(&scene->materials, i) });
     REQUIRE_CMP(sdfgi_set_sky(gi, &black), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_set_sky_harmonics(gi, &(struct sdfgi_sky_harmonics){ .intensity = 1 }), ==, SDFGI_OK);
 }
 
 static void switch_off(struct gi_test *t)

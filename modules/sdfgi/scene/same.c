@@ -36,3 +36,11 @@ bool sdfgi_same_sky(const struct sdfgi_sky *a, const struct sdfgi_sky *b)
     return same_floats(a->zenith, b->zenith, 3) && same_floats(a->horizon, b->horizon, 3) &&
            same_floats(a->ground, b->ground, 3);
 }
+
+bool sdfgi_same_harmonics(const struct sdfgi_sky_harmonics *a, const struct sdfgi_sky_harmonics *b)
+{
+    for (int i = 0; i < 9; i++)
+        if (!same_floats(a->coefficients[i], b->coefficients[i], 3))
+            return false;
+    return a->intensity == b->intensity && a->rotation_rad == b->rotation_rad;
+}

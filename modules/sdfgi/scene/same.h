@@ -4,10 +4,11 @@
 #ifndef SDFGI_SAME_H
 #define SDFGI_SAME_H
 
-#include <sdfgi/sdfgi.h>
+#include <sdfgi/sky.h>
 
 bool sdfgi_same_transform(const struct sdfgi_transform *a, const struct sdfgi_transform *b);
 bool sdfgi_same_light(const struct sdfgi_light_desc *a, const struct sdfgi_light_desc *b);
 bool sdfgi_same_sky(const struct sdfgi_sky *a, const struct sdfgi_sky *b);
+bool sdfgi_same_harmonics(const struct sdfgi_sky_harmonics *a, const struct sdfgi_sky_harmonics *b);
 
 #endif

@@ -70,7 +70,8 @@ bool sdfgi_scene_touches(const struct scene *scene, const struct box *box)
 bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky)
 {
     static const struct sdfgi_sky none;
-    const bool sky = reads_sky && !sdfgi_same_sky(&scene->sky, &none);
+    const bool sky =
+        reads_sky && (!sdfgi_same_sky(&scene->sky, &none) || sdfgi_harmonics_any(&scene->harmonics));
     return scene->lights.count > 0 || scene->emissive > 0 || sky;
 }
 
@@ -93,7 +94,8 @@ float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky)
     float everywhere = 0, lamp = scene->most_emission;
     if (reads_sky)
         everywhere = fmaxf(brightest_channel(sky->zenith),
-                           fmaxf(brightest_channel(sky->horizon), brightest_channel(sky->ground)));
+                           fmaxf(brightest_channel(sky->horizon), brightest_channel(sky->ground))) +
+                     sdfgi_harmonics_brightest(&scene->harmonics);
     for (uint32_t i = 0; i < scene->lights.end; i++) {
         const struct light *light = sdfgi_pool_at(&scene->lights, i);
         if (light && light->desc.type == SDFGI_LIGHT_DIRECTIONAL)

@@ -5,6 +5,7 @@
 #define SDFGI_SCENE_H
 
 #include "core/pool.h"
+#include "harmonics.h"
 #include "journal.h"
 #include "pass/backend.h"
 
@@ -49,10 +50,11 @@ struct scene {
     struct set_pool *set_pools;
     VkSampler samplers[ADDRESS_MODES][ADDRESS_MODES]; /* by mode of u, v; null until a texture needs it */
     struct sdfgi_sky sky;
-    uint32_t emissive;   /* materials that emit */
-    uint32_t smooth;     /* materials that reflect more than irradiance */
-    float most_emission; /* of any material so far */
-    float emission_unit; /* power of two, in which emission is stored: W/(m^2 sr) */
+    struct sdfgi_sky_harmonics harmonics; /* beside it */
+    uint32_t emissive;                    /* materials that emit */
+    uint32_t smooth;                      /* materials that reflect more than irradiance */
+    float most_emission;                  /* of any material so far */
+    float emission_unit;                  /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;
 };
 
@@ -80,6 +82,7 @@ enum sdfgi_result sdfgi_scene_light_update(struct scene *scene, sdfgi_light ligh
                                            const struct sdfgi_light_desc *desc);
 enum sdfgi_result sdfgi_scene_light_destroy(struct scene *scene, sdfgi_light light);
 enum sdfgi_result sdfgi_scene_set_sky(struct scene *scene, const struct sdfgi_sky *sky);
+enum sdfgi_result sdfgi_scene_set_harmonics(struct scene *scene, const struct sdfgi_sky_harmonics *harmonics);
 enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double box_min[static 3],
                                              const double box_max[static 3]);
 

@@ -156,6 +156,16 @@ struct problem sdfgi_check_sky(const struct sdfgi_sky *sky)
     return p;
 }
 
+struct problem sdfgi_check_harmonics(const struct sdfgi_sky_harmonics *h)
+{
+    struct problem p = { "" };
+    for (int i = 0; i < 9; i++)
+        sdfgi_problem_floats(&p, "coefficients", h->coefficients[i], 3, -INFINITY, INFINITY);
+    sdfgi_problem_floats(&p, "intensity", &h->intensity, 1, 0, INFINITY);
+    sdfgi_problem_floats(&p, "rotation_rad", &h->rotation_rad, 1, -INFINITY, INFINITY);
+    return p;
+}
+
 struct problem sdfgi_check_box(const double box_min[static 3], const double box_max[static 3])
 {
     struct problem p = { "" };

@@ -13,6 +13,7 @@ struct problem sdfgi_check_mesh(const struct sdfgi_mesh_desc *desc);
 struct problem sdfgi_check_transform(const struct sdfgi_transform *transform);
 struct problem sdfgi_check_light(const struct sdfgi_light_desc *desc);
 struct problem sdfgi_check_sky(const struct sdfgi_sky *sky);
+struct problem sdfgi_check_harmonics(const struct sdfgi_sky_harmonics *harmonics);
 struct problem sdfgi_check_box(const double box_min[static 3], const double box_max[static 3]);
 
 /* Report that a pool is full or memory short, or that a handle names nothing. */

@@ -71,3 +71,15 @@ enum sdfgi_result sdfgi_scene_set_sky(struct scene *scene, const struct sdfgi_sk
     sdfgi_journal_note(scene->journals, JOURNAL_SKY);
     return SDFGI_OK;
 }
+
+enum sdfgi_result sdfgi_scene_set_harmonics(struct scene *scene, const struct sdfgi_sky_harmonics *harmonics)
+{
+    const struct problem problem = sdfgi_check_harmonics(harmonics);
+    if (problem.text[0])
+        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_set_sky_harmonics");
+    if (sdfgi_same_harmonics(&scene->harmonics, harmonics))
+        return SDFGI_OK;
+    scene->harmonics = *harmonics;
+    sdfgi_journal_note(scene->journals, JOURNAL_SKY);
+    return SDFGI_OK;
+}

@@ -88,6 +88,25 @@ static void fill_sky(struct sdfgi_frame_params *p, const struct sdfgi_sky *sky, 
     p->sky_ground = scaled(sky->ground, factor);
 }
 
+/* No factor is so large that a product of floats could come out infinite. */
+static float limited(float value)
+{
+    return fminf(fmaxf(value, -BRIGHTEST), BRIGHTEST);
+}
+
+static void fill_harmonics(struct sdfgi_frame_params *p, const struct sdfgi_sky_harmonics *harmonics,
+                           float factor)
+{
+    float factors[9][3];
+    if (factor == 0 || !sdfgi_harmonics_any(harmonics))
+        return;
+    sdfgi_harmonics_factors(harmonics, factors);
+    p->sky_has_harmonics = 1;
+    for (int i = 0; i < 9; i++)
+        p->sky_harmonics[i] = (vec4){ limited(factors[i][0] * factor), limited(factors[i][1] * factor),
+                                      limited(factors[i][2] * factor), 0 };
+}
+
 static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_settings *s)
 {
     p->y_scale = (float)sdfgi_settings_y_scale(s);
@@ -131,6 +150,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     for (uint32_t c = 0; c < state->cascades.count; c++)
         p->cascades[c] = cascade_params(state, c);
     fill_sky(p, &input->scene->sky, input->settings->read_sky_light ? exposure : 0.0f);
+    fill_harmonics(p, &input->scene->harmonics, input->settings->read_sky_light ? exposure : 0.0f);
     fill_settings(p, input->settings);
     p->exposure = exposure;
     p->exposure_inverse = 1.0f / exposure;

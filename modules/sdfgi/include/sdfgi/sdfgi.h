@@ -295,6 +295,7 @@ struct sdfgi_sky {
     float zenith[3], horizon[3], ground[3]; /* W/(m^2 sr), >= 0 */
 };
 
+/* Cube maps and harmonics, which add to it: sdfgi/sky.h. */
 SDFGI_API enum sdfgi_result sdfgi_set_sky(sdfgi *gi, const struct sdfgi_sky *sky);
 
 /* Says that the triangles, textures or materials inside a world-space box have changed behind the library's
