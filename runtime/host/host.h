@@ -136,6 +136,17 @@ bool host_renderer_set_settings(struct host_renderer *renderer, const struct sdf
 void host_renderer_get_settings(const struct host_renderer *renderer, struct sdfgi_settings *settings);
 void host_renderer_get_report(const struct host_renderer *renderer, struct sdfgi_report *report);
 
+/* Effects of the picture. */
+struct host_effects {
+    bool reflections; /* of opaque surfaces; without them they reflect as much as rough ones */
+    bool fog;
+};
+
+/* What pictures may have: as the scene calls for it, and where light is looked up. */
+struct host_effects host_renderer_possible_effects(const struct host_renderer *renderer);
+/* Leaves effects out of the frames that follow, at no cost for what is left out. */
+void host_renderer_leave_out(struct host_renderer *renderer, const struct host_effects *left_out);
+
 /* Adopts a new size; the pictures made so far are lost. */
 bool host_renderer_resize(struct host_renderer *renderer, uint32_t width, uint32_t height);
 
@@ -236,6 +247,44 @@ void host_volumes_finish(struct host_volumes *volumes);
 /* Where the camera of frame `frame` is; false closes the window. */
 typedef bool (*host_camera_fn)(void *user, uint32_t frame, struct host_camera *camera);
 
+struct GLFWwindow;
+
+/* What an overlay draws with: into the window's render pass, which it finds begun. */
+struct host_overlay_vulkan {
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    uint32_t queue_family;
+    VkQueue queue;
+    VkPipelineCache pipeline_cache;
+    VkRenderPass pass;
+    uint32_t frames_in_flight;
+};
+
+/* What an overlay sees before a frame, and what it may change. */
+struct host_overlay_frame {
+    bool open;                         /* F1 opens and closes it */
+    struct sdfgi_settings settings;    /* in force; may be changed */
+    enum sdfgi_debug_view debug;       /* what is shown; may be changed */
+    struct host_effects possible;      /* what the picture may have */
+    struct host_effects left_out;      /* may be changed */
+    const struct sdfgi_report *report; /* valid during the call */
+    uint64_t gpu_ns;                   /* of the newest finished frame */
+    double frame_s;                    /* since the frame before */
+    const char *error;            /* why settings were refused that it asked for last; NULL: they were not */
+    bool takes_mouse, takes_keys; /* to be filled in: the window leaves them to it */
+};
+
+/* Something that is drawn over the picture of a window. Keys and mouse reach it through GLFW. */
+struct host_overlay {
+    bool (*begin)(void *user, struct GLFWwindow *window, const struct host_overlay_vulkan *vulkan,
+                  char *error, size_t error_size);
+    void (*frame)(void *user, struct host_overlay_frame *frame);
+    void (*record)(void *user, VkCommandBuffer cmd);
+    void (*end)(void *user); /* of one that has begun; the device is idle */
+    void *user;
+};
+
 struct host_window_desc {
     const char *device_select; /* as host_device_desc::select */
     const char *cache_folder;  /* as host_device_desc::cache_folder */
@@ -249,7 +298,8 @@ struct host_window_desc {
     uint32_t width, height;             /* 0: 1280 x 720 */
     uint32_t frames;                    /* closes after that many; 0: when the user does */
     struct sdfgi_log log;
-    host_camera_fn camera;     /* NULL: the user flies */
+    const struct host_overlay *overlay; /* NULL: none */
+    host_camera_fn camera;              /* NULL: the user flies */
     host_progress_fn progress; /* after each frame; may be NULL. Its GPU time is that of two frames before */
     void *user;                /* of both */
     bool (*stop)(void);        /* asked before each frame; true closes the window; may be NULL */

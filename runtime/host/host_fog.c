@@ -252,7 +252,7 @@ void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data 
         return;
     memcpy(out->fog_medium, fog->albedo, sizeof(fog->albedo));
     out->fog_medium[3] = fog->anisotropy;
-    out->fog_density[0] = fog->density;
+    out->fog_density[0] = renderer->left_out.fog ? 0.0f : fog->density;
     out->fog_density[1] = (float)(fog->height_m - renderer->camera.origin[1]);
     out->fog_density[2] = fog->height_falloff;
     out->fog_density[3] = f->scale;
@@ -311,7 +311,7 @@ void host_fog_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkDesc
     const VkDescriptorSet sets[] = { frame_set, f->set };
     /* Shaders that show a part of the light alone read froxels, too, and leave out what they read. */
     images_prepare(cmd, f);
-    if (renderer->shown != HOST_AOV_COLOR)
+    if (renderer->shown != HOST_AOV_COLOR || renderer->left_out.fog)
         return;
     const VkPipelineLayout layout = is_lit_by_gi(renderer) ? f->air_layout : f->layout;
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, HOST_SET_FRAME, HOST_COUNT(sets),

@@ -382,6 +382,7 @@ struct host_renderer {
     float gi_exposure;
     struct host_lookups lookups;
     bool without_gi; /* the frame being recorded */
+    struct host_effects left_out;
     struct host_passes passes;
     struct host_pipelines pipelines;
     struct host_shadows shadows;

@@ -68,7 +68,8 @@ bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot)
         return true;
     struct sdfgi_resolve_desc desc = { .depth = targets->depth.view,
                                        .normal = targets->normal.view,
-                                       .roughness = targets->roughness };
+                                       .roughness = renderer->left_out.reflections ? VK_NULL_HANDLE
+                                                                                   : targets->roughness };
     host_camera_fill_inverse(&renderer->camera, desc.inverse_view_projection);
     if (!host_gi_resolve(renderer->gi, targets->view, slot->cmd, &desc))
         return false;

@@ -380,6 +380,17 @@ void host_renderer_get_settings(const struct host_renderer *renderer, struct sdf
     host_gi_get_settings(renderer->gi, settings);
 }
 
+struct host_effects host_renderer_possible_effects(const struct host_renderer *renderer)
+{
+    return (struct host_effects){ .reflections = renderer->lookup != HOST_LOOKUP_FORWARD,
+                                  .fog = host_fog_exists(renderer->scene) };
+}
+
+void host_renderer_leave_out(struct host_renderer *renderer, const struct host_effects *left_out)
+{
+    renderer->left_out = *left_out;
+}
+
 void host_renderer_get_report(const struct host_renderer *renderer, struct sdfgi_report *report)
 {
     host_gi_get_report(renderer->gi, report);

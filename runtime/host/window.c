@@ -2,7 +2,8 @@
  * `sdfgi view`: a window with a camera that flies.
  *
  * G switches global illumination, F2 walks through the parts of the light, V and Shift V through the debug
- * views, of which 1 to 9 are the first; 0 is the picture. Escape closes. host_fly.h has the camera's keys. */
+ * views, of which 1 to 9 are the first; 0 is the picture. F1 opens an overlay, if there is one, which may
+ * take keys and mouse for itself. Escape closes. host_fly.h has the camera's keys. */
 #include "host_fly.h"
 #include "host_swapchain.h"
 
@@ -26,6 +27,9 @@ struct window {
     uint32_t shown;              /* index into parts */
     enum sdfgi_debug_view debug; /* shown instead; SDFGI_DEBUG_VIEW_COUNT: none */
     bool toggle_gi, swapchain_stale;
+    struct host_overlay_frame overlay; /* of the last frame */
+    bool overlay_begun;
+    char overlay_error[256];
     double time_s, title_time_s;
     uint32_t title_frames;
 };
@@ -46,8 +50,10 @@ static void key_received(GLFWwindow *glfw, int key, int scancode, int action, in
 {
     struct window *window = glfwGetWindowUserPointer(glfw);
     (void)scancode;
-    if (action != GLFW_PRESS)
+    if (action != GLFW_PRESS || (window->overlay.takes_keys && key != GLFW_KEY_F1))
         return;
+    if (key == GLFW_KEY_F1)
+        window->overlay.open = window->overlay_begun && !window->overlay.open;
     if (key == GLFW_KEY_G)
         window->toggle_gi = true;
     if (key == GLFW_KEY_F2)
@@ -68,6 +74,62 @@ static void size_changed(GLFWwindow *glfw, int width, int height)
     (void)width;
     (void)height;
     window->swapchain_stale = true;
+}
+
+/* ---- Overlay ---------------------------------------------------------------------------------------- */
+
+static bool overlay_begin(struct window *window)
+{
+    char error[128] = "";
+    const struct host_overlay *overlay = window->desc->overlay;
+    const struct host_device *device = window->device;
+    const struct host_overlay_vulkan vulkan = { .instance = device->instance,
+                                                .physical_device = device->physical,
+                                                .device = device->device,
+                                                .queue_family = device->queue_family,
+                                                .queue = device->queue,
+                                                .pipeline_cache = device->cache.handle,
+                                                .pass = window->swapchain.pass,
+                                                .frames_in_flight = HOST_SLOTS };
+    window->overlay_begun =
+        overlay && overlay->begin(overlay->user, window->glfw, &vulkan, error, sizeof(error));
+    return !overlay || window->overlay_begun || host_fail(window->device, "%s", error);
+}
+
+/* Takes over what the user changed. Settings that the library refuses, for want of memory say, leave those
+ * before in force. */
+static void overlay_apply(struct window *window)
+{
+    struct host_overlay_frame *frame = &window->overlay;
+    window->debug = frame->debug;
+    host_renderer_leave_out(window->renderer, &frame->left_out);
+    if (memcmp(&frame->settings, &window->settings, sizeof(frame->settings)) == 0)
+        return;
+    if (host_renderer_set_settings(window->renderer, &frame->settings)) {
+        window->settings = frame->settings;
+        frame->error = NULL;
+        return;
+    }
+    snprintf(window->overlay_error, sizeof(window->overlay_error), "%s", window->device->error);
+    frame->error = window->overlay_error;
+}
+
+static void overlay_step(struct window *window, double frame_s)
+{
+    struct host_overlay_frame *frame = &window->overlay;
+    struct sdfgi_report report;
+    if (!window->overlay_begun)
+        return;
+    host_gi_get_report(window->renderer->gi, &report);
+    frame->settings = window->settings;
+    frame->debug = window->debug;
+    frame->possible = host_renderer_possible_effects(window->renderer);
+    frame->report = &report;
+    frame->gpu_ns = window->renderer->times.frame_ns;
+    frame->frame_s = frame_s;
+    window->desc->overlay->frame(window->desc->overlay->user, frame);
+    frame->report = NULL;
+    overlay_apply(window);
 }
 
 /* ---- Frame ------------------------------------------------------------------------------------------ */
@@ -136,6 +198,8 @@ static bool record_picture(struct window *window, VkCommandBuffer cmd, uint32_t 
     }
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
     record_shown(window, cmd);
+    if (window->overlay_begun)
+        window->desc->overlay->record(window->desc->overlay->user, cmd);
     vkCmdEndRenderPass(cmd);
     return true;
 }
@@ -216,8 +280,9 @@ static bool toggle_gi(struct window *window)
 
 static bool step(struct window *window)
 {
-    const double now_s = glfwGetTime();
-    host_fly_step(&window->camera, window->glfw, fmin(now_s - window->time_s, 0.1), true, true);
+    const double now_s = glfwGetTime(), frame_s = now_s - window->time_s;
+    host_fly_step(&window->camera, window->glfw, fmin(frame_s, 0.1), !window->overlay.takes_keys,
+                  !window->overlay.takes_mouse);
     window->time_s = now_s;
     if (window->toggle_gi && !toggle_gi(window))
         return false;
@@ -232,6 +297,7 @@ static bool step(struct window *window)
         glfwSetWindowShouldClose(window->glfw, GLFW_TRUE);
         return true;
     }
+    overlay_step(window, frame_s);
     if (!draw(window))
         return false;
     show_title(window);
@@ -264,12 +330,15 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
     host_fly_init(&window->camera, &desc->view->camera, window->scene->radius);
     window->swapchain_stale = true;
     return host_pipeline_tonemap_create(window->device, &window->renderer->pipelines, window->swapchain.pass,
-                                        &window->tonemap);
+                                        &window->tonemap) &&
+           overlay_begin(window);
 }
 
 static void renderer_close(struct window *window)
 {
     vkDeviceWaitIdle(window->device->device);
+    if (window->overlay_begun)
+        window->desc->overlay->end(window->desc->overlay->user);
     vkDestroyPipeline(window->device->device, window->tonemap, NULL);
     host_renderer_destroy(window->renderer);
     host_scene_destroy(window->scene);

@@ -9,6 +9,8 @@ layout(set = HOST_SET_FRAME, binding = HOST_FOG_BINDING) uniform sampler3D fog_v
  * tell the mean of what the fog on the way scatters; how much fog there is follows exactly. */
 vec3 fog_before(vec3 radiance, vec3 offset)
 {
+    if (frame.fog_density.x == 0.0)
+        return radiance;
     const float distance_m = max(dot(frame.camera_forward.xyz, offset), 1e-6);
     const float near_m = min(distance_m, frame.fog_slices.z);
     const vec3 ray = offset / distance_m, eye = frame.camera_position.xyz,

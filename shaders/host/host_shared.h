@@ -83,8 +83,8 @@ struct host_frame_data {
     HOST_VEC4(sky_horizon);
     HOST_VEC4(sky_ground);
     HOST_VEC4(fog_medium);  /* rgb: albedo; w: mean cosine of the phase function */
-    HOST_VEC4(fog_density); /* x: extinction at a height, 1/m; y: that height; z: falloff, 1/m; w: what
-                               froxels hold over radiance */
+    HOST_VEC4(fog_density); /* x: extinction at a height, 1/m, 0: fog is left out; y: that height; z: falloff,
+                               1/m; w: what froxels hold over radiance */
     HOST_VEC4(fog_slices);  /* x: metres to the far side of the first slice; y: doublings of the distance per
                                slice; z: metres to the far side of the last; w: the camera's near plane */
     HOST_VEC4(fog_grid);    /* xy: pixels of the picture; z: along a froxel's side; w: 1 if GI has light */

@@ -138,6 +138,36 @@ static void fog_costs_what_it_needs(void **state)
     }
 }
 
+/* A frame of a stage with light from GI, and how many dispatches of the host's it took. */
+static uint32_t draw_one(struct host_fog fog, bool left_out, float rgba[4 * FOG_PIXELS])
+{
+    struct fog_stage stage;
+    struct fog_scene scene = fog_scene_empty(0);
+    scene.view.sky.zenith[0] = 1;
+    scene.view.fog = fog;
+    scene.gi = true;
+    fog_stage_open(&stage, device, &scene);
+    host_renderer_leave_out(stage.renderer, &(struct host_effects){ .fog = left_out });
+    counts = (struct counts){ 0 };
+    assert_true(host_renderer_frame(stage.renderer, &stage.camera));
+    const uint32_t dispatches = (uint32_t)counts.dispatches;
+    assert_true(host_renderer_read_aov(stage.renderer, HOST_AOV_COLOR, rgba));
+    fog_stage_close(&stage);
+    return dispatches;
+}
+
+static void fog_that_is_left_out_is_no_fog(void **state)
+{
+    (void)state;
+    static float none[4 * FOG_PIXELS], some[4 * FOG_PIXELS], left_out[4 * FOG_PIXELS];
+    const struct host_fog fog = { .density = 0.1f, .albedo = { 1, 1, 1 } };
+    draw_one((struct host_fog){ 0 }, false, none);
+    REQUIRE_CMP(draw_one(fog, false, some), >, 0u);
+    REQUIRE_CMP(draw_one(fog, true, left_out), ==, 0u);
+    REQUIRE_CMP(memcmp(none, some, sizeof none), !=, 0);
+    REQUIRE_CMP(memcmp(none, left_out, sizeof none), ==, 0);
+}
+
 int main(void)
 {
     char error[256];
@@ -150,6 +180,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_density_there_is_no_fog),
         cmocka_unit_test(fog_costs_what_it_needs),
+        cmocka_unit_test(fog_that_is_left_out_is_no_fog),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     const bool quiet = host_device_validation_count(device) == 0;
