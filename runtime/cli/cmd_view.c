@@ -9,6 +9,13 @@
 
 #include <modules/gltf/gltf_scene.h>
 
+#ifdef SDFGI_WITH_EDITOR
+#include "view_editor.h"
+#define PANEL_HELP "F1 opens a panel: effects, debug views, all settings, what the frame did and why.\n"
+#else
+#define PANEL_HELP ""
+#endif
+
 struct options {
     const char *scene, *view, *device, *debug_name;
     struct run_lookup_names lookup_names;
@@ -34,11 +41,11 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
     const struct cli_positional positionals[] = { { "SCENE", &o->scene, true } };
     const struct cli_spec spec = {
         "view", "Shows a glTF scene in a window.", CLI_ARRAY(table), CLI_ARRAY(positionals),
-        "G switches global illumination. V and Shift V walk through the debug views that\n"
-        "sdfgi info lists, 1 to 9 choose one of the first nine, 0 the picture, and F2 walks\n"
-        "through parts of its light. WASD, Q and E move, Shift hurries, a held mouse button\n"
-        "turns, Escape closes. SIGINT and SIGTERM close, too; the exit code is 128 + the\n"
-        "signal's number then."
+        PANEL_HELP "G switches global illumination. V and Shift V walk through the debug views that\n"
+                   "sdfgi info lists, 1 to 9 choose one of the first nine, 0 the picture, and F2 walks\n"
+                   "through parts of its light. WASD, Q and E move, Shift hurries, a held mouse button\n"
+                   "turns, Escape closes. SIGINT and SIGTERM close, too; the exit code is 128 + the\n"
+                   "signal's number then."
     };
     return cli_parse(&spec, argc, argv);
 }
@@ -48,6 +55,17 @@ static bool stop_view(void)
 {
     stop_keep();
     return stop_asked();
+}
+
+/* With the panel, where it is built. */
+static bool run_window(struct host_window_desc *desc, char *error, size_t error_size)
+{
+#ifdef SDFGI_WITH_EDITOR
+    struct view_editor editor = { NULL };
+    const struct host_overlay overlay = view_editor_overlay(&editor);
+    desc->overlay = &overlay;
+#endif
+    return host_window_run(desc, error, error_size);
 }
 
 int cmd_view(int argc, char **argv)
@@ -70,19 +88,19 @@ int cmd_view(int argc, char **argv)
     struct gltf_scene *gltf = run_load_scene(options.scene, options.view, &view);
     if (!gltf)
         return CLI_EXIT_FAILURE;
-    const struct host_window_desc desc = { .device_select = options.device,
-                                           .cache_folder = run_cache_folder(),
-                                           .gltf = gltf,
-                                           .view = &view,
-                                           .settings = &settings,
-                                           .lookups = lookups,
-                                           .debug = &debug,
-                                           .width = options.size.width,
-                                           .height = options.size.height,
-                                           .frames = options.frames,
-                                           .stop = stop_view,
-                                           .log = { run_log, NULL } };
-    const bool ok = host_window_run(&desc, error, sizeof(error));
+    struct host_window_desc desc = { .device_select = options.device,
+                                     .cache_folder = run_cache_folder(),
+                                     .gltf = gltf,
+                                     .view = &view,
+                                     .settings = &settings,
+                                     .lookups = lookups,
+                                     .debug = &debug,
+                                     .width = options.size.width,
+                                     .height = options.size.height,
+                                     .frames = options.frames,
+                                     .stop = stop_view,
+                                     .log = { run_log, NULL } };
+    const bool ok = run_window(&desc, error, sizeof(error));
     if (!ok || stop_asked())
         cli_error("view: %s%s", ok ? "closed by " : error, ok ? stop_name() : "");
     gltf_scene_destroy(gltf);
