@@ -50,6 +50,20 @@ def includes_against_the_order():
                 yield f"{path.relative_to(root)}: includes {name} of the folder above"
 
 
+def editor_includes_beyond_public_headers():
+    """Quoted names are its own; others are public, of Dear ImGui, or of the language."""
+    public = {f"sdfgi/{path.name}" for path in (root / "modules" / "sdfgi" / "include" / "sdfgi").glob("*.h")}
+    own = {path.name for path in (root / "editor_stub").glob("*.h")}
+    for path in sorted((root / "editor_stub").glob("*.[ch]*")):
+        text = path.read_text(encoding="utf-8")
+        for name in re.findall(r'^\s*#\s*include "([^"]+)"', text, re.M):
+            if name not in own:
+                yield f"{path.relative_to(root)}: includes {name}"
+        for name in re.findall(r"^\s*#\s*include <([^>]+)>", text, re.M):
+            if name not in public and not re.fullmatch(r"\w+|imgui\.h|backends/imgui_\w+\.h", name):
+                yield f"{path.relative_to(root)}: includes {name}"
+
+
 def sentences(text):
     text = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
     for block in re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", text):
@@ -78,6 +92,7 @@ CLAIMS = {
     "no_line_is_longer_than_110_columns": lines_that_are_too_long,
     "no_file_is_longer_than_500_lines": files_that_are_too_long,
     "owners_include_one_way": includes_against_the_order,
+    "the_editor_sees_public_headers_alone": editor_includes_beyond_public_headers,
     "sentences_of_documents_are_short": documents_with_long_sentences,
 }
 
