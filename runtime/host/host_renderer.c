@@ -382,7 +382,7 @@ void host_renderer_get_settings(const struct host_renderer *renderer, struct sdf
 
 struct host_effects host_renderer_possible_effects(const struct host_renderer *renderer)
 {
-    return (struct host_effects){ .reflections = renderer->lookup != HOST_LOOKUP_FORWARD,
+    return (struct host_effects){ .reflections = renderer->lookups.diffuse != HOST_LOOKUP_FORWARD,
                                   .fog = host_fog_exists(renderer->scene) };
 }
 
