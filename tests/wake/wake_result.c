@@ -19,6 +19,9 @@
 /* sdfgi_frame_desc::exposure promises light down to this over it: radiance. Lookups return pi times as much,
  * and sdfgi_energy times that. */
 #define DARK (PI / 4096)
+/* A unit of RGB9E5 is at most this part of the brightest channel. Two colours that round apart differ by one
+ * in their weak channels (docs/hard_cases.md, row 29), however little they differed before. */
+#define UNIT (1.001 / 256)
 
 /* Borders of what lookups sample arrive last (modules/sdfgi/volume/blend.c): 12 cells at 0.03 a frame, after
  * 32 frames for the rest. Light that settles beside them takes a few dozen. */
@@ -274,11 +277,17 @@ static double brightest(const struct wake_result *r)
     return most;
 }
 
+static double unit_at(const struct wake_result *r, int point)
+{
+    const float *c = r->light[point];
+    return UNIT * (double)fmaxf(c[0], fmaxf(c[1], c[2]));
+}
+
 static double allowed(const struct wake_result *a, const struct wake_result *b, int i)
 {
     const double x = (double)a->light[i / 3][i % 3], y = (double)b->light[i / 3][i % 3];
     const double dark = fmax(DARK_PART * brightest(b), fmax(a->dark, b->dark));
-    return TOLERANCE * fmax(fmax(x, y), dark);
+    return fmax(TOLERANCE * fmax(fmax(x, y), dark), unit_at(b, i / 3));
 }
 
 static double light_off(const struct wake_result *a, const struct wake_result *b, int i)
