@@ -348,6 +348,27 @@ static void hard_10_shadow_rays_without_steps_are_hits_and_reported(void **state
     HARD_CASE_AT_LEAST(10, "shadow rays without steps that are reported", caps_reported(), 1);
 }
 
+/* Every ray of this light would be reported. EFFECTS row 9. */
+static void light_that_casts_no_shadow_calls_for_no_ray(void **state)
+{
+    (void)state;
+    open_corner(64, 8);
+    forget_distances();
+    struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL,
+                                    .direction = { -1, -1, -1 },
+                                    .intensity = { 1, 1, 1 } };
+    sdfgi_light light;
+    REQUIRE_CMP(sdfgi_light_create(pass_context.gi, &sun, &light), ==, SDFGI_OK);
+    REQUIRE_CMP(caps_reported(), ==, 0ul);
+    sun.casts_shadow = true;
+    sun.direction[0] = sun.direction[1] = sun.direction[2] = 1; /* from behind all surfaces */
+    REQUIRE_CMP(sdfgi_light_update(pass_context.gi, light, &sun), ==, SDFGI_OK);
+    REQUIRE_CMP(caps_reported(), ==, 0ul);
+    sun.direction[0] = sun.direction[1] = sun.direction[2] = -1;
+    REQUIRE_CMP(sdfgi_light_update(pass_context.gi, light, &sun), ==, SDFGI_OK);
+    REQUIRE_CMP(caps_reported(), >, 0ul);
+}
+
 /* In suite `full` alone: probes look along such ways where cascades are larger. */
 static void hard_10_probes_rays_without_steps_are_reported(void **state)
 {
@@ -452,6 +473,7 @@ int main(void)
         cmocka_unit_test(hard_10_grazing_rays_arrive),
         cmocka_unit_test(hard_10_few_grazing_rays_run_out_of_steps),
         cmocka_unit_test(hard_10_shadow_rays_without_steps_are_hits_and_reported),
+        cmocka_unit_test(light_that_casts_no_shadow_calls_for_no_ray),
         cmocka_unit_test(hard_10_probes_rays_without_steps_are_reported),
         cmocka_unit_test(hard_12_no_ray_leaves_a_closed_bumpy_sphere),
         cmocka_unit_test(hard_12_no_ray_slips_through_an_edge),
