@@ -253,7 +253,7 @@ static void open_device(struct gpu_test *gpu, gpu_test_requirements_fn requireme
     vkGetDeviceQueue(gpu->device, gpu->queue_family_index, 0, &gpu->queue);
     const VkCommandPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT | VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
         .queueFamilyIndex = gpu->queue_family_index,
     };
     GPU_CHECK(vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->command_pool));
@@ -301,7 +301,7 @@ void gpu_test_close(struct gpu_test *gpu)
 
 /* ---- Work ---- */
 
-static VkCommandBuffer command_begin(struct gpu_test *gpu)
+static VkCommandBuffer command_allocate(struct gpu_test *gpu)
 {
     const VkCommandBufferAllocateInfo allocate = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
@@ -309,14 +309,30 @@ static VkCommandBuffer command_begin(struct gpu_test *gpu)
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1,
     };
+    VkCommandBuffer cmd;
+    GPU_CHECK(vkAllocateCommandBuffers(gpu->device, &allocate, &cmd));
+    return cmd;
+}
+
+/* Begins a command buffer, an idle one if there is any: the validation layers keep 13 KB of each one that was
+ * freed, until the device goes. */
+static VkCommandBuffer command_begin(struct gpu_test *gpu)
+{
     const VkCommandBufferBeginInfo begin = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
-    VkCommandBuffer cmd;
-    GPU_CHECK(vkAllocateCommandBuffers(gpu->device, &allocate, &cmd));
+    VkCommandBuffer cmd = gpu->idle_count > 0 ? gpu->idle[--gpu->idle_count] : command_allocate(gpu);
     GPU_CHECK(vkBeginCommandBuffer(cmd, &begin));
     return cmd;
+}
+
+static void command_release(struct gpu_test *gpu, VkCommandBuffer cmd)
+{
+    if (gpu->idle_count < GPU_TEST_IDLE_MOST)
+        gpu->idle[gpu->idle_count++] = cmd;
+    else
+        vkFreeCommandBuffers(gpu->device, gpu->command_pool, 1, &cmd);
 }
 
 /* Makes all writes visible to the host, and to nothing else: barriers between device work stay the business
@@ -348,7 +364,8 @@ void gpu_test_submit_many(struct gpu_test *gpu, uint32_t count, gpu_test_record_
         GPU_CHECK(vkQueueSubmit(gpu->queue, 1, &submit, VK_NULL_HANDLE));
     }
     GPU_CHECK(vkQueueWaitIdle(gpu->queue));
-    vkFreeCommandBuffers(gpu->device, gpu->command_pool, count, commands);
+    for (uint32_t i = 0; i < count; i++)
+        command_release(gpu, commands[i]);
     free(commands);
 }
 
@@ -357,7 +374,7 @@ void gpu_test_record_and_drop(struct gpu_test *gpu, gpu_test_record_fn record, v
     VkCommandBuffer cmd = command_begin(gpu);
     record(cmd, 0, user);
     command_end(cmd);
-    vkFreeCommandBuffers(gpu->device, gpu->command_pool, 1, &cmd);
+    command_release(gpu, cmd);
 }
 
 void gpu_test_submit(struct gpu_test *gpu, gpu_test_record_fn record, void *user)

@@ -45,6 +45,8 @@ struct gpu_test_pipeline {
     VkPipeline pipeline;
 };
 
+enum { GPU_TEST_IDLE_MOST = 8 };
+
 /* Must stay where it is between open and close: the validation layer writes to `messages`. */
 struct gpu_test {
     VkInstance instance;
@@ -57,6 +59,8 @@ struct gpu_test {
     uint32_t queue_family_index; /* graphics and compute */
     VkQueue queue;
     VkCommandPool command_pool;
+    VkCommandBuffer idle[GPU_TEST_IDLE_MOST]; /* recorded before, and no longer in use */
+    uint32_t idle_count;
     struct gpu_test_pipeline kept;
 };
 
