@@ -304,6 +304,36 @@ static void fewer_rays_show_the_same(void **state)
     close_stage(&stage);
 }
 
+/* Two eyes, 40 cm apart from a metre above, whose pictures show the same points of the floor. */
+static void eyes_share_an_update_and_see_the_same_light(void **state)
+{
+    (void)state;
+    static float pictures[2][PIXELS][4];
+    open_stage(&stage, 1);
+    const uint32_t gathers = dispatches(&stage, PASS_GATHER), traces = dispatches(&stage, PASS_PROBE_TRACE);
+    double worst = 0, brightest = 0;
+    for (int eye = 0; eye < 2; eye++) {
+        sdfgi_view *view = create_view(&stage);
+        struct resolve r = { &stage, view, resolve_desc(&stage, VK_NULL_HANDLE) };
+        r.desc.inverse_view_projection[8] = eye == 0 ? 0.4f : -0.4f;
+        r.desc.inverse_view_projection[12] = eye == 0 ? -0.2f : 0.2f;
+        gpu_test_submit(&stage.t.gpu, record_resolve, &r);
+        read_picture(&stage, &view->diffuse, pictures[eye]);
+    }
+    REQUIRE_CMP(dispatches(&stage, PASS_GATHER), ==, gathers + 2);
+    REQUIRE_CMP(dispatches(&stage, PASS_PROBE_TRACE), ==, traces);
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double left = (double)pictures[0][i][k], right = (double)pictures[1][i][k];
+            worst = fmax(worst, fabs(left - right) / fmax(fmax(left, right), 0.01));
+            brightest = fmax(brightest, left);
+        }
+    printf("eyes: off by %.2e at most, brightest %.3f\n", worst, brightest);
+    close_stage(&stage);
+    REQUIRE_CMP(brightest, >, 0.3);
+    REQUIRE_CMP(worst, <=, 0.01);
+}
+
 static void without_a_picture_of_roughness_there_are_no_reflections(void **state)
 {
     (void)state;
@@ -368,6 +398,7 @@ int main(void)
         cmocka_unit_test(roughness_changes_reflections_without_a_step),
         cmocka_unit_test(views_have_pictures_of_their_own_and_give_them_back),
         cmocka_unit_test(fewer_rays_show_the_same),
+        cmocka_unit_test(eyes_share_an_update_and_see_the_same_light),
         cmocka_unit_test(without_a_picture_of_roughness_there_are_no_reflections),
         cmocka_unit_test(bad_views_are_refused),
     };
