@@ -212,9 +212,9 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, ui
  * the surface is near. `eye` leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
  *
  * A first try begins right above the surface. Where that finds nothing, in a niche or at a small thing,
- * others begin nearer to the viewer, on the sight line: above it might be the inside of something hollow. A
- * point in the air has no other places: what is near it need not be on its side of a wall, and its normal may
- * lead into one. But the surfaces around stand for one that the air's cell does not know. */
+ * others begin farther off and nearer to the viewer. A point in the air has no other places: what is near it
+ * need not be on its side of a wall, and its normal may lead into one. But the surfaces around stand for one
+ * that the air's cell does not know. */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
@@ -224,7 +224,7 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
     vec4 sum = vec4(0.0);
     for (int i = 0; i < tries && sum.a <= 0.0; i++) {
         const float place = at_surface ? float(i) : 0.0;
-        const vec3 above = (i == 0 ? SDFGI_CELLS_OFF_SURFACE : 0.0) * sdfgi_frame.normal_bias * normal;
+        const vec3 above = (place + 1.0) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias * normal;
         const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
         vec3 at = clamp(pos + sdfgi_cells_from_metric(above + towards), low, high);
         if (!at_surface && sdfgi_cell_bits(cascade, ivec3(floor(at))) != uvec2(0u))
