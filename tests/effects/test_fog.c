@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "fog_scene.h"
+#include "host_test.h"
 #include "require.h"
 
 #include <math.h>
@@ -16,8 +17,6 @@
 #include <string.h>
 
 #define PI 3.14159265358979323846
-
-enum { SKIP = 77 };
 
 static struct host_device *device;
 static float picture[4 * FOG_PIXELS];
@@ -422,13 +421,9 @@ static void nothing_crawls(void **state)
 
 int main(void)
 {
-    char error[256];
-    const struct host_device_desc desc = { .select = getenv("SDFGI_TEST_DEVICE") };
-    device = host_device_create(&desc, error, sizeof error);
-    if (!device) {
-        fprintf(stderr, "skipped: %s\n", error);
-        return SKIP;
-    }
+    device = host_test_open();
+    if (!device)
+        return HOST_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_sky_is_scattered_by_albedo),
         cmocka_unit_test(sun_scatters_once_along_each_ray),
@@ -441,8 +436,5 @@ int main(void)
         cmocka_unit_test(fog_follows_what_changes),
         cmocka_unit_test(nothing_crawls),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    const bool quiet = host_device_validation_count(device) == 0;
-    host_device_destroy(device);
-    return failed || !quiet;
+    return host_test_close(device, cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "fog_scene.h"
+#include "host_test.h"
 #include "require.h"
 
 #include <dlfcn.h>
@@ -19,8 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <vulkan/vulkan.h>
-
-enum { SKIP = 77 };
 
 static struct host_device *device;
 
@@ -170,20 +169,13 @@ static void fog_that_is_left_out_is_no_fog(void **state)
 
 int main(void)
 {
-    char error[256];
-    const struct host_device_desc desc = { .select = getenv("SDFGI_TEST_DEVICE") };
-    device = host_device_create(&desc, error, sizeof error);
-    if (!device) {
-        fprintf(stderr, "skipped: %s\n", error);
-        return SKIP;
-    }
+    device = host_test_open();
+    if (!device)
+        return HOST_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_density_there_is_no_fog),
         cmocka_unit_test(fog_costs_what_it_needs),
         cmocka_unit_test(fog_that_is_left_out_is_no_fog),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    const bool quiet = host_device_validation_count(device) == 0;
-    host_device_destroy(device);
-    return failed || !quiet;
+    return host_test_close(device, cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -5,6 +5,7 @@
  * every single call does. Arguments: PROGRAM PRELOADED SCENE PATH GNUPLOT [real]. */
 #define _GNU_SOURCE
 #include "fault_run.h"
+#include "files.h"
 #include "require.h"
 
 #include <pthread.h>
@@ -17,7 +18,7 @@
 enum { WORKERS = 2, MOST_PROBLEMS_SHOWN = 40 };
 
 static struct fault_command command;
-static char folder[64];
+static char folder[128];
 static bool full;
 
 /* ---- What may and what may not be -------------------------------------------------------------------- */
@@ -137,7 +138,7 @@ struct campaign {
 
 struct worker {
     struct campaign *campaign;
-    char folder[80];
+    char folder[sizeof folder + 12];
 };
 
 static void tell(struct campaign *c, uint32_t k, const char *problem, const struct fault_outcome *o)
@@ -203,7 +204,7 @@ static uint32_t choose(char (*names)[32], uint32_t count, bool both_ends, uint32
 
 static void run_without_fault(const char *kind, struct fault_outcome *outcome, char (**names)[32])
 {
-    char path[80];
+    char path[sizeof folder + 2];
     snprintf(path, sizeof path, "%s/0", folder);
     REQUIRE_TRUE(fault_run(&command, kind, 0, path, outcome, names));
     if (outcome->exit_code != 0 || outcome->errors[0] || outcome->misuse[0])
@@ -302,11 +303,10 @@ static const char *gnuplot;
 
 static int open_folder(void **state)
 {
-    char path[128];
-    (void)state;
-    strcpy(folder, "/tmp/sdfgi_fault_XXXXXX");
-    if (!mkdtemp(folder))
+    char path[2 * sizeof folder];
+    if (files_setup(state) != 0)
         return -1;
+    snprintf(folder, sizeof folder, "%s", files_path(""));
     snprintf(path, sizeof path, "%s/bin", folder);
     if (mkdir(path, 0777) != 0)
         return -1;
@@ -316,9 +316,8 @@ static int open_folder(void **state)
 
 static int remove_folder(void **state)
 {
-    (void)state;
     fault_clear_folder(folder);
-    return rmdir(folder);
+    return files_teardown(state);
 }
 
 int main(int argc, char **argv)

@@ -10,22 +10,17 @@
 
 #include "far_scene.h"
 #include "files.h"
+#include "host_test.h"
 
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SKIP = 77 };
-
 int far_place_open(struct host_device **device)
 {
-    char error[256];
-    const struct host_device_desc desc = { .select = getenv("SDFGI_TEST_DEVICE") };
-    *device = host_device_create(&desc, error, sizeof error);
-    if (!*device) {
-        fprintf(stderr, "skipped: %s\n", error);
-        return SKIP;
-    }
+    *device = host_test_open();
+    if (!*device)
+        return HOST_TEST_SKIP;
     if (files_setup(NULL) == 0)
         return 0;
     host_device_destroy(*device);
@@ -35,9 +30,7 @@ int far_place_open(struct host_device **device)
 int far_place_close(struct host_device *device, int failed)
 {
     failed += files_teardown(NULL) != 0;
-    failed += host_device_validation_count(device) > 0;
-    host_device_destroy(device);
-    return failed;
+    return host_test_close(device, failed);
 }
 
 static struct sdfgi_settings settings_of(bool gi)

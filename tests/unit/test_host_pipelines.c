@@ -3,6 +3,7 @@
  * has GI's lookup in it. vkCreateGraphicsPipelines is defined here, stands before the loader's, and counts.
  * vkGetQueryPoolResults stands before the loader's as well, and can lose the device. */
 #include "files.h"
+#include "host_test.h"
 #include "unit.h"
 
 #include "host.h"
@@ -11,8 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <vulkan/vulkan.h>
-
-enum { SKIP = 77 };
 
 static struct host_device *device;
 static int forward_count; /* of pipelines that shade geometry */
@@ -183,12 +182,9 @@ static void a_device_lost_while_times_are_read_is_noticed(void **state)
 
 int main(void)
 {
-    char error[256];
-    device = host_device_create(&(struct host_device_desc){ 0 }, error, sizeof error);
-    if (!device) {
-        fprintf(stderr, "skipped: %s\n", error);
-        return SKIP;
-    }
+    device = host_test_open();
+    if (!device)
+        return HOST_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_material_needs_one_pipeline),
         cmocka_unit_test(each_kind_of_material_adds_one),
@@ -196,8 +192,5 @@ int main(void)
         cmocka_unit_test(gathered_light_needs_as_many_pipelines),
         cmocka_unit_test(a_device_lost_while_times_are_read_is_noticed),
     };
-    const int failed = cmocka_run_group_tests(tests, files_setup, files_teardown);
-    const bool quiet = host_device_validation_count(device) == 0;
-    host_device_destroy(device);
-    return failed || !quiet;
+    return host_test_close(device, cmocka_run_group_tests(tests, files_setup, files_teardown));
 }
