@@ -107,23 +107,21 @@ void show_summary(const editor_frame &frame)
 
 void show_tabs(panel &panel, editor_frame &frame)
 {
-    static const char *const names[] = { "Views", "Properties", "Passes", "Health", "Memory" };
-    for (int i = 0; i < 5; i++) {
-        const bool open = ImGui::BeginTabItem(names[i]);
-        panel_place_add(panel, "tab", names[i]);
+    static const struct {
+        const char *name;
+        panel_part *show;
+    } tabs[] = { { "Views", panel_views },
+                 { "Properties", panel_properties },
+                 { "Passes", panel_passes },
+                 { "Health", panel_health },
+                 { "Memory", panel_memory } };
+    for (const auto &tab : tabs) {
+        const bool open = ImGui::BeginTabItem(tab.name);
+        panel_place_add(panel, "tab", tab.name);
         if (!open)
             continue;
         ImGui::BeginChild("content");
-        if (i == 0)
-            panel_views(panel, frame);
-        else if (i == 1)
-            panel_properties(panel, frame);
-        else if (i == 2)
-            panel_passes(panel, *frame.report);
-        else if (i == 3)
-            panel_health(*frame.report);
-        else
-            panel_memory(*frame.report);
+        tab.show(panel, frame);
         ImGui::EndChild();
         ImGui::EndTabItem();
     }

@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct panel {
     panel_edit edits[PANEL_PROPERTIES_MAX];
     std::string error; /* of the last value that a property refused */
     std::vector<panel_place> places;
+    std::map<std::string, std::string> before; /* by property: its value before its effect was switched off */
 };
 
 /* Notes where the last widget is: kind:name. */
@@ -49,11 +51,7 @@ void panel_warning(const char *format, ...) IM_FMTARGS(1);
 /* Takes over the times of a report; in every frame, whether the panel is open or not. */
 void panel_times_add(panel &panel, const sdfgi_report &report);
 
-void panel_effects(panel &panel, editor_frame &frame);
-void panel_views(panel &panel, editor_frame &frame);
-void panel_properties(panel &panel, editor_frame &frame);
-void panel_passes(const panel &panel, const sdfgi_report &report);
-void panel_health(const sdfgi_report &report);
-void panel_memory(const sdfgi_report &report);
+typedef void panel_part(panel &panel, editor_frame &frame);
+panel_part panel_effects, panel_views, panel_properties, panel_passes, panel_health, panel_memory;
 
 #endif

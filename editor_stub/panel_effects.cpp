@@ -74,12 +74,22 @@ bool show_button(const editor_switch &button, const sdfgi_report &report, bool f
     return clicked;
 }
 
+/* Off, or on again as it was. */
+void toggle(panel &panel, editor_frame &frame, const effect &effect, bool on)
+{
+    char value[64] = "";
+    std::string &before = panel.before[effect.property];
+    if (!on)
+        before = sdfgi_settings_format(&frame.settings, effect.property, value, sizeof value) ? value : "";
+    panel_set(panel, frame, effect.property, !on ? effect.off : before.empty() ? effect.on : before.c_str());
+}
+
 void show_effect(panel &panel, editor_frame &frame, const effect &effect)
 {
     editor_switch button = { effect.label, description(effect.property), {}, is_on(effect, frame.settings) };
     std::memcpy(button.passes, effect.passes, sizeof button.passes);
     if (show_button(button, *frame.report, &effect == effects))
-        panel_set(panel, frame, effect.property, button.on ? effect.off : effect.on);
+        toggle(panel, frame, effect, !button.on);
     panel_place_add(panel, "effect", effect.property);
 }
 

@@ -62,15 +62,20 @@ void panel_times_add(panel &panel, const sdfgi_report &report)
     panel.next = (panel.next + 1) % PANEL_FRAMES;
 }
 
-void panel_passes(const panel &panel, const sdfgi_report &report)
+/* Those that ran first. */
+void panel_passes(panel &panel, editor_frame &frame)
 {
+    const sdfgi_report &report = *frame.report;
     show_total(panel, report);
-    for (uint32_t i = 0; i < report.pass_count; i++)
-        show_pass(panel, static_cast<int>(i), report.passes[i]);
+    for (bool ran : { true, false })
+        for (uint32_t i = 0; i < report.pass_count; i++)
+            if (report.passes[i].ran == ran)
+                show_pass(panel, static_cast<int>(i), report.passes[i]);
 }
 
-void panel_health(const sdfgi_report &report)
+void panel_health(panel &, editor_frame &frame)
 {
+    const sdfgi_report &report = *frame.report;
     const sdfgi_scroll_report &scroll = report.scroll;
     ImGui::TextWrapped("%s, %.0f %% of the way", report.converged ? "converged" : "on its way",
                        100.0 * static_cast<double>(report.converged_fraction));
@@ -89,9 +94,9 @@ void panel_health(const sdfgi_report &report)
     }
 }
 
-void panel_memory(const sdfgi_report &report)
+void panel_memory(panel &, editor_frame &frame)
 {
-    const sdfgi_memory &memory = report.memory;
+    const sdfgi_memory &memory = frame.report->memory;
     const double total = static_cast<double>(std::max<uint64_t>(memory.total_bytes, 1));
     for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++) {
         char text[64];
