@@ -17,7 +17,7 @@ struct sdfgi_view_desc {
     uint32_t width, height; /* pixels: 1 to the device's maxImageDimension2D */
     /* At which diffuse light is looked up, and at which rays are sent; 0: SDFGI_GATHER_FULL. Reflections
      * interpolate as sdfgi_gather does, but by surface alone: edges of surfaces stay sharp, and those of what
-     * a mirror shows are a pixel or two softer. */
+     * a mirror shows are softer by two or four pixels. */
     enum sdfgi_gather_resolution diffuse, reflection;
 };
 
