@@ -28,7 +28,7 @@ bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
     const ivec3 base = cage * SDFGI_PROBE_SPACING;
     const uint state = sdfgi_probes[sdfgi_probe_index(args.cascade, cage + corner)];
     return !sdfgi_probe_is_dead(state) &&
-           sdfgi_trace_visible_from(args.cascade, base, vec3(cell - base) + 0.5,
+           sdfgi_trace_visible_from(args.cascade, base, vec3(cell - base) + LIGHT_CELL_EYE,
                                     sdfgi_probe_position(corner, state));
 }
 

@@ -8,6 +8,10 @@
 #include "../lib/light_pack.glsl"
 #include "../lib/random.glsl"
 
+/* Where a light cell's rays to lights and probes begin. From its middle many of them would run along edges of
+ * sub-voxels, and rounding would decide what they hit: another driver, another answer (HARD_CASES row 57). */
+const vec3 LIGHT_CELL_EYE = vec3(0.5) + vec3(0.0137, 0.0093, 0.0171);
+
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHT_CELLS) buffer sdfgi_light_cells_buffer
 {
     uint sdfgi_light_cells[];

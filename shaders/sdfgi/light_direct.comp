@@ -86,7 +86,7 @@ vec3 light_on_surface(uint light, surface s)
 
 bool is_unshadowed(ivec3 cell, uint light)
 {
-    const vec3 pos = vec3(cell) + 0.5;
+    const vec3 pos = vec3(cell) + LIGHT_CELL_EYE;
     vec3 to_light;
     float range_m;
     light_arriving(sdfgi_lights[light], sdfgi_position_from_cascade(args.cascade, pos), to_light, range_m);

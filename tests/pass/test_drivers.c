@@ -18,12 +18,12 @@ static const struct {
 } recorded[] = {
     { RESOURCE_BITS, 0x31514855u },         { RESOURCE_DISTANCE, 0xfff6e44bu },
     { RESOURCE_ALBEDO, 0x278138cdu },       { RESOURCE_PROBES, 0x2cab84a0u },
-    { RESOURCE_LIGHT_BLOCKS, 0x11d0717au }, { RESOURCE_MASKS, 0x8b6ebfbeu },
+    { RESOURCE_LIGHT_BLOCKS, 0x11d0717au }, { RESOURCE_MASKS, 0x6251c629u },
 };
 enum { STAGES = sizeof recorded / sizeof *recorded };
 
-static const float recorded_light[POINTS] = { 2.20444441f, 2.14207625f, 2.13920712f, 2.17091346f,
-                                              2.13501573f, 2.13160229f, 2.07116365f, 2.09579635f,
+static const float recorded_light[POINTS] = { 2.20213032f, 2.14142489f, 2.13973355f, 2.17091346f,
+                                              2.13467097f, 2.13213181f, 2.07289171f, 2.0992887f,
                                               2.13425231f, 2.05835605f, 2.04027891f, 2.10708904f };
 
 /* FNV-1a. */
@@ -69,7 +69,11 @@ static int open_scene(void **state)
     sdfgi_light light;
     REQUIRE_CMP(sdfgi_light_create(pass_context.gi, &sun, &light), ==, SDFGI_OK);
     REQUIRE_CMP(sdfgi_set_sky(pass_context.gi, &sky), ==, SDFGI_OK);
-    gi_test_converge(&pass_context, 200);
+    /* Settled light may lack a thousandth: on until no cycle adds anything. */
+    for (int i = 0; i < 10; i++) {
+        sdfgi_volume_invalidate(&pass_context.gi->volume);
+        gi_test_converge(&pass_context, 200);
+    }
     return 0;
 }
 
