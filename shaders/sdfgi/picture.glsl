@@ -27,19 +27,35 @@ bool picture_is_finite(float squared_length)
     return squared_length < 1e30;
 }
 
+mat4 picture_to_position()
+{
+    return mat4(args.inverse_view_projection[0], args.inverse_view_projection[1],
+                args.inverse_view_projection[2], args.inverse_view_projection[3]);
+}
+
+vec2 picture_ndc(ivec2 pixel)
+{
+    return (vec2(pixel) + 0.5) / vec2(args.width, args.height) * 2.0 - 1.0;
+}
+
+/* Where the surface of a pixel lies, in homogeneous coordinates. False for background. */
+bool picture_position(ivec2 pixel, out vec4 position)
+{
+    const float depth = texelFetch(depth_image, pixel, 0).r;
+    position = picture_to_position() * vec4(picture_ndc(pixel), depth, 1.0);
+    return depth != args.background_depth;
+}
+
 /* What a pixel shows. False for background, and where position or normal are of no use. */
 bool picture_surface_at(ivec2 pixel, out picture_surface s)
 {
-    const float depth = texelFetch(depth_image, pixel, 0).r;
-    if (depth == args.background_depth)
+    vec4 position;
+    if (!picture_position(pixel, position))
         return false;
-    const vec2 ndc = (vec2(pixel) + 0.5) / vec2(args.width, args.height) * 2.0 - 1.0;
-    const mat4 to_position = mat4(args.inverse_view_projection[0], args.inverse_view_projection[1],
-                                  args.inverse_view_projection[2], args.inverse_view_projection[3]);
-    const vec4 position = to_position * vec4(ndc, depth, 1.0);
+    const mat4 to_position = picture_to_position();
     const vec3 normal = texelFetch(normal_image, pixel, 0).xyz;
     /* A point on the near plane: the vector to it leads towards the viewer. */
-    const vec4 near = to_position * vec4(ndc, 1.0 - args.background_depth, 1.0);
+    const vec4 near = to_position * vec4(picture_ndc(pixel), 1.0 - args.background_depth, 1.0);
     s.pos = position.xyz / position.w;
     s.normal = normalize(normal);
     s.to_eye = near.xyz / near.w - s.pos;

@@ -11,6 +11,9 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
+/* Cosine between a ray and the face's normal, at least. */
+const float LEAST_RISE = 0.02;
+
 /* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
  * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
  */
@@ -38,6 +41,39 @@ vec2 pattern_point(ivec2 pixel)
     return sdfgi_random_r2(at.x + side.x * at.y, shift >> 4u);
 }
 
+/* From a point to the surface of another pixel; far away if there is none. */
+vec3 way_to(ivec2 pixel, vec3 pos)
+{
+    vec4 position = vec4(0.0);
+    const bool inside =
+        all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(args.width, args.height)));
+    return inside && picture_position(pixel, position) ? position.xyz / position.w - pos : vec3(1e25);
+}
+
+/* Along a surface, to that of one of two neighbouring pixels: to the nearer one, as edges lie farther off. */
+vec3 tangent(ivec2 pixel, ivec2 step, vec3 pos)
+{
+    const vec3 next = way_to(pixel + step, pos), last = way_to(pixel - step, pos);
+    return dot(next, next) <= dot(last, last) ? next : -last;
+}
+
+/* The normal of what is drawn, without the detail that a texture gives it; that of the pixel where no
+ * neighbours tell. */
+vec3 face_normal(ivec2 pixel, picture_surface s)
+{
+    const vec3 normal = cross(tangent(pixel, ivec2(1, 0), s.pos), tangent(pixel, ivec2(0, 1), s.pos));
+    const float length2 = dot(normal, normal);
+    if (!(length2 > 0.0) || !picture_is_finite(length2))
+        return s.normal;
+    return normal * (dot(normal, s.to_eye) < 0.0 ? -inversesqrt(length2) : inversesqrt(length2));
+}
+
+/* A normal of a texture may lean so far that the ray would lead into the surface, which would see itself. */
+vec3 off_face(vec3 dir, vec3 face)
+{
+    return normalize(dir + max(2.0 * LEAST_RISE - 2.0 * dot(dir, face), 0.0) * face);
+}
+
 void reflect_pixel(ivec2 pixel)
 {
     picture_surface s;
@@ -46,9 +82,11 @@ void reflect_pixel(ivec2 pixel)
         return;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
-    const vec3 dir =
-        lobe_direction(s.normal, s.to_eye, roughness * roughness, pattern_point(pixel / int(args.ray_step)));
-    const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), s.normal, dir);
+    const vec3 face = face_normal(pixel, s),
+               dir = off_face(lobe_direction(s.normal, s.to_eye, roughness * roughness,
+                                             pattern_point(pixel / int(args.ray_step))),
+                              face);
+    const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), face, dir);
     const vec3 light = scale * sdfgi_reflection_light(ray, dir, rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));
 }

@@ -18,7 +18,8 @@ struct stage {
     sdfgi_material smooth; /* of nothing that is there: it calls for reflections */
     struct gpu_test_image depth, normal;
     float depths[PIXELS], normals[PIXELS][4];
-    int ridge; /* this column leans towards +x; 0: none does */
+    int ridge;  /* this column leans towards +x; 0: none does */
+    float lean; /* of all other normals: tangent of the angle */
 };
 
 static void fill_picture(struct stage *s)
@@ -28,7 +29,7 @@ static void fill_picture(struct stage *s)
         const bool in_wall = fabsf(3 * u + 2) < 0.6f;
         s->depths[i] = in_wall ? 1.0f : 0.5f;
         const bool leans = s->ridge && i % SIDE == s->ridge;
-        memcpy(s->normals[i], (float[]){ leans, 1, 0, 0 }, sizeof s->normals[i]);
+        memcpy(s->normals[i], (float[]){ leans ? 1 : s->lean, 1, 0, 0 }, sizeof s->normals[i]);
     }
 }
 
@@ -210,6 +211,24 @@ static double mean_luminance(float (*pixels)[4])
     return sum / PIXELS;
 }
 
+/* Normals of a texture lean by 60 degrees: reflected rays would lead into the floor. Right of the wall they
+ * see nothing but sky. */
+static void normals_that_lean_reflect_no_surface_of_their_own(void **state)
+{
+    (void)state;
+    static float reflection[PIXELS][4];
+    stage.lean = 1.732f;
+    open_stage(&stage, 1);
+    stage.lean = 0;
+    sdfgi_view *view = create_view(&stage);
+    resolve(&stage, view, 0);
+    read_picture(&stage, &view->reflection, reflection);
+    for (int i = 0; i < PIXELS; i++)
+        if (i % SIDE > SIDE / 2)
+            REQUIRE_CMP(reflection[i][3], >=, 65000.0f);
+    close_stage(&stage);
+}
+
 /* 64 steps from a mirror to a matt surface. */
 static void roughness_changes_reflections_without_a_step(void **state)
 {
@@ -269,6 +288,14 @@ static uint32_t rays_sent(struct stage *s, const sdfgi_view *view)
     return header[SDFGI_TILES_RAYS + 3];
 }
 
+static bool is_near(const float a[static 4], const float b[static 4])
+{
+    for (int k = 0; k < 4; k++)
+        if (fabs((double)a[k] / (double)b[k] - 1) > 1e-3)
+            return false;
+    return true;
+}
+
 /* A quarter and a sixteenth of the rays, and those of pixels that lie fewer than a step beside the wall,
  * which is background, and of a ridge that lies between rays. */
 static void fewer_rays_show_the_same(void **state)
@@ -299,12 +326,12 @@ static void fewer_rays_show_the_same(void **state)
         for (int i = 0; i < PIXELS; i++)
             REQUIRE_TRUE(other[i][3] >= 0 && (other[i][3] > 0) == (stage.depths[i] < 1));
         for (int i = 13; i < PIXELS && k < 2; i += SIDE)
-            REQUIRE_TRUE(memcmp(other[i], full[i], sizeof other[i]) == 0 && full[i][2] < ZENITH[2]);
+            REQUIRE_TRUE(is_near(other[i], full[i]) && full[i][2] < ZENITH[2]);
         printf("roughness %.1f, a ray every %u pixels: %u rays instead of %u, mean off by %.4f\n",
                (double)roughness[k / 2], step, sent, surfaces, off);
         REQUIRE_CMP(sent, >=, surfaces / (step * step));
         REQUIRE_CMP(sent, <, surfaces / (step * step) + (2 * step + 1) * SIDE);
-        REQUIRE_CMP(off, <=, roughness[k / 2] > 0 ? 0.02 : 1e-6);
+        REQUIRE_CMP(off, <=, roughness[k / 2] > 0 ? 0.02 : 1e-5);
         sdfgi_view_destroy(stage.t.gi, view);
     }
     close_stage(&stage);
@@ -401,6 +428,7 @@ int main(void)
         cmocka_unit_test(a_scene_without_smooth_materials_makes_nothing_for_reflections),
         cmocka_unit_test(surfaces_of_roughness_1_reflect_irradiance),
         cmocka_unit_test(mirrors_show_the_sky_where_nothing_is_above),
+        cmocka_unit_test(normals_that_lean_reflect_no_surface_of_their_own),
         cmocka_unit_test(roughness_changes_reflections_without_a_step),
         cmocka_unit_test(views_have_pictures_of_their_own_and_give_them_back),
         cmocka_unit_test(fewer_rays_show_the_same),
