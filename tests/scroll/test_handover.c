@@ -61,7 +61,7 @@ static void walk_look(struct walk *w, bool first)
 static void walk_start(struct walk *w)
 {
     scroll_stand(&w->t, w->camera);
-    gi_test_converge(&w->t, 400);
+    gi_test_converge(&w->t, scroll_resolution() > 64 ? 4000 : 400);
     w->worst_step = 0;
     walk_look(w, true);
 }

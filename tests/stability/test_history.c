@@ -40,6 +40,9 @@ static const struct histories of_cells = {
     SDFGI_SURFACE_LIGHT_CELLS, { RESOURCE_LIGHT, RESOURCE_SURFACES, RESOURCE_GATHERED }, CODED_PATTERNS, 8
 };
 
+/* Probes keep half floats. Light that crept to its value may have been rounded to the step beside it. */
+#define HALF_FLOAT_STEP (1.0 / 1024)
+
 struct spoiling {
     struct gi_test *t;
     const struct histories *histories;
@@ -85,6 +88,18 @@ static void start_corner(struct gi_test *t, const struct sdfgi_settings *setting
     light_add_box(t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f }, 0.5f);
 }
 
+/* As if light were new, for some frames. Returns how many values were no light. */
+static uint32_t go_on(struct gi_test *t, uint32_t frames)
+{
+    uint32_t spoiled = 0;
+    sdfgi_volume_invalidate(&t->gi->volume);
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        gi_test_update(t, 1);
+        spoiled += values_spoiled(t);
+    }
+    return spoiled;
+}
+
 /* Spoils the histories with each pattern. Returns the largest relative error of light afterwards; until then
  * it must be finite in each frame. */
 static double spoil(struct gi_test *t, const struct histories *histories)
@@ -92,20 +107,16 @@ static double spoil(struct gi_test *t, const struct histories *histories)
     struct sdfgi_settings settings = light_settings(32, 0.4f);
     settings.surface_light = histories->surface_light;
     float before[POINTS][3], found[POINTS][3];
+    const uint32_t frames = histories->cycles * sdfgi_settings_cycle_frames(&settings);
     double worst = 0;
     start_corner(t, &settings);
     gi_test_converge(t, 2000);
     gi_test_irradiance(t, points, POINTS, before);
     for (int i = 0; i < histories->patterns; i++) {
         gpu_test_submit(&t->gpu, record_fill, &(struct spoiling){ t, histories, patterns[i] });
-        uint32_t spoiled = values_spoiled(t);
-        sdfgi_volume_invalidate(&t->gi->volume);
-        const uint32_t frames = histories->cycles * sdfgi_settings_cycle_frames(&settings);
-        for (uint32_t frame = 0; frame < frames; frame++) {
-            gi_test_update(t, 1);
-            spoiled += values_spoiled(t);
-        }
+        const uint32_t spoiled = values_spoiled(t) + go_on(t, frames);
         gi_test_irradiance(t, points, POINTS, found);
+        printf("0x%08x: off by %.2g\n", patterns[i], worst_of(found, before));
         worst = fmax(worst, worst_of(found, before));
         HARD_CASE_AT_MOST(32, "values that are not finite, from the first frame on", spoiled, 0);
     }
@@ -115,7 +126,7 @@ static double spoil(struct gi_test *t, const struct histories *histories)
 static void hard_32_any_bits_in_histories_of_probes_become_light_in_a_cycle(void **state)
 {
     HARD_CASE_AT_MOST(32, "light one sample cycle after any bits in probes, off by",
-                      spoil(*state, &of_probes), 1e-6);
+                      spoil(*state, &of_probes), HALF_FLOAT_STEP);
 }
 
 static void hard_32_any_bits_in_what_cells_keep_are_light_that_fades(void **state)
