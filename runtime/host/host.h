@@ -86,10 +86,11 @@ enum host_aov {
     HOST_AOV_DIRECT,           /* radiance from sun and punctual lights alone */
     HOST_AOV_DIFFUSE_INDIRECT, /* radiance that GI adds: irradiance * diffuse albedo / pi */
     HOST_AOV_IRRADIANCE,       /* indirect irradiance, W/m^2 */
-    HOST_AOV_REFLECTION,       /* indirect specular radiance: zero so far */
+    HOST_AOV_REFLECTION,       /* radiance that leaves the specular part, without sun and punctual lights */
     HOST_AOV_NORMAL,           /* world-space shading normal that faces the viewer */
     HOST_AOV_DEPTH,            /* distance along the camera's axis, metres; 0 where there is only sky */
     HOST_AOV_ALBEDO,           /* diffuse albedo, emission left out */
+    HOST_AOV_ROUGHNESS,        /* perceptual roughness, 1 without a specular part; 0 where there is only sky */
     HOST_AOV_COUNT,
 };
 

@@ -14,6 +14,7 @@ static const char *const aov_names[HOST_AOV_COUNT] = {
     [HOST_AOV_NORMAL] = "normal",
     [HOST_AOV_DEPTH] = "depth",
     [HOST_AOV_ALBEDO] = "albedo",
+    [HOST_AOV_ROUGHNESS] = "roughness",
 };
 
 const char *host_aov_name(enum host_aov aov)

@@ -94,6 +94,15 @@ def indirect_table(results):
     return table(head, rows)
 
 
+def tier_table(results):
+    rows = []
+    for scene in results["scenes"]:
+        for tier, measures in scene["tiers"].items():
+            name = link(scene) if tier == "all" else ""
+            rows.append([name, tier, f"{100 * measures['share']:.1f}", *cells(measures)])
+    return table(["scene", "tier", "% of pixels", "ratio", "relMSE", "FLIP", "p99"], rows)
+
+
 def leak_limit(scene):
     return LEAK_MAX if scene["wall_m"] >= scenes.CELL_M else LEAK_MAX_THIN
 
@@ -163,6 +172,10 @@ FINER = """*Finer* is the same with half the cell size, and so half the probe sp
 SPLIT = """*Transport* compares the renderer with the truth over voxels. That is the same path tracer, in which every
 ray but the camera's meets what the renderer's rays meet. *Voxels* compares the two truths."""
 
+TIERS = """What leaves the specular part of surfaces, without sun and punctual lights, against the truth over triangles, by
+roughness: *sharp* below 0.4 sends a ray over the lobe, *rough* from 0.7 on takes irradiance, and *medium* blends
+the two."""
+
 LEAK = """The closed room is black in truth. A leak is the mean of its indirect light over that of the lit room
 (`{lit}`).
 """
@@ -204,6 +217,7 @@ def text(results, docs):
     parts = ["# Accuracy", notes[""], how(results), "## The picture", picture_table(results)]
     legend = [ALL] + [FINER] * results["options"]["finer"] + [SPLIT] * results["voxels"]
     parts += ["## Indirect light", "\n".join(legend), indirect_table(results)]
+    parts += ["## Reflected light", TIERS, tier_table(results)]
     parts += before(notes) + front(notes, docs)
     parts += ["## Leaks", LEAK.format(lit="two_rooms_lit"), leak_table(results), "## Scene by scene"]
     parts += [STRIPS]

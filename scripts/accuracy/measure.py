@@ -23,6 +23,12 @@ OPTIONS = ("size", "frames", "ssaa", "spp", "error", "set", "finer")
 
 PARTS = ("picture", "indirect")
 
+# Of roughness: a ray over the lobe, a blend of that and irradiance, and irradiance alone (shaders/shared/constants.h).
+TIERS = {"sharp": (0, 0.4), "medium": (0.4, 0.7), "rough": (0.7, 2)}
+
+# A tier that fewer pixels show than this share says nothing.
+MIN_SHARE = 0.005
+
 # The same extent in cells, and between probes, of half the edge.
 FINER = ["--set", "sdfgi_resolution=256", "--set", "sdfgi_min_cell_size=0.1"]
 
@@ -87,6 +93,8 @@ def render(bench, scene, kind, settings):
         [bench.program, "render", scene["file"], "--view", scene["view"], "--size", bench.args.size]
         + ["--frames", bench.args.frames, "--ssaa", bench.args.ssaa, *settings, "--report", report]
         + ["--aov", f"diffuse_indirect={bench.path(scene, kind + '.indirect')}"]
+        + ["--aov", f"reflection={bench.path(scene, kind + '.reflection')}"]
+        + ["--aov", f"roughness={bench.path(scene, kind + '.roughness')}"]
         + ["--out", bench.path(scene, kind + ".picture")],
     )
     return json.loads(report.read_text(encoding="utf-8"))
@@ -101,6 +109,7 @@ def trace(bench, scene, geometry):
     if geometry == "voxels":
         command += bench.settings()
     command += ["--aov", f"diffuse_indirect={bench.path(scene, geometry + '.indirect')}"]
+    command += ["--aov", f"reflection={bench.path(scene, geometry + '.reflection')}"]
     command += ["--aov", f"variance={bench.path(scene, geometry + '.variance')}"]
     command += ["--out", bench.path(scene, geometry + ".picture")]
     output = bench.make(scene, geometry, command)
@@ -127,22 +136,34 @@ def noise(bench, scene, geometry):
     return sum(terms) / len(terms)
 
 
+def pixel_count(bench):
+    width, height = map(int, bench.args.size.split("x"))
+    return width * height
+
+
+def write_pixels(bench, scene, kind, shown):
+    """A picture of what to compare: white where `shown` says so, which lists pixels from the bottom."""
+    values = array.array("f", [float(white) for white in shown for _channel in range(3)])
+    if sys.byteorder == "big":
+        values.byteswap()
+    width, height = map(int, bench.args.size.split("x"))
+    path = bench.path(scene, kind)
+    path.write_bytes(f"PF\n{width} {height}\n-1.0\n".encode("ascii") + values.tobytes())
+    return path
+
+
 def write_mask(bench, scene):
     """A picture that is black where no comparison is due; None where all counts."""
     if not scene["mask"]:
         return None
     width, height = map(int, bench.args.size.split("x"))
     left, top, right, bottom = scene["mask"]
-    values = array.array("f")
-    for y in range(height - 1, -1, -1):  # from the bottom, as the format has it
-        for x in range(width):
-            hidden = left * width <= x + 0.5 < right * width and top * height <= y + 0.5 < bottom * height
-            values.extend([0.0 if hidden else 1.0] * 3)
-    if sys.byteorder == "big":
-        values.byteswap()
-    path = bench.path(scene, "mask")
-    path.write_bytes(f"PF\n{width} {height}\n-1.0\n".encode("ascii") + values.tobytes())
-    return path
+    shown = [
+        not (left * width <= x + 0.5 < right * width and top * height <= y + 0.5 < bottom * height)
+        for y in range(height - 1, -1, -1)
+        for x in range(width)
+    ]
+    return write_pixels(bench, scene, "mask", shown)
 
 
 def compare(bench, scene, pair, part, mask):
@@ -165,6 +186,22 @@ def compare_all(bench, scene):
     return {
         f"{a}/{b}": {part: compare(bench, scene, (a, b), part, mask) for part in PARTS} for a, b in pairs
     }
+
+
+def compare_tiers(bench, scene):
+    """Per tier: its share of the pixels, and how far reflected light is from the truth. Pixels show surfaces."""
+    if not any(read_pfm(bench.path(scene, "triangles.reflection"))):
+        return {}
+    roughness = read_pfm(bench.path(scene, "renderer.roughness"))[::3]
+    tiers = {"all": (0, 2)} | TIERS
+    found = {}
+    for tier, (low, high) in tiers.items():
+        shown = [value > 0 and low <= value < high for value in roughness]
+        share = sum(shown) / pixel_count(bench)
+        if share >= MIN_SHARE:
+            mask = write_pixels(bench, scene, tier, shown)
+            found[tier] = {"share": share} | compare(bench, scene, ("renderer", "triangles"), "reflection", mask)
+    return found
 
 
 def is_finer(bench, scene):
@@ -205,15 +242,17 @@ def measure(args, chosen):
             job.result()
     with concurrent.futures.ThreadPoolExecutor() as pool:
         measures = list(pool.map(lambda scene: compare_all(bench, scene), chosen))
+        tiers = list(pool.map(lambda scene: compare_tiers(bench, scene), chosen))
     results = {"options": {key: getattr(args, key) for key in OPTIONS}, "voxels": bench.voxels}
     results["scenes"] = []
-    for scene, measured in zip(chosen, measures):
+    for scene, measured, reflected in zip(chosen, measures, tiers):
         report = rendered[scene["name"]].result()
         results["device"] = report["device"]["name"]
         row = {key: scene[key] for key in ("name", "shows", "exact", "wall_m", "lit")}
         row["run"] = frame_count(report)
         row["truth"] = {geometry: traced[scene["name"], geometry].result() for geometry in geometries}
         row["measures"] = measured
+        row["tiers"] = reflected
         results["scenes"].append(row)
     strip.shrink_all(bench, chosen)
     return results

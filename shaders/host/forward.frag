@@ -85,14 +85,19 @@ brdf_surface surface_here(vec4 base_color, bool front_facing)
     return s;
 }
 
+float perceptual_roughness(brdf_surface s)
+{
+    return s.specular > 0.0 ? sqrt(s.alpha) : 1.0;
+}
+
 /* Light that comes round corners: irradiance, and what the specular lobe reflects of it. */
 void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
 {
     irradiance = reflection = vec3(0.0);
 #if defined(HOST_GI)
     const vec3 to_eye = frame.camera_position.xyz - in_position;
-    const float roughness = s.specular > 0.0 ? sqrt(s.alpha) : 1.0;
-    const sdfgi_surface_light light = sdfgi_lighting(in_position, s.normal, to_eye, roughness);
+    const sdfgi_surface_light light =
+        sdfgi_lighting(in_position, s.normal, to_eye, perceptual_roughness(s));
     irradiance = light.irradiance;
     reflection = light.reflection * s.specular * brdf_specular_albedo(s);
 #elif defined(HOST_GATHERED)
@@ -122,6 +127,8 @@ vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 reflection, 
         return vec3(dot(frame.camera_forward.xyz, in_position - frame.camera_position.xyz));
     case HOST_SHOW_ALBEDO:
         return s.diffuse;
+    case HOST_SHOW_ROUGHNESS:
+        return vec3(perceptual_roughness(s));
     default:
         return direct + indirect + reflection + emission;
     }

@@ -45,6 +45,7 @@
 #define HOST_SHOW_NORMAL           5
 #define HOST_SHOW_DEPTH            6
 #define HOST_SHOW_ALBEDO           7
+#define HOST_SHOW_ROUGHNESS        8
 
 #define HOST_MATERIAL_MASK         1u
 #define HOST_MATERIAL_BLEND        2u
