@@ -91,12 +91,40 @@ struct gpu_functions {
     PFN_vkCmdEndDebugUtilsLabelEXT CmdEndDebugUtilsLabelEXT;
 };
 
+/* What an object needs memory for. */
+struct gpu_memory_request {
+    VkMemoryRequirements needs;
+    VkMemoryPropertyFlags required, preferred;
+    bool mapped;     /* the host reads or writes it */
+    VkBuffer buffer; /* the object: this or that one */
+    VkImage image;
+    uint64_t bytes;    /* that the caller asked for; of an image those that it needs */
+    uint32_t category; /* the caller's */
+    const char *name;  /* static */
+};
+
+struct gpu_memory {
+    VkDeviceMemory handle;
+    VkDeviceSize offset, size;
+    void *mapped; /* its first byte; NULL: it is not mapped */
+    bool coherent;
+    void *allocation; /* the allocator's */
+};
+
+/* Where memory comes from. `free` gets nothing but what `allocate` gave. */
+struct gpu_allocator {
+    VkResult (*allocate)(void *user, const struct gpu_memory_request *request, struct gpu_memory *memory);
+    void (*free)(void *user, const struct gpu_memory *memory);
+    void *user;
+};
+
 /* A device of the host's. */
 struct gpu_device {
     struct gpu_functions fn;
     VkDevice handle;
     const VkAllocationCallbacks *callbacks; /* may be NULL */
     VkPipelineCache pipeline_cache;         /* for every pipeline; may be VK_NULL_HANDLE. Set it after init */
+    struct gpu_allocator allocator;         /* NULL: each object gets memory of its own. Set it after init */
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
     VkQueueFlags queue_flags; /* of the queue family; 0: there is no such family */
@@ -122,23 +150,23 @@ VkResult gpu_named(const struct gpu_device *device, VkResult result, VkObjectTyp
 
 struct gpu_buffer {
     VkBuffer handle;
-    VkDeviceMemory memory;
+    struct gpu_memory memory; /* mapped: host-visible buffers only */
     uint64_t size;
-    void *mapped; /* host-visible buffers only */
-    bool coherent;
 };
 
 struct gpu_image {
     VkImage handle;
     VkImageView view;
-    VkDeviceMemory memory;
+    struct gpu_memory memory;
     uint64_t size;
 };
 
 enum gpu_placement { GPU_DEVICE_LOCAL, GPU_HOST_READ };
 
+/* `category` and `name` are for the allocator. */
 VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
-                         VkBufferUsageFlags usage, enum gpu_placement placement, const char *name);
+                         VkBufferUsageFlags usage, enum gpu_placement placement, uint32_t category,
+                         const char *name);
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer);
 
 /* Fills a host-visible buffer with zeros that the device sees in all work submitted later. */
@@ -150,7 +178,7 @@ VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu
 /* A 2D image, or an array if there are several layers, device local, with a view of all layers. */
 VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
                         uint32_t width, uint32_t height, uint32_t layers, VkImageUsageFlags usage,
-                        const char *name);
+                        uint32_t category, const char *name);
 void gpu_image_finish(const struct gpu_device *device, struct gpu_image *image);
 
 /* ---- Pipelines: gpu_pipeline.c */

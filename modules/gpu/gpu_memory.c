@@ -32,41 +32,81 @@ static uint32_t memory_type(const struct gpu_device *device, uint32_t allowed, e
     return found;
 }
 
-static VkResult allocate(const struct gpu_device *device, const VkMemoryRequirements *needs,
-                         enum gpu_placement placement, const char *name, VkDeviceMemory *memory,
-                         uint32_t *type)
+/* Memory for this object alone. */
+static VkResult allocate_own(const struct gpu_device *device, const struct gpu_memory_request *request,
+                             enum gpu_placement placement, struct gpu_memory *memory)
 {
-    *type = memory_type(device, needs->memoryTypeBits, placement);
-    if (*type == UINT32_MAX)
+    const uint32_t type = memory_type(device, request->needs.memoryTypeBits, placement);
+    if (type == UINT32_MAX)
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    const VkResult result = device->fn.AllocateMemory(device->handle,
-                                                      &(VkMemoryAllocateInfo){
-                                                          .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                                          .allocationSize = needs->size,
-                                                          .memoryTypeIndex = *type,
-                                                      },
-                                                      device->callbacks, memory);
-    return gpu_named(device, result, VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
+    memory->coherent = device->memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    VkResult result = device->fn.AllocateMemory(device->handle,
+                                                &(VkMemoryAllocateInfo){
+                                                    .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                                    .allocationSize = request->needs.size,
+                                                    .memoryTypeIndex = type,
+                                                },
+                                                device->callbacks, &memory->handle);
+    result = gpu_named(device, result, VK_OBJECT_TYPE_DEVICE_MEMORY, &memory->handle, request->name);
+    if (result != VK_SUCCESS || !request->mapped)
+        return result;
+    return device->fn.MapMemory(device->handle, memory->handle, 0, VK_WHOLE_SIZE, 0, &memory->mapped);
+}
+
+static VkDeviceSize round_up(VkDeviceSize value, VkDeviceSize unit)
+{
+    return unit > 0 ? (value + unit - 1) / unit * unit : value;
+}
+
+/* Ranges that are flushed begin and end at atoms, and none reaches into a neighbour's memory. */
+static void widen_to_atoms(const struct gpu_device *device, VkMemoryRequirements *needs)
+{
+    const VkDeviceSize atom = device->limits.nonCoherentAtomSize;
+    needs->alignment = needs->alignment > atom ? needs->alignment : atom;
+    needs->size = round_up(needs->size, atom);
+}
+
+static VkResult allocate(const struct gpu_device *device, const struct gpu_memory_request *request,
+                         enum gpu_placement placement, struct gpu_memory *memory)
+{
+    struct gpu_memory_request asked = *request;
+    asked.required = placements[placement].required;
+    asked.preferred = placements[placement].preferred;
+    asked.mapped = placement == GPU_HOST_READ;
+    if (!device->allocator.allocate)
+        return allocate_own(device, &asked, placement, memory);
+    if (asked.mapped)
+        widen_to_atoms(device, &asked.needs);
+    const VkResult result = device->allocator.allocate(device->allocator.user, &asked, memory);
+    memory->size = asked.needs.size;
+    return result;
+}
+
+static void release(const struct gpu_device *device, const struct gpu_memory *memory)
+{
+    if (!device->allocator.free)
+        device->fn.FreeMemory(device->handle, memory->handle, device->callbacks);
+    else if (memory->handle)
+        device->allocator.free(device->allocator.user, memory);
 }
 
 static VkResult buffer_back(const struct gpu_device *device, struct gpu_buffer *buffer,
-                            enum gpu_placement placement, const char *name)
+                            enum gpu_placement placement, uint32_t category, const char *name)
 {
-    VkMemoryRequirements needs;
-    device->fn.GetBufferMemoryRequirements(device->handle, buffer->handle, &needs);
-    uint32_t type;
-    VkResult result = allocate(device, &needs, placement, name, &buffer->memory, &type);
+    struct gpu_memory_request request = {
+        .buffer = buffer->handle, .bytes = buffer->size, .category = category, .name = name
+    };
+    device->fn.GetBufferMemoryRequirements(device->handle, buffer->handle, &request.needs);
+    const VkResult result = allocate(device, &request, placement, &buffer->memory);
     if (result != VK_SUCCESS)
         return result;
-    buffer->coherent = device->memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    result = device->fn.BindBufferMemory(device->handle, buffer->handle, buffer->memory, 0);
-    if (result != VK_SUCCESS || placement == GPU_DEVICE_LOCAL)
-        return result;
-    return device->fn.MapMemory(device->handle, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->mapped);
+    return device->fn.BindBufferMemory(device->handle, buffer->handle, buffer->memory.handle,
+                                       buffer->memory.offset);
 }
 
 VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
-                         VkBufferUsageFlags usage, enum gpu_placement placement, const char *name)
+                         VkBufferUsageFlags usage, enum gpu_placement placement, uint32_t category,
+                         const char *name)
 {
     memset(buffer, 0, sizeof *buffer);
     buffer->size = size;
@@ -79,7 +119,7 @@ VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buf
                                               },
                                               device->callbacks, &buffer->handle);
     if (result == VK_SUCCESS)
-        result = buffer_back(device, buffer, placement, name);
+        result = buffer_back(device, buffer, placement, category, name);
     if (result != VK_SUCCESS) {
         gpu_buffer_finish(device, buffer);
         return result;
@@ -90,34 +130,35 @@ VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buf
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer)
 {
     device->fn.DestroyBuffer(device->handle, buffer->handle, device->callbacks);
-    device->fn.FreeMemory(device->handle, buffer->memory, device->callbacks);
+    release(device, &buffer->memory);
     memset(buffer, 0, sizeof *buffer);
+}
+
+/* What a host's allocator gave is a part of the memory, and may or may not be coherent. */
+static VkMappedMemoryRange range_of(const struct gpu_memory *memory)
+{
+    return (VkMappedMemoryRange){ .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
+                                  .memory = memory->handle,
+                                  .offset = memory->offset,
+                                  .size = memory->size > 0 ? memory->size : VK_WHOLE_SIZE };
 }
 
 VkResult gpu_buffer_zero(const struct gpu_device *device, const struct gpu_buffer *buffer)
 {
-    assert(buffer->mapped);
-    memset(buffer->mapped, 0, buffer->size);
-    if (buffer->coherent)
+    const VkMappedMemoryRange range = range_of(&buffer->memory);
+    assert(buffer->memory.mapped);
+    memset(buffer->memory.mapped, 0, buffer->size);
+    if (buffer->memory.coherent)
         return VK_SUCCESS;
-    return device->fn.FlushMappedMemoryRanges(device->handle, 1,
-                                              &(VkMappedMemoryRange){
-                                                  .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
-                                                  .memory = buffer->memory,
-                                                  .size = VK_WHOLE_SIZE,
-                                              });
+    return device->fn.FlushMappedMemoryRanges(device->handle, 1, &range);
 }
 
 VkResult gpu_buffer_invalidate(const struct gpu_device *device, const struct gpu_buffer *buffer)
 {
-    if (buffer->coherent)
+    const VkMappedMemoryRange range = range_of(&buffer->memory);
+    if (buffer->memory.coherent)
         return VK_SUCCESS;
-    return device->fn.InvalidateMappedMemoryRanges(device->handle, 1,
-                                                   &(VkMappedMemoryRange){
-                                                       .sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE,
-                                                       .memory = buffer->memory,
-                                                       .size = VK_WHOLE_SIZE,
-                                                   });
+    return device->fn.InvalidateMappedMemoryRanges(device->handle, 1, &range);
 }
 
 static VkResult image_view(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
@@ -135,21 +176,22 @@ static VkResult image_view(const struct gpu_device *device, struct gpu_image *im
         device->callbacks, &image->view);
 }
 
-static VkResult image_back(const struct gpu_device *device, struct gpu_image *image, const char *name)
+static VkResult image_back(const struct gpu_device *device, struct gpu_image *image, uint32_t category,
+                           const char *name)
 {
-    VkMemoryRequirements needs;
-    device->fn.GetImageMemoryRequirements(device->handle, image->handle, &needs);
-    image->size = needs.size;
-    uint32_t type;
-    const VkResult result = allocate(device, &needs, GPU_DEVICE_LOCAL, name, &image->memory, &type);
+    struct gpu_memory_request request = { .image = image->handle, .category = category, .name = name };
+    device->fn.GetImageMemoryRequirements(device->handle, image->handle, &request.needs);
+    image->size = request.bytes = request.needs.size;
+    const VkResult result = allocate(device, &request, GPU_DEVICE_LOCAL, &image->memory);
     if (result != VK_SUCCESS)
         return result;
-    return device->fn.BindImageMemory(device->handle, image->handle, image->memory, 0);
+    return device->fn.BindImageMemory(device->handle, image->handle, image->memory.handle,
+                                      image->memory.offset);
 }
 
 VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image, VkFormat format,
                         uint32_t width, uint32_t height, uint32_t layers, VkImageUsageFlags usage,
-                        const char *name)
+                        uint32_t category, const char *name)
 {
     memset(image, 0, sizeof *image);
     VkResult result = device->fn.CreateImage(device->handle,
@@ -165,7 +207,7 @@ VkResult gpu_image_init(const struct gpu_device *device, struct gpu_image *image
                                              },
                                              device->callbacks, &image->handle);
     if (result == VK_SUCCESS)
-        result = image_back(device, image, name);
+        result = image_back(device, image, category, name);
     if (result == VK_SUCCESS)
         result = gpu_named(device, image_view(device, image, format, layers), VK_OBJECT_TYPE_IMAGE_VIEW,
                            &image->view, name);
@@ -180,6 +222,6 @@ void gpu_image_finish(const struct gpu_device *device, struct gpu_image *image)
 {
     device->fn.DestroyImageView(device->handle, image->view, device->callbacks);
     device->fn.DestroyImage(device->handle, image->handle, device->callbacks);
-    device->fn.FreeMemory(device->handle, image->memory, device->callbacks);
+    release(device, &image->memory);
     memset(image, 0, sizeof *image);
 }

@@ -23,6 +23,10 @@ static struct problem desc_problem(const struct sdfgi_desc *d)
     if (!d->allocator.alloc != !d->allocator.free)
         sdfgi_problem_add(&p, "allocator.%s is null, must be set where allocator.%s is",
                           d->allocator.alloc ? "free" : "alloc", d->allocator.alloc ? "alloc" : "free");
+    if (!d->device_allocator.allocate != !d->device_allocator.free)
+        sdfgi_problem_add(&p, "device_allocator.%s is null, must be set where device_allocator.%s is",
+                          d->device_allocator.allocate ? "free" : "allocate",
+                          d->device_allocator.allocate ? "allocate" : "free");
     return p;
 }
 
@@ -48,6 +52,7 @@ static VkResult import_device(struct backend *backend, const struct sdfgi_desc *
         gpu_device_init(&backend->device, v->instance, v->physical_device, v->device, v->queue_family_index,
                         v->get_instance_proc_addr, v->allocation_callbacks ? &backend->callbacks : NULL);
     backend->device.pipeline_cache = desc->pipeline_cache;
+    sdfgi_backend_set_allocator(backend, &desc->device_allocator);
     return result;
 }
 
@@ -89,7 +94,10 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     if (result == SDFGI_OK)
         result = check_queue_family(gi, desc);
     if (result == SDFGI_OK)
-        result = sdfgi_message_vulkan(hooks, sdfgi_pipelines_init(&gi->backend), "sdfgi_create: pipelines");
+        result = sdfgi_message_vulkan(hooks, sdfgi_pipelines_init(&gi->backend), "sdfgi_create: layouts");
+    if (result == SDFGI_OK && !desc->pipelines_later)
+        result =
+            sdfgi_message_vulkan(hooks, sdfgi_pipelines_require_all(&gi->backend), "sdfgi_create: pipelines");
     if (result == SDFGI_OK)
         result = sdfgi_message_vulkan(hooks, sdfgi_blank_set_init(&gi->backend, &gi->blank),
                                       "sdfgi_create: the blank set");
@@ -113,7 +121,8 @@ enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out)
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &hooks, "sdfgi_create");
     struct sdfgi *gi = sdfgi_hooks_alloc_zeroed(&hooks, sizeof *gi);
-    if (!gi) {
+    if (!gi || pthread_mutex_init(&gi->backend.lock, NULL) != 0) {
+        sdfgi_hooks_free(&hooks, gi);
         sdfgi_message_log(&hooks, SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "sdfgi_create: out of host memory");
         return SDFGI_ERROR_OUT_OF_MEMORY;
     }
@@ -140,6 +149,7 @@ void sdfgi_destroy(sdfgi *gi)
     struct backend *backend = &gi->backend;
     /* Without a device nothing was made from it. */
     if (backend->device.handle) {
+        sdfgi_preparation_finish(gi);
         sdfgi_volume_finish(&gi->volume);
         gpu_retire_all(&backend->retired);
         sdfgi_views_finish(backend, &gi->views);
@@ -149,6 +159,7 @@ void sdfgi_destroy(sdfgi *gi)
         sdfgi_pipelines_finish(backend);
     }
     const struct hooks hooks = backend->hooks;
+    pthread_mutex_destroy(&backend->lock);
     sdfgi_hooks_free(&hooks, gi);
 }
 
@@ -166,26 +177,49 @@ static enum sdfgi_result check_settings(struct sdfgi *gi, const struct sdfgi_set
 
 static void log_switched(const struct sdfgi *gi, const struct sdfgi_settings *settings)
 {
-    const double mib = (double)gi->backend.held.total_bytes / (1024 * 1024);
+    const double mib = (double)sdfgi_backend_held(&gi->backend).total_bytes / (1024 * 1024);
     if (settings->enabled)
         sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_SWITCHED,
                           "sdfgi_set_settings: on, %u cascades of %u^3 cells; %.1f MiB are held",
                           (unsigned)settings->cascades, (unsigned)settings->resolution, mib);
     else
-        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_SWITCHED,
-                          "sdfgi_set_settings: off; %.1f MiB are held until the frames in flight are over",
-                          mib);
+        sdfgi_message_log(
+            &gi->backend.hooks, SDFGI_MESSAGE_SWITCHED, "sdfgi_set_settings: off; %.1f MiB are %s", mib,
+            gi->volume.resources ? "kept, as prepared" : "held until the frames in flight are over");
 }
 
-static enum sdfgi_result replace_resources(struct sdfgi *gi, const struct sdfgi_settings *settings)
+/* New volumes: those that have been prepared, or else made now. */
+static enum sdfgi_result replace_volumes(struct sdfgi *gi, const struct sdfgi_settings *settings)
 {
-    struct resources *created = NULL;
-    if (settings->enabled) {
-        const enum sdfgi_result result = sdfgi_resources_create(&gi->backend, settings, &created);
+    enum sdfgi_result result = sdfgi_message_vulkan(
+        &gi->backend.hooks, sdfgi_pipelines_require_all(&gi->backend), "switching on: pipelines");
+    if (result != SDFGI_OK)
+        return result;
+    struct resources *volumes = sdfgi_preparation_take(gi, settings);
+    if (!volumes)
+        result = sdfgi_resources_create(&gi->backend, settings, &volumes);
+    if (result == SDFGI_OK)
+        sdfgi_volume_reset(&gi->volume, volumes, settings);
+    return result;
+}
+
+/* Makes, replaces, keeps or releases the volumes, as the settings call for. */
+static enum sdfgi_result change_volumes(struct sdfgi *gi, const struct sdfgi_settings *settings)
+{
+    const struct resources *r = gi->volume.resources;
+    const bool fit = r && !sdfgi_settings_recreate(settings, &r->settings);
+    if (settings->enabled && !fit) {
+        const enum sdfgi_result result = replace_volumes(gi, settings);
         if (result != SDFGI_OK)
             return result;
+    } else if (settings->enabled == gi->settings.enabled) {
+        return SDFGI_OK;
+    } else if (!settings->enabled && sdfgi_preparation_keeps(gi)) {
+        sdfgi_volume_pause(&gi->volume);
+    } else if (!settings->enabled) {
+        sdfgi_volume_reset(&gi->volume, NULL, settings);
     }
-    sdfgi_volume_reset(&gi->volume, created, settings);
+    sdfgi_preparation_note(gi);
     memset(gi->passes, 0, sizeof gi->passes);
     log_switched(gi, settings);
     return SDFGI_OK;
@@ -196,13 +230,12 @@ enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *set
     if (gi->backend.hooks.device_lost)
         return SDFGI_ERROR_DEVICE_LOST;
     enum sdfgi_result result = check_settings(gi, settings);
+    if (result == SDFGI_OK)
+        result = change_volumes(gi, settings);
     if (result != SDFGI_OK)
         return result;
-    const bool held = gi->volume.resources != NULL;
-    if (settings->enabled != held || (held && sdfgi_settings_recreate(settings, &gi->settings)))
-        result = replace_resources(gi, settings);
-    if (result != SDFGI_OK)
-        return result;
+    /* The switch alone changes nothing that light depends on. */
+    gi->settings.enabled = settings->enabled;
     if (!sdfgi_settings_same(settings, &gi->settings))
         sdfgi_volume_invalidate(&gi->volume);
     gi->settings = *settings;
@@ -216,7 +249,8 @@ void sdfgi_get_settings(const sdfgi *gi, struct sdfgi_settings *settings)
 
 void sdfgi_reset(sdfgi *gi)
 {
-    sdfgi_volume_forget(&gi->volume, &gi->settings);
+    const struct resources *r = gi->volume.resources;
+    sdfgi_volume_forget(&gi->volume, r ? &r->settings : &gi->settings);
     /* To a new context all lights are new, too. */
     sdfgi_gathering_outdate(&gi->volume.state.gathering);
 }
@@ -232,7 +266,7 @@ uint32_t sdfgi_version(void)
 
 bool sdfgi_is_active(const sdfgi *gi)
 {
-    return gi->volume.state.updates > 0;
+    return gi->settings.enabled && gi->volume.state.updates > 0 && !gi->volume.state.paused;
 }
 
 VkDescriptorSetLayout sdfgi_get_descriptor_set_layout(const sdfgi *gi)

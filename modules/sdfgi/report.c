@@ -108,7 +108,8 @@ void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report)
     report->converged = active && sdfgi_volume_has_settled(&gi->volume);
     report->converged_fraction = active ? converged_fraction(&gi->volume) : 0.0f;
     report->command_count = gi->command_count;
-    report->memory = gi->backend.held;
+    report->memory = sdfgi_backend_held(&gi->backend);
+    report->prepared = sdfgi_prepared(gi);
     report_passes(gi, report);
     if (active) {
         report_health(gi, report);

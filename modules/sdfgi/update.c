@@ -85,7 +85,7 @@ static enum sdfgi_result read_back(struct sdfgi *gi, uint32_t slot)
 enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc)
 {
     struct problem problem = frame_problem(desc);
-    if (gi->volume.resources && !cmd)
+    if (gi->settings.enabled && !cmd)
         sdfgi_problem_add(&problem, "cmd is null");
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_update");
@@ -98,7 +98,8 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     gi->can_cancel = true;
     gi->exposure_hint = desc->exposure > 0 ? desc->exposure : 1;
     gpu_retire_collect(&gi->backend.retired);
-    if (!gi->volume.resources) {
+    if (!gi->settings.enabled) {
+        gi->volume.undo.valid = false; /* this update is the last one, and has nothing to undo */
         report_off(gi);
         return SDFGI_OK;
     }

@@ -33,8 +33,10 @@ bool host_lookup_init(struct host_renderer *renderer, uint32_t width, uint32_t h
         [HOST_LOOKUP_QUARTER] = SDFGI_GATHER_QUARTER,
     };
     const struct host_lookups *lookups = &renderer->lookups;
-    const struct sdfgi_view_desc desc = { width, height, resolutions[lookups->diffuse],
-                                          resolutions[lookups->reflection] };
+    const struct sdfgi_view_desc desc = { .width = width,
+                                          .height = height,
+                                          .diffuse = resolutions[lookups->diffuse],
+                                          .reflection = resolutions[lookups->reflection] };
     if (lookups->diffuse == HOST_LOOKUP_FORWARD)
         return true;
     renderer->targets.view = host_gi_view_create(renderer->gi, &desc);

@@ -29,15 +29,20 @@ struct sdfgi_settings gi_test_settings(void)
     return s;
 }
 
-static void create(struct gi_test *t, const struct sdfgi_settings *settings)
+struct sdfgi_desc gi_test_desc(struct gi_test *t, const struct sdfgi_settings *settings)
 {
-    const struct sdfgi_desc desc = {
+    return (struct sdfgi_desc){
         .vulkan = { t->gpu.instance, t->gpu.physical_device, t->gpu.device, t->gpu.queue_family_index,
                     vkGetInstanceProcAddr, NULL },
         .frames_in_flight = 2,
         .settings = settings,
         .log = { log_message, t },
     };
+}
+
+static void create(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    const struct sdfgi_desc desc = gi_test_desc(t, settings);
     REQUIRE_CMP(sdfgi_create(&desc, &t->gi), ==, SDFGI_OK);
 }
 

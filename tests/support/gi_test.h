@@ -31,6 +31,9 @@ void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings);
  * than most scenes of tests. Opens what is closed. */
 void gi_test_renew(struct gi_test *t, const struct sdfgi_settings *settings);
 
+/* What such a context is made from: for tests that open the device and make the context themselves. */
+struct sdfgi_desc gi_test_desc(struct gi_test *t, const struct sdfgi_settings *settings);
+
 /* Small and quick: 64 cells a side, one cascade, 0.25 m, enabled. */
 struct sdfgi_settings gi_test_settings(void);
 

@@ -101,7 +101,7 @@ static uint32_t chosen_for(uint32_t allowed, enum gpu_placement placement)
     const struct gpu_device device = device_make(many, sizeof many / sizeof *many);
     struct gpu_buffer buffer;
     fake = (struct fake){ .allowed = allowed, .chosen = UINT32_MAX };
-    const VkResult result = gpu_buffer_init(&device, &buffer, 64, 0, placement, "buffer");
+    const VkResult result = gpu_buffer_init(&device, &buffer, 64, 0, placement, 0, "buffer");
     assert_int_equal(result, fake.chosen == UINT32_MAX ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_SUCCESS);
     return fake.chosen;
 }
@@ -134,7 +134,7 @@ static void memory_that_is_not_coherent_is_invalidated(void **state)
     const struct gpu_device device = device_make(incoherent, 2);
     struct gpu_buffer buffer;
     fake = (struct fake){ .allowed = 3 };
-    assert_int_equal(gpu_buffer_init(&device, &buffer, 64, 0, GPU_HOST_READ, "buffer"), VK_SUCCESS);
+    assert_int_equal(gpu_buffer_init(&device, &buffer, 64, 0, GPU_HOST_READ, 0, "buffer"), VK_SUCCESS);
     assert_int_equal(gpu_buffer_invalidate(&device, &buffer), VK_SUCCESS);
     assert_int_equal(fake.invalidated, 1);
 }

@@ -63,6 +63,8 @@ enum sdfgi_result sdfgi_message_vulkan(struct hooks *hooks, VkResult result, con
         hooks->device_lost = true;
         sdfgi_message_log(hooks, SDFGI_MESSAGE_DEVICE_LOST, "%s: the device was lost", what);
         return SDFGI_ERROR_DEVICE_LOST;
+    case VK_ERROR_VALIDATION_FAILED_EXT: /* of the host's allocator: what is wrong has been said */
+        return SDFGI_ERROR_INVALID_ARGUMENT;
     default:
         sdfgi_message_log(hooks, SDFGI_MESSAGE_VULKAN_FAILURE, "%s: VkResult %d", what, (int)result);
         return SDFGI_ERROR_UNSUPPORTED;

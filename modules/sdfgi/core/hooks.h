@@ -5,11 +5,13 @@
 
 #include <sdfgi/sdfgi.h>
 
+#include <stdatomic.h>
+
 struct hooks {
     struct sdfgi_log log;
     bool log_info;
     struct sdfgi_allocator allocator;
-    bool device_lost;
+    atomic_bool device_lost;
 };
 
 void sdfgi_message_log(const struct hooks *hooks, enum sdfgi_message id, const char *format, ...)

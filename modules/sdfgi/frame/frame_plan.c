@@ -251,6 +251,7 @@ void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settin
                             struct volume_state *state)
 {
     *state = frame->next;
+    state->paused = false;
     state->updates++;
     if (sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))
         sdfgi_accumulation_show(&state->accumulation, frame->cycle_ends);
@@ -278,7 +279,7 @@ void sdfgi_frame_commit(const struct frame *frame, const struct sdfgi_settings *
     sdfgi_frame_next_state(frame, settings, &volume->state);
     struct feedback_slot *slot = &volume->feedback.slots[sdfgi_backend_slot(volume->backend)];
     *slot = sdfgi_frame_feedback(frame);
-    volume->used = true;
+    volume->resources->used = true;
     slot->number = sdfgi_backend_number(volume->backend);
     if (!frame->situation.converged)
         volume->gaps = (struct volume_gaps){ 0 };

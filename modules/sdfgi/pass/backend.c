@@ -11,25 +11,47 @@ uint32_t sdfgi_backend_number(const struct backend *backend)
     return (uint32_t)backend->retired.frame;
 }
 
+static void hold(struct backend *backend, enum sdfgi_memory_category category, uint64_t bytes)
+{
+    pthread_mutex_lock(&backend->lock);
+    backend->held.bytes[category] += bytes;
+    backend->held.total_bytes += bytes;
+    pthread_mutex_unlock(&backend->lock);
+}
+
+static void let_go(struct backend *backend, enum sdfgi_memory_category category, uint64_t bytes)
+{
+    pthread_mutex_lock(&backend->lock);
+    backend->held.bytes[category] -= bytes;
+    backend->held.total_bytes -= bytes;
+    pthread_mutex_unlock(&backend->lock);
+}
+
+struct sdfgi_memory sdfgi_backend_held(const struct backend *backend)
+{
+    pthread_mutex_t *lock = (pthread_mutex_t *)&backend->lock;
+    pthread_mutex_lock(lock);
+    const struct sdfgi_memory held = backend->held;
+    pthread_mutex_unlock(lock);
+    return held;
+}
+
 VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
                                    VkBufferUsageFlags usage, enum gpu_placement placement,
                                    enum sdfgi_memory_category category, const char *name)
 {
-    const VkResult result = gpu_buffer_init(&backend->device, buffer, size, usage, placement, name);
+    const VkResult result = gpu_buffer_init(&backend->device, buffer, size, usage, placement, category, name);
     if (result != VK_SUCCESS)
         return result;
-    backend->held.bytes[category] += size;
-    backend->held.total_bytes += size;
+    hold(backend, category, size);
     return VK_SUCCESS;
 }
 
 void sdfgi_backend_buffer_finish(struct backend *backend, struct gpu_buffer *buffer,
                                  enum sdfgi_memory_category category)
 {
-    if (buffer->handle) {
-        backend->held.bytes[category] -= buffer->size;
-        backend->held.total_bytes -= buffer->size;
-    }
+    if (buffer->handle)
+        let_go(backend, category, buffer->size);
     gpu_buffer_finish(&backend->device, buffer);
 }
 
@@ -37,21 +59,19 @@ VkResult sdfgi_backend_image_init(struct backend *backend, struct gpu_image *ima
                                   uint32_t width, uint32_t height, VkImageUsageFlags usage,
                                   enum sdfgi_memory_category category, const char *name)
 {
-    const VkResult result = gpu_image_init(&backend->device, image, format, width, height, 1, usage, name);
+    const VkResult result =
+        gpu_image_init(&backend->device, image, format, width, height, 1, usage, category, name);
     if (result != VK_SUCCESS)
         return result;
-    backend->held.bytes[category] += image->size;
-    backend->held.total_bytes += image->size;
+    hold(backend, category, image->size);
     return VK_SUCCESS;
 }
 
 void sdfgi_backend_image_finish(struct backend *backend, struct gpu_image *image,
                                 enum sdfgi_memory_category category)
 {
-    if (image->handle) {
-        backend->held.bytes[category] -= image->size;
-        backend->held.total_bytes -= image->size;
-    }
+    if (image->handle)
+        let_go(backend, category, image->size);
     gpu_image_finish(&backend->device, image);
 }
 

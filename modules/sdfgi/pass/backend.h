@@ -8,6 +8,8 @@
 #include "gpu.h"
 #include "pass_rows.h"
 
+#include <pthread.h>
+
 enum { PASS_VARIANTS = 2 }; /* without and with textures */
 
 struct pipelines {
@@ -21,16 +23,27 @@ struct pipelines {
 struct backend {
     struct gpu_device device;
     VkAllocationCallbacks callbacks;
+    struct sdfgi_device_allocator device_allocator;
     struct hooks hooks;
     struct pipelines pipelines;
     struct gpu_retire_queue retired; /* counts frames, too */
-    struct sdfgi_memory held;        /* device bytes of all buffers, retired ones included */
+    /* Guards what a thread in sdfgi_prepare shares with the other: pipelines.passes, held, and the
+     * preparation of context.h. Nothing else is called meanwhile. */
+    pthread_mutex_t lock;
+    struct sdfgi_memory held; /* device bytes of all buffers, retired ones included */
 };
 
 /* Frames recorded so far modulo the frames in flight. */
 uint32_t sdfgi_backend_slot(const struct backend *backend);
 /* Number of the newest frame: no two in flight have the same. */
 uint32_t sdfgi_backend_number(const struct backend *backend);
+
+/* Has device memory come from a host's allocator; one without functions changes nothing. The device must have
+ * been imported. */
+void sdfgi_backend_set_allocator(struct backend *backend, const struct sdfgi_device_allocator *allocator);
+
+/* Device bytes held now. */
+struct sdfgi_memory sdfgi_backend_held(const struct backend *backend);
 
 /* A buffer whose size counts in `held`. */
 VkResult sdfgi_backend_buffer_init(struct backend *backend, struct gpu_buffer *buffer, uint64_t size,
@@ -47,11 +60,14 @@ VkResult sdfgi_backend_image_init(struct backend *backend, struct gpu_image *ima
 void sdfgi_backend_image_finish(struct backend *backend, struct gpu_image *image,
                                 enum sdfgi_memory_category category);
 
-/* Sampler, layouts, and the pipelines of rows that are made with the context. */
+/* Sampler and layouts. */
 VkResult sdfgi_pipelines_init(struct backend *backend);
 void sdfgi_pipelines_finish(struct backend *backend);
-/* Makes the pipeline of a variant unless it is there. */
+bool sdfgi_pipelines_has(struct backend *backend, enum pass pass, uint32_t variant);
+/* Makes the pipeline of a variant unless it is there. Two threads may ask for the same one. */
 VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32_t variant);
+/* Those that every frame needs. */
+VkResult sdfgi_pipelines_require_all(struct backend *backend);
 /* Makes a variant of a raster pass for its render pass, which draws into `extent` pixels a side. */
 VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
                                 VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline);

@@ -156,14 +156,47 @@ static VkResult make_layouts(struct backend *backend)
     return result;
 }
 
+bool sdfgi_pipelines_has(struct backend *backend, enum pass pass, uint32_t variant)
+{
+    pthread_mutex_lock(&backend->lock);
+    const bool has = backend->pipelines.passes[pass][variant] != VK_NULL_HANDLE;
+    pthread_mutex_unlock(&backend->lock);
+    return has;
+}
+
+/* Where another thread was faster, its pipeline stays. */
+static void keep_first(struct backend *backend, enum pass pass, uint32_t variant, VkPipeline made)
+{
+    VkPipeline *slot = &backend->pipelines.passes[pass][variant], unused = made;
+    pthread_mutex_lock(&backend->lock);
+    if (!*slot) {
+        *slot = made;
+        unused = VK_NULL_HANDLE;
+    }
+    pthread_mutex_unlock(&backend->lock);
+    backend->device.fn.DestroyPipeline(backend->device.handle, unused, backend->device.callbacks);
+}
+
 VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32_t variant)
 {
-    VkPipeline *pipeline = &backend->pipelines.passes[pass][variant];
-    if (*pipeline)
+    if (sdfgi_pipelines_has(backend, pass, variant))
         return VK_SUCCESS;
-    return gpu_compute_pipeline_create(&backend->device, shaders[pass].compute[variant],
-                                       backend->pipelines.layouts[sdfgi_pass_row(pass)->set],
-                                       sdfgi_pass_row(pass)->object_name, pipeline);
+    VkPipeline made = VK_NULL_HANDLE;
+    const VkResult result = gpu_compute_pipeline_create(&backend->device, shaders[pass].compute[variant],
+                                                        backend->pipelines.layouts[sdfgi_pass_row(pass)->set],
+                                                        sdfgi_pass_row(pass)->object_name, &made);
+    if (result == VK_SUCCESS)
+        keep_first(backend, pass, variant, made);
+    return result;
+}
+
+VkResult sdfgi_pipelines_require_all(struct backend *backend)
+{
+    VkResult result = VK_SUCCESS;
+    for (int i = 0; i < PASS_COUNT && result == VK_SUCCESS; i++)
+        if (sdfgi_pass_row((enum pass)i)->made == PASS_MADE_CREATED)
+            result = sdfgi_pipelines_require(backend, (enum pass)i, 0);
+    return result;
 }
 
 VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
@@ -194,9 +227,6 @@ VkResult sdfgi_pipelines_init(struct backend *backend)
     VkResult result = make_sampler(backend);
     if (result == VK_SUCCESS)
         result = make_layouts(backend);
-    for (int i = 0; i < PASS_COUNT && result == VK_SUCCESS; i++)
-        if (sdfgi_pass_row((enum pass)i)->made == PASS_MADE_CREATED)
-            result = sdfgi_pipelines_require(backend, (enum pass)i, 0);
     return result;
 }
 

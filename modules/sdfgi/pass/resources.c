@@ -17,13 +17,8 @@ static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer
                                      sdfgi_resource_row(resource)->name);
 }
 
-static VkResult create_buffers(struct backend *backend, struct resources *r)
+static VkResult create_readback(struct backend *backend, struct resources *r)
 {
-    for (int i = 0; i < RESOURCE_COUNT; i++) {
-        const VkResult result = create_buffer(backend, &r->buffers[i], (enum resource)i, &r->extent);
-        if (result != VK_SUCCESS)
-            return result;
-    }
     return sdfgi_backend_buffer_init(
         backend, &r->readback, sdfgi_readback_size(backend->retired.frames_in_flight),
         VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_HOST_READ, SDFGI_MEMORY_READBACK, "sdfgi readback");
@@ -98,29 +93,48 @@ static VkResult create_framebuffer(const struct gpu_device *d, struct raster_tar
     return gpu_named(d, result, VK_OBJECT_TYPE_FRAMEBUFFER, &target->framebuffer, "sdfgi raster");
 }
 
-static VkResult create_raster(struct backend *backend, struct raster_target *target, uint32_t resolution)
-{
-    target->extent = resolution * SDFGI_SUBVOXELS;
-    VkResult result = create_framebuffer(&backend->device, target);
-    for (uint32_t v = 0; v < PASS_VARIANTS && result == VK_SUCCESS; v++)
-        result = sdfgi_pipelines_raster(backend, PASS_VOXELIZE_RASTER, v, target->pass, target->extent,
-                                        &target->pipelines[v]);
-    return result;
-}
-
 /* ---- Life */
 
-static VkResult create_all(struct backend *backend, struct resources *r,
-                           const struct sdfgi_settings *settings)
+/* Besides the buffers, in the order in which they are made. */
+enum { MAKE_READBACK, MAKE_SETS, MAKE_TIMER, MAKE_FRAMEBUFFER, MAKE_RASTER_PIPELINES };
+
+static VkResult make_other(struct backend *backend, struct resources *r, uint32_t which)
 {
-    VkResult result = create_buffers(backend, r);
-    if (result == VK_SUCCESS)
+    VkResult result;
+    switch (which) {
+    case MAKE_READBACK:
+        return create_readback(backend, r);
+    case MAKE_SETS:
         result = create_sets(backend, &r->pool, r->sets);
-    if (result == VK_SUCCESS)
-        result = gpu_timer_init(&backend->device, &r->timer, backend->retired.frames_in_flight, r->timer_tags,
-                                r->timer_counts);
-    if (result == VK_SUCCESS && settings->voxelizer == SDFGI_VOXELIZER_RASTER)
-        result = create_raster(backend, &r->raster, settings->resolution);
+        if (result == VK_SUCCESS)
+            write_sets(backend, r);
+        return result;
+    case MAKE_TIMER:
+        return gpu_timer_init(&backend->device, &r->timer, backend->retired.frames_in_flight, r->timer_tags,
+                              r->timer_counts);
+    case MAKE_FRAMEBUFFER:
+        r->raster.extent = r->settings.resolution * SDFGI_SUBVOXELS;
+        return create_framebuffer(&backend->device, &r->raster);
+    default:
+        return sdfgi_pipelines_raster(backend, PASS_VOXELIZE_RASTER, which - MAKE_RASTER_PIPELINES,
+                                      r->raster.pass, r->raster.extent,
+                                      &r->raster.pipelines[which - MAKE_RASTER_PIPELINES]);
+    }
+}
+
+uint32_t sdfgi_resources_object_count(const struct sdfgi_settings *settings)
+{
+    const bool raster = settings->voxelizer == SDFGI_VOXELIZER_RASTER;
+    return RESOURCE_COUNT + (raster ? MAKE_RASTER_PIPELINES + PASS_VARIANTS : MAKE_FRAMEBUFFER);
+}
+
+VkResult sdfgi_resources_make_next(struct backend *backend, struct resources *r)
+{
+    assert(r->made < sdfgi_resources_object_count(&r->settings));
+    const VkResult result = r->made < RESOURCE_COUNT ? create_buffer(backend, &r->buffers[r->made],
+                                                                     (enum resource)r->made, &r->extent)
+                                                     : make_other(backend, r, r->made - RESOURCE_COUNT);
+    r->made += result == VK_SUCCESS;
     return result;
 }
 
@@ -183,24 +197,39 @@ static void limit_light_cells(const struct backend *backend, struct extent *exte
     extent->light_cells_max = fits;
 }
 
-enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
-                                         struct resources **out)
+enum sdfgi_result sdfgi_resources_begin(struct backend *backend, const struct sdfgi_settings *settings,
+                                        bool emits, const char *caller, struct resources **out)
 {
     struct extent extent = sdfgi_extent_from_settings(settings);
     const enum sdfgi_result fits = check_sizes(backend, &extent);
     if (fits != SDFGI_OK)
         return fits;
     limit_light_cells(backend, &extent);
+    if (emits)
+        sdfgi_extent_set_emits(&extent);
     struct resources *r = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *r);
     if (!r)
-        return sdfgi_message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, "switching on");
+        return sdfgi_message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, caller);
+    r->settings = *settings;
     r->extent = extent;
-    const VkResult result = create_all(backend, r, settings);
+    *out = r;
+    return SDFGI_OK;
+}
+
+enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
+                                         struct resources **out)
+{
+    struct resources *r;
+    const enum sdfgi_result begun = sdfgi_resources_begin(backend, settings, false, "switching on", &r);
+    if (begun != SDFGI_OK)
+        return begun;
+    VkResult result = VK_SUCCESS;
+    for (uint32_t i = sdfgi_resources_object_count(settings); i > 0 && result == VK_SUCCESS; i--)
+        result = sdfgi_resources_make_next(backend, r);
     if (result != VK_SUCCESS) {
         destroy(&r->retired, backend);
         return sdfgi_message_vulkan(&backend->hooks, result, "switching on");
     }
-    write_sets(backend, r);
     *out = r;
     return SDFGI_OK;
 }
@@ -314,8 +343,8 @@ VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
 {
     const struct extent none = { 0 };
     const uint64_t bytes = sdfgi_resource_size(RESOURCE_FRAME, &none);
-    VkResult result =
-        gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ, "sdfgi blank");
+    VkResult result = gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ,
+                                      SDFGI_MEMORY_CATEGORY_COUNT, "sdfgi blank");
     if (result == VK_SUCCESS)
         result = gpu_buffer_zero(&backend->device, &blank->buffer);
     if (result == VK_SUCCESS)

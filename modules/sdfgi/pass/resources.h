@@ -16,6 +16,9 @@ struct raster_target {
 
 struct resources {
     struct gpu_retired retired;
+    struct sdfgi_settings settings; /* that it was made for */
+    uint32_t made;                  /* objects so far, of sdfgi_resources_object_count */
+    bool used;                      /* a frame that uses it has been recorded */
     struct gpu_buffer buffers[RESOURCE_COUNT];
     struct gpu_buffer readback; /* counters of the frames in flight */
     struct gpu_timer timer;
@@ -27,7 +30,15 @@ struct resources {
     struct extent extent;
 };
 
-/* Reports failures; leaves *out as it was then. */
+/* Begins resources without any object, with room for emission if something will emit. Reports failures, in
+ * words of the `caller`; leaves *out as it was then. */
+enum sdfgi_result sdfgi_resources_begin(struct backend *backend, const struct sdfgi_settings *settings,
+                                        bool emits, const char *caller, struct resources **out);
+/* Objects that settings call for: buffers, and what else may take a while to make. */
+uint32_t sdfgi_resources_object_count(const struct sdfgi_settings *settings);
+/* Makes the next object. After a failure the resources are good for nothing but to be destroyed. */
+VkResult sdfgi_resources_make_next(struct backend *backend, struct resources *resources);
+/* All at once. Reports failures; leaves *out as it was then. */
 enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct sdfgi_settings *settings,
                                          struct resources **out);
 /* Destroys them at once: no update has used them. NULL is accepted. */

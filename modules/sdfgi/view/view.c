@@ -63,6 +63,8 @@ struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_v
     view->desc = *desc;
     *result = desc->width > 0 ? create_picture(backend, view, &view->diffuse, "sdfgi diffuse")
                               : create_sets(backend, view);
+    if (*result == VK_SUCCESS && desc->reflections)
+        *result = sdfgi_view_add_reflection(backend, view);
     if (*result == VK_SUCCESS)
         return view;
     destroy(&view->retired, backend);

@@ -16,7 +16,7 @@ static float float_of(uint32_t bits)
 static bool read_counters(struct volume *volume, const struct feedback_slot *slot, uint32_t index)
 {
     const struct gpu_buffer *readback = &volume->resources->readback;
-    const uint32_t *words = (const uint32_t *)readback->mapped + index * SDFGI_READBACK_WORDS;
+    const uint32_t *words = (const uint32_t *)readback->memory.mapped + index * SDFGI_READBACK_WORDS;
     uint32_t *counters = volume->feedback.counters;
     if (gpu_buffer_invalidate(&volume->backend->device, readback) != VK_SUCCESS)
         return true;

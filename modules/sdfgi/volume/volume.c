@@ -22,12 +22,11 @@ void sdfgi_volume_finish(struct volume *volume)
 void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
                         const struct sdfgi_settings *settings)
 {
-    if (volume->used)
+    if (volume->resources && volume->resources->used)
         sdfgi_resources_retire(volume->backend, volume->resources);
     else
         sdfgi_resources_destroy(volume->backend, volume->resources);
     volume->resources = resources;
-    volume->used = false;
     sdfgi_volume_forget(volume, settings);
 }
 
@@ -44,6 +43,11 @@ void sdfgi_volume_forget(struct volume *volume, const struct sdfgi_settings *set
     sdfgi_accumulation_init(&state->accumulation);
     sdfgi_relight_init(&state->relight);
     sdfgi_gathering_init(&state->gathering);
+}
+
+void sdfgi_volume_pause(struct volume *volume)
+{
+    volume->state.paused = volume->undo.state.paused = true;
 }
 
 void sdfgi_volume_cancel(struct volume *volume)

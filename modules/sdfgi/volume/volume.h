@@ -25,6 +25,7 @@ struct volume_state {
     uint32_t seed_asked;              /* by the last frame: taken over once two in a row ask for it */
     struct sdfgi_frame_params params; /* as last uploaded */
     uint64_t updates;                 /* frames recorded since there was nothing */
+    bool paused;                      /* GI has been switched off since, and volumes are kept */
 };
 
 /* What a frame in flight brings back. */
@@ -68,7 +69,6 @@ struct volume_undo {
 struct volume {
     struct backend *backend;
     struct resources *resources; /* NULL while GI is off */
-    bool used;                   /* a frame that uses the resources has been recorded */
     struct journal journal;      /* of the scene */
     struct volume_state state;
     struct volume_gaps gaps;
@@ -84,6 +84,8 @@ void sdfgi_volume_reset(struct volume *volume, struct resources *resources,
                         const struct sdfgi_settings *settings);
 /* Forgets all light and cascades, and keeps the resources. */
 void sdfgi_volume_forget(struct volume *volume, const struct sdfgi_settings *settings);
+/* GI is switched off, and goes on from here with its next frame. */
+void sdfgi_volume_pause(struct volume *volume);
 /* Undoes the last frame. What changed in the scene since then is kept. */
 void sdfgi_volume_cancel(struct volume *volume);
 /* Settings changed: light goes on until it has converged again, also if the last frame is undone. */

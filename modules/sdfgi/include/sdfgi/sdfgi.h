@@ -42,6 +42,7 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <sdfgi/memory.h>
 #include <sdfgi/messages.h>
 #include <sdfgi/settings.h>
 #include <sdfgi/version.h>
@@ -98,21 +99,6 @@ SDFGI_API enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysic
                                                    PFN_vkGetInstanceProcAddr get_instance_proc_addr,
                                                    struct sdfgi_requirements *requirements);
 
-enum sdfgi_memory_category {
-    SDFGI_MEMORY_VOLUMES,  /* solid bits, distance, albedo, emission, light */
-    SDFGI_MEMORY_PROBES,   /* irradiance, occlusion, running sums, ray cache */
-    SDFGI_MEMORY_SCRATCH,  /* flood pointers, accumulators, occupancy: shared by all cascades */
-    SDFGI_MEMORY_LISTS,    /* light cells, lights, materials, counters, indirect arguments */
-    SDFGI_MEMORY_READBACK, /* counters and timestamps, host visible */
-    SDFGI_MEMORY_VIEWS,    /* pictures of views: not in the estimate */
-    SDFGI_MEMORY_CATEGORY_COUNT,
-};
-
-struct sdfgi_memory {
-    uint64_t bytes[SDFGI_MEMORY_CATEGORY_COUNT];
-    uint64_t total_bytes;
-};
-
 /* Stable lower-case name of a category, for reports. */
 SDFGI_API const char *sdfgi_memory_category_name(enum sdfgi_memory_category category);
 
@@ -142,14 +128,18 @@ struct sdfgi_desc {
                                               finished by the time this many further updates are recorded */
     const struct sdfgi_settings *settings; /* NULL: defaults, that is, disabled */
     struct sdfgi_log log;
-    struct sdfgi_allocator allocator;
+    struct sdfgi_allocator allocator;               /* host memory */
+    struct sdfgi_device_allocator device_allocator; /* device memory: sdfgi/memory.h */
     /* The host's; VK_NULL_HANDLE: none. Every pipeline of the context is made with it: by sdfgi_create,
-     * sdfgi_set_settings, sdfgi_material_create and sdfgi_gather. The cache is borrowed and must outlive the
-     * context. The host saves it and loads it. Vulkan wants no call to vkMergePipelineCaches into the cache
-     * during these functions; if VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT is set, no other
-     * thread may use the cache at all meanwhile. */
+     * sdfgi_prepare, sdfgi_set_settings, sdfgi_material_create and sdfgi_gather. The cache is borrowed and
+     * must outlive the context. The host saves it and loads it. Vulkan wants no call to vkMergePipelineCaches
+     * into the cache during these functions; if VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT is set,
+     * no other thread may use the cache at all meanwhile. */
     VkPipelineCache pipeline_cache;
     bool log_info; /* whether `log` receives SDFGI_LOG_INFO, too: what goes as it should */
+    /* False: sdfgi_create makes the pipelines that every frame needs. True: it makes none, and is over at
+     * once; sdfgi_prepare makes them, or else the sdfgi_set_settings that switches on. */
+    bool pipelines_later;
 };
 
 typedef struct sdfgi sdfgi;
@@ -164,7 +154,8 @@ SDFGI_API void sdfgi_destroy(sdfgi *gi);
 
 /* Validates and takes over `settings`. Switching off releases all device memory as soon as the frames in
  * flight are over; switching on allocates it, and on failure leaves the previous settings in force.
- * Properties marked "re-create" rebuild everything. */
+ * Properties marked "re-create" rebuild everything, and the picture is black until the next sdfgi_update.
+ * Allocation may stall the frame: sdfgi_prepare (sdfgi/prepare.h) does it ahead. */
 SDFGI_API enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *settings);
 
 /* The settings in force, every value as it is really used. */
@@ -428,6 +419,11 @@ struct sdfgi_scroll_report {
     uint32_t cascades_waiting;  /* too slow for the camera within the budget: coarser ones answer */
 };
 
+/* Of sdfgi_prepare, in pipelines and memory objects. */
+struct sdfgi_progress {
+    uint32_t made, total; /* total 0: nothing has been asked for */
+};
+
 struct sdfgi_report {
     uint64_t update_count; /* frames recorded so far while enabled */
     bool active;
@@ -440,6 +436,7 @@ struct sdfgi_report {
     uint32_t health_count;
     struct sdfgi_health health[SDFGI_MESSAGE_COUNT];
     struct sdfgi_scroll_report scroll;
+    struct sdfgi_progress prepared; /* by the last sdfgi_prepare, which may be running */
 };
 
 /* State after the last sdfgi_update. GPU figures are those of the newest frame known to be finished. */
@@ -449,5 +446,6 @@ SDFGI_API void sdfgi_get_report(const sdfgi *gi, struct sdfgi_report *report);
 }
 #endif
 
+#include <sdfgi/prepare.h>
 #include <sdfgi/view.h>
 #endif

@@ -19,10 +19,12 @@ struct sdfgi_view_desc {
      * interpolate as sdfgi_gather does, but by surface alone: edges of surfaces stay sharp, and those of what
      * a mirror shows are softer by two or four pixels. */
     enum sdfgi_gather_resolution diffuse, reflection;
+    bool reflections; /* makes what reflections need at once, so that no resolve has to */
 };
 
 /* Creates a view: its picture of diffuse light takes 8 bytes a pixel. What reflections need, 20 bytes a
- * pixel, is added by the first sdfgi_view_resolve that asks for it while a material is smooth. */
+ * pixel, is added by the first sdfgi_view_resolve that asks for it while a material is smooth, unless
+ * `reflections` asks for it here. */
 SDFGI_API enum sdfgi_result sdfgi_view_create(sdfgi *gi, const struct sdfgi_view_desc *desc,
                                               sdfgi_view **out);
 
