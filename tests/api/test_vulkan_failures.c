@@ -8,6 +8,7 @@
 #include <vulkan/vulkan.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 
 enum { MEMORY_FAILURES = 2 };
 
@@ -223,6 +224,52 @@ static void switching_off_reset_and_cancel_call_nothing_that_can_fail(void **sta
     sdfgi_destroy(gi);
 }
 
+static uint64_t held(const sdfgi *gi)
+{
+    static struct sdfgi_report report;
+    sdfgi_get_report(gi, &report);
+    return report.memory.total_bytes;
+}
+
+/* Pipelines stay, volumes are begun anew, and the switch works all the same. */
+static void preparing_may_fail_anywhere(void **state)
+{
+    (void)state;
+    const struct sdfgi_settings on = small_settings(SDFGI_VOXELIZER_RASTER, true);
+    const struct sdfgi_prepare_desc prepare = { .settings = &on };
+    const struct sdfgi_desc desc = { .vulkan = { gpu.instance, gpu.physical_device, gpu.device,
+                                                 gpu.queue_family_index,
+                                                 failing_vulkan_get_instance_proc_addr, NULL },
+                                     .log = { count_message, NULL },
+                                     .pipelines_later = true };
+    failing_vulkan_skip_shaders(true);
+    for (int i = 0; i < MEMORY_FAILURES; i++) {
+        sdfgi *gi;
+        uint32_t failed = 0;
+        failing_vulkan_reset(0, VK_SUCCESS);
+        REQUIRE_CMP((int)sdfgi_create(&desc, &gi), ==, (int)SDFGI_OK);
+        for (bool done = false; !done;) {
+            struct sdfgi_progress p = { 77, 78 };
+            errors = 0;
+            failing_vulkan_reset(failed + 1, memory_failures[i]);
+            const enum sdfgi_result result = sdfgi_prepare(gi, &prepare, &p);
+            done = result == SDFGI_OK;
+            failed += !done;
+            REQUIRE_CMP((int)result, ==, (int)(done ? SDFGI_OK : SDFGI_ERROR_OUT_OF_MEMORY));
+            REQUIRE_CMP(errors, ==, (uint32_t)!done);
+            REQUIRE_TRUE(done ? p.made == p.total : held(gi) == 0 && p.made == 77);
+        }
+        printf("%u calls of preparing failed\n", failed);
+        REQUIRE_CMP(failed, >, 90u);
+        failing_vulkan_reset(1, memory_failures[i]);
+        REQUIRE_CMP((int)sdfgi_set_settings(gi, &on), ==, (int)SDFGI_OK);
+        REQUIRE_CMP(failing_vulkan_calls(), ==, 0u);
+        failing_vulkan_reset(0, VK_SUCCESS);
+        sdfgi_destroy(gi);
+    }
+    failing_vulkan_skip_shaders(false);
+}
+
 static int open_device(void **state)
 {
     (void)state;
@@ -250,6 +297,8 @@ int main(void)
         cmocka_unit_test(light_rests_even_if_nothing_is_told_of_a_while),
         cmocka_unit_test(lists_of_emitters_can_be_done_without),
         cmocka_unit_test(switching_off_reset_and_cancel_call_nothing_that_can_fail),
+        cmocka_unit_test(preparing_may_fail_anywhere),
     };
+    cmocka_set_test_filter(getenv("SDFGI_TEST_FILTER"));
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
