@@ -49,6 +49,8 @@ struct resources *sdfgi_preparation_take(struct sdfgi *gi, const struct sdfgi_se
 void sdfgi_preparation_note(struct sdfgi *gi);
 /* True if the volumes are to be kept while GI is off. */
 bool sdfgi_preparation_keeps(struct sdfgi *gi);
+/* Releases volumes that were kept when GI was switched off, if nobody wants them any more. */
+void sdfgi_preparation_drop(struct sdfgi *gi);
 struct sdfgi_progress sdfgi_prepared(const struct sdfgi *gi);
 void sdfgi_preparation_finish(struct sdfgi *gi);
 

@@ -225,10 +225,7 @@ static void release(struct sdfgi *gi)
 void sdfgi_release_prepared(sdfgi *gi)
 {
     release(gi);
-    if (gi->settings.enabled || !gi->volume.resources)
-        return;
-    sdfgi_volume_reset(&gi->volume, NULL, &gi->settings);
-    sdfgi_preparation_note(gi);
+    sdfgi_preparation_drop(gi);
 }
 
 /* ---- For the thread that draws */
@@ -266,6 +263,14 @@ bool sdfgi_preparation_keeps(struct sdfgi *gi)
         gi->preparation.keeps && r && !sdfgi_settings_recreate(&r->settings, &gi->preparation.wanted);
     pthread_mutex_unlock(&gi->backend.lock);
     return keeps;
+}
+
+void sdfgi_preparation_drop(struct sdfgi *gi)
+{
+    if (gi->settings.enabled || !gi->volume.resources || sdfgi_preparation_keeps(gi))
+        return;
+    sdfgi_volume_reset(&gi->volume, NULL, &gi->settings);
+    sdfgi_preparation_note(gi);
 }
 
 struct sdfgi_progress sdfgi_prepared(const struct sdfgi *gi)

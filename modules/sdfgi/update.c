@@ -100,6 +100,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     gpu_retire_collect(&gi->backend.retired);
     if (!gi->settings.enabled) {
         gi->volume.undo.valid = false; /* this update is the last one, and has nothing to undo */
+        sdfgi_preparation_drop(gi);
         report_off(gi);
         return SDFGI_OK;
     }

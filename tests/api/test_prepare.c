@@ -277,6 +277,24 @@ static void off_keeps_what_was_prepared_until_it_is_released(void **state)
     REQUIRE_CMP(held(), ==, nothing);
 }
 
+static void what_was_kept_goes_when_other_settings_are_prepared(void **state)
+{
+    (void)state;
+    struct sdfgi_settings s = settings(false), other = s;
+    other.cascades = 2;
+    prepare(&other);
+    const uint64_t of_other = held();
+    sdfgi_release_prepared(t.gi);
+    prepare(&s);
+    enable(true);
+    gi_test_update(&t, 2);
+    enable(false);
+    prepare(&other);
+    REQUIRE_CMP(held(), >, of_other);
+    gi_test_update(&t, 4);
+    REQUIRE_CMP(held(), ==, of_other);
+}
+
 static void light_goes_on_where_it_was(void **state)
 {
     (void)state;
@@ -450,6 +468,7 @@ int main(void)
         WITH_CONTEXT(the_old_picture_goes_on_until_new_volumes_are_prepared),
         WITH_CONTEXT(other_settings_release_what_was_prepared),
         WITH_CONTEXT(off_keeps_what_was_prepared_until_it_is_released),
+        WITH_CONTEXT(what_was_kept_goes_when_other_settings_are_prepared),
         WITH_CONTEXT(light_goes_on_where_it_was),
         WITH_CONTEXT(what_changed_while_off_is_there_afterwards),
         WITH_CONTEXT(an_update_before_the_switch_can_be_undone),

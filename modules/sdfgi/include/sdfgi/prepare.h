@@ -39,8 +39,9 @@ struct sdfgi_prepare_desc {
  *
  * What has been prepared is kept: from then on switching off keeps the volumes as they are, light included,
  * and switching on goes on from there, with what changed meanwhile. Lookups are black until the next
- * sdfgi_update. sdfgi_release_prepared ends that. To prepare other settings releases those that were prepared
- * before and are not in force.
+ * sdfgi_update. sdfgi_release_prepared ends that. To prepare other settings releases volumes
+ * that were prepared or kept for those before, at the next sdfgi_update at the latest, and not while they are
+ * on.
  *
  * A call that fails takes back what was made of the volumes, and the next one begins them anew. Pipelines
  * stay. SDFGI_ERROR_OUT_OF_MEMORY, SDFGI_ERROR_INVALID_ARGUMENT as for sdfgi_set_settings.

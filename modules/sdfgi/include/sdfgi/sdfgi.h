@@ -31,7 +31,8 @@
  *   Errors     a call that fails changes nothing, writes nothing to its outputs and reports why through the
  *              log callback, which names function, object, field, value and limit. Nothing aborts.
  *              After SDFGI_ERROR_DEVICE_LOST only sdfgi_destroy is useful.
- *   Threading  one context may be used by one thread at a time; different contexts are independent.
+ *   Threading  one context may be used by one thread at a time, except that a second one may be in
+ *              sdfgi_prepare; different contexts are independent.
  */
 #ifndef SDFGI_H
 #define SDFGI_H
@@ -153,9 +154,10 @@ SDFGI_API enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **
 SDFGI_API void sdfgi_destroy(sdfgi *gi);
 
 /* Validates and takes over `settings`. Switching off releases all device memory as soon as the frames in
- * flight are over; switching on allocates it, and on failure leaves the previous settings in force.
- * Properties marked "re-create" rebuild everything, and the picture is black until the next sdfgi_update.
- * Allocation may stall the frame: sdfgi_prepare (sdfgi/prepare.h) does it ahead. */
+ * flight are over, unless sdfgi_prepare has asked to keep it; switching on allocates it, and on failure
+ * leaves the previous settings in force. Properties marked "re-create" rebuild everything, and the picture is
+ * black until the next sdfgi_update. Allocation may stall the frame: sdfgi_prepare (sdfgi/prepare.h) does it
+ * ahead. */
 SDFGI_API enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *settings);
 
 /* The settings in force, every value as it is really used. */
@@ -332,7 +334,7 @@ SDFGI_API void sdfgi_cancel_update(sdfgi *gi);
  * first of a context. For cuts to another world, whose light has nothing in common with the one before. */
 SDFGI_API void sdfgi_reset(sdfgi *gi);
 
-/* True when lookups give light: GI is enabled and at least one update has been recorded. */
+/* True when lookups give light: GI is enabled, and an update has been recorded since it was. */
 SDFGI_API bool sdfgi_is_active(const sdfgi *gi);
 
 /* Layout and set for shaders/include/sdfgi.glsl. Both are always valid. The layout lives as long as the
@@ -378,7 +380,7 @@ struct sdfgi_gather_desc {
 /* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must
  * be made visible to compute shader reads by the host; the output is made visible to later compute and
  * fragment reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its
- * pipeline, as the first material with a texture makes one: better before the first frame than in one.
+ * pipeline, as the first material with a texture makes one, unless sdfgi_prepare has.
  *
  * Light of what the picture shows is gathered before that of other places, in the updates that follow.
  * Lookups in the host's shaders have no such effect. */
