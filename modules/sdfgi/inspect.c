@@ -40,7 +40,7 @@ enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t cascade,
 
 uint64_t sdfgi_inspect_volume_size(const sdfgi *gi, enum sdfgi_volume volume)
 {
-    if (!gi->volume.resources || !volume_is_known(volume))
+    if (!gi->settings.enabled || !volume_is_known(volume))
         return 0;
     const struct extent *extent = &gi->volume.resources->extent;
     return sdfgi_resource_size(volume_resources[volume], extent) / extent->cascades;

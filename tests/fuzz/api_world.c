@@ -219,6 +219,19 @@ static void change_sky(struct api_world *w)
     require_ok(sdfgi_set_sky(w->t->gi, &w->scene.sky));
 }
 
+/* What is to be the settings, or not; some of it or all; or takes back what was. */
+static void prepare(struct api_world *w)
+{
+    struct sdfgi_settings s = w->scene.settings;
+    if (api_below(w, 2) == 0)
+        s = api_settings(&w->random);
+    const struct sdfgi_prepare_desc desc = { .settings = &s, .max_objects = api_below(w, 2) * 20 };
+    if (api_below(w, 4) == 0)
+        sdfgi_release_prepared(w->t->gi);
+    else
+        require_ok(sdfgi_prepare(w->t->gi, &desc, NULL));
+}
+
 static void change_settings(struct api_world *w)
 {
     struct sdfgi_settings *const s = &w->scene.settings;
@@ -241,6 +254,8 @@ static void change_settings(struct api_world *w)
     default:
         s->frames_to_update_lights = 1 + api_below(w, 4);
     }
+    if (api_below(w, 2) == 0)
+        prepare(w);
     require_ok(sdfgi_set_settings(w->t->gi, s));
     struct sdfgi_settings found;
     sdfgi_get_settings(w->t->gi, &found);

@@ -149,6 +149,7 @@ static void compare(struct api_world *w)
     at.what = "comparing volumes";
     scroll_require_equal(&walked, &fresh, "after all steps");
     at.what = "comparing memory";
+    sdfgi_release_prepared(walked.gi);
     gi_test_update(&walked, 4); /* until no frame in flight holds what was replaced */
     gi_test_update(&fresh, 4);
     require_same_memory();
