@@ -44,11 +44,11 @@ surface_sample material_sample(uint index[3], vec3 bary, float area2)
 {
     const sdfgi_material_params m = sdfgi_materials[args.material];
     surface_sample s = surface_sample(vec4(m.albedo, m.alpha), m.emission, m.flags);
-    if ((args.flags & SDFGI_MESH_HAS_COLOR) != 0u)
+    if (args.color_fetch != 0u)
         s.albedo *= mesh_color(index, bary);
 #ifdef SDFGI_VOXELIZE_TEXTURED
-    const vec2 uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u ? mesh_uv(index, bary) : vec2(0.0);
-    const bool has_uv = (args.flags & SDFGI_MESH_HAS_UV) != 0u;
+    const bool has_uv = args.uv_fetch != 0u;
+    const vec2 uv = has_uv ? mesh_uv(index, bary) : vec2(0.0);
     if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
         const float level =
             has_uv ? texture_level(index, area2, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;

@@ -7,6 +7,7 @@
 #define SDFGI_WRITES_LIGHT
 #include "pass.glsl"
 #include "../lib/finite.glsl"
+#include "../lib/vertex_fetch.glsl"
 
 layout(push_constant) uniform sdfgi_push
 {
@@ -15,15 +16,15 @@ layout(push_constant) uniform sdfgi_push
 
 layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions
 {
-    float positions[];
+    uint positions[];
 };
 layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_UVS) readonly buffer mesh_uvs
 {
-    float uvs[];
+    uint uvs[];
 };
 layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_COLORS) readonly buffer mesh_colors
 {
-    float colors[];
+    uint colors[];
 };
 layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_INDICES) readonly buffer mesh_indices
 {
@@ -47,20 +48,30 @@ ivec3 box_corner(uint packed)
     return unpacked_corner(packed) * SDFGI_SUBVOXELS - args.anchor;
 }
 
+SDFGI_FETCH_FUNCTION(fetch_position, positions)
+SDFGI_FETCH_FUNCTION(fetch_uv, uvs)
+SDFGI_FETCH_FUNCTION(fetch_color, colors)
+SDFGI_FETCH_INDEX_FUNCTION(fetch_index, indices)
+
+/* Where a vertex has an attribute. */
+uint vertex_byte(uint fetch, uint stride, uint vertex)
+{
+    return (fetch & SDFGI_FETCH_OFFSET_MASK) + vertex * stride;
+}
+
 uint mesh_index(uint i)
 {
-    const uint kind = args.flags & 3u;
-    if (kind == SDFGI_MESH_INDEX_32)
-        return indices[args.index_offset + i];
-    if (kind == SDFGI_MESH_INDEX_16)
-        return indices[args.index_offset + (i >> 1u)] >> (16u * (i & 1u)) & 0xffffu;
-    return i;
+    const uint bits = args.flags & SDFGI_MESH_INDEX_BITS;
+    uint index = i;
+    if (bits > 0u)
+        index = fetch_index(bits, (args.flags >> SDFGI_MESH_INDEX_OFFSET_SHIFT & 255u) + i * (bits >> 3u));
+    return index + args.vertex_offset;
 }
 
 vec3 mesh_position(uint vertex)
 {
-    const uint at = args.position_offset + vertex * args.position_stride;
-    const vec4 p = vec4(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
+    const uint byte = vertex_byte(args.position_fetch, args.position_stride, vertex);
+    const vec4 p = vec4(fetch_position(args.position_fetch, byte).xyz, 1.0);
     return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
 }
 
@@ -106,9 +117,9 @@ vec2 mesh_uv(uint index[3], vec3 bary)
 {
     vec2 uv = vec2(0.0);
     for (int i = 0; i < 3; i++) {
-        const uint at = args.uv_offset + index[i] * args.uv_stride;
-        uv += bary[i] * vec2(sdfgi_finite_clamp(uvs[at], -MAX_UV, MAX_UV),
-                             sdfgi_finite_clamp(uvs[at + 1u], -MAX_UV, MAX_UV));
+        const vec2 v = fetch_uv(args.uv_fetch, vertex_byte(args.uv_fetch, args.uv_stride, index[i])).xy;
+        uv += bary[i] *
+              vec2(sdfgi_finite_clamp(v.x, -MAX_UV, MAX_UV), sdfgi_finite_clamp(v.y, -MAX_UV, MAX_UV));
     }
     return uv;
 }
@@ -117,10 +128,10 @@ vec4 mesh_color(uint index[3], vec3 bary)
 {
     vec4 color = vec4(0.0);
     for (int i = 0; i < 3; i++) {
-        const uint at = args.color_offset + index[i] * args.color_stride;
-        const vec3 rgb = vec3(colors[at], colors[at + 1u], colors[at + 2u]);
-        color += bary[i] * vec4(sdfgi_finite_color(rgb, MAX_COLOR),
-                                sdfgi_finite_clamp(colors[at + 3u], 0.0, MAX_COLOR));
+        const vec4 v =
+            fetch_color(args.color_fetch, vertex_byte(args.color_fetch, args.color_stride, index[i]));
+        color +=
+            bary[i] * vec4(sdfgi_finite_color(v.rgb, MAX_COLOR), sdfgi_finite_clamp(v.a, 0.0, MAX_COLOR));
     }
     return color;
 }

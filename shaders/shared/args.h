@@ -23,13 +23,10 @@ struct sdfgi_region_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
 
-#define SDFGI_MESH_INDEX_NONE 0u
-#define SDFGI_MESH_INDEX_16   1u
-#define SDFGI_MESH_INDEX_32   2u
-#define SDFGI_MESH_HAS_UV     4u
-#define SDFGI_MESH_HAS_COLOR  8u
-#define SDFGI_MESH_REVERSED   16u /* once transformed, fronts are clockwise */
-#define SDFGI_MESH_CHECKED    32u /* its triangles have been checked in this frame */
+#define SDFGI_MESH_INDEX_BITS         63u  /* bits of an index, 0: there are none */
+#define SDFGI_MESH_REVERSED           64u  /* once transformed, fronts are clockwise */
+#define SDFGI_MESH_CHECKED            128u /* its triangles have been checked in this frame */
+#define SDFGI_MESH_INDEX_OFFSET_SHIFT 8u   /* 8 bits: where the first index begins, in bytes */
 
 /* voxelize, voxelize_raster: one instance. */
 struct sdfgi_voxelize_args {
@@ -40,11 +37,11 @@ struct sdfgi_voxelize_args {
     uint triangle_count;
     uint slices; /* workgroups that share the columns of a group of triangles */
     uint material;
-    uint flags;                            /* SDFGI_MESH_* */
-    uint position_offset, position_stride; /* in words, as all offsets and strides below */
-    uint uv_offset, uv_stride;
-    uint color_offset, color_stride;
-    uint index_offset;
+    uint flags;                           /* SDFGI_MESH_* */
+    uint position_fetch, position_stride; /* vertex_fetch.h; bytes */
+    uint uv_fetch, uv_stride;             /* 0: there are none */
+    uint color_fetch, color_stride;       /* 0: there are none */
+    uint vertex_offset;                   /* added to indices, modulo 2^32 */
     uint vertex_count;
     uint box_high;   /* high corner of the box, packed as box_low */
     uint bounds_low; /* the instance's bounds, widened and cut to the cascade, packed as box_low */

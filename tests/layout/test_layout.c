@@ -106,13 +106,13 @@
     X(sdfgi_voxelize_args, slices)                                                                           \
     X(sdfgi_voxelize_args, material)                                                                         \
     X(sdfgi_voxelize_args, flags)                                                                            \
-    X(sdfgi_voxelize_args, position_offset)                                                                  \
+    X(sdfgi_voxelize_args, position_fetch)                                                                   \
     X(sdfgi_voxelize_args, position_stride)                                                                  \
-    X(sdfgi_voxelize_args, uv_offset)                                                                        \
+    X(sdfgi_voxelize_args, uv_fetch)                                                                         \
     X(sdfgi_voxelize_args, uv_stride)                                                                        \
-    X(sdfgi_voxelize_args, color_offset)                                                                     \
+    X(sdfgi_voxelize_args, color_fetch)                                                                      \
     X(sdfgi_voxelize_args, color_stride)                                                                     \
-    X(sdfgi_voxelize_args, index_offset)                                                                     \
+    X(sdfgi_voxelize_args, vertex_offset)                                                                    \
     X(sdfgi_voxelize_args, vertex_count)                                                                     \
     X(sdfgi_voxelize_args, box_high)                                                                         \
     X(sdfgi_voxelize_args, bounds_low)                                                                       \

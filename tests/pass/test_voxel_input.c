@@ -137,24 +137,39 @@ static void hard_25_far_and_negative_places_give_the_same_bits(void **state)
 
 /* A mesh whose buffers are laid out in some other way. */
 struct layout {
-    uint32_t stride;      /* floats between vertices */
-    uint32_t vertex_skip; /* floats before the first */
-    uint32_t index_skip;  /* words before the first */
-    uint32_t index_size;  /* 0: none, 2 or 4 */
+    uint32_t stride;       /* floats between vertices */
+    uint32_t vertex_skip;  /* floats before the first */
+    uint32_t index_size;   /* 0: none, 1, 2 or 4 */
+    uint32_t index_skip;   /* bytes before the first */
+    uint32_t first_index;  /* others before those of the mesh */
+    int32_t vertex_offset; /* other vertices before those of the mesh; negative: added to indices */
 };
+
+static uint32_t vertices_of(const struct test_mesh *mesh, const struct layout *l)
+{
+    return l->index_size ? mesh->vertex_count : 3 * mesh->triangle_count;
+}
+
+/* Before the mesh's own. */
+static uint32_t other_vertices(const struct layout *l)
+{
+    const int32_t count = l->vertex_offset + (l->index_size ? 0 : (int32_t)l->first_index);
+    return count > 0 ? (uint32_t)count : 0;
+}
 
 static struct gpu_test_buffer positions_buffer(struct gi_test *t, const struct test_mesh *mesh,
                                                const struct layout *l)
 {
-    const uint32_t count = l->index_size ? mesh->vertex_count : 3 * mesh->triangle_count;
-    float *data = test_array_alloc(l->vertex_skip + (size_t)l->stride * count, sizeof *data);
+    const uint32_t count = vertices_of(mesh, l), others = other_vertices(l);
+    const size_t size = l->vertex_skip + (size_t)l->stride * (others + count);
+    float *data = test_array_alloc(size, sizeof *data);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t vertex = l->index_size ? i : mesh->indices[i];
-        memcpy(data + l->vertex_skip + (size_t)l->stride * i, mesh->positions + 3 * (size_t)vertex, 12);
+        memcpy(data + l->vertex_skip + (size_t)l->stride * (others + i), mesh->positions + 3 * (size_t)vertex,
+               12);
     }
     const struct gpu_test_buffer buffer =
-        gpu_test_buffer_device(&t->gpu, 4 * (l->vertex_skip + (VkDeviceSize)l->stride * count),
-                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
+        gpu_test_buffer_device(&t->gpu, 4 * size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
     free(data);
     return buffer;
 }
@@ -162,59 +177,106 @@ static struct gpu_test_buffer positions_buffer(struct gi_test *t, const struct t
 static struct gpu_test_buffer index_buffer(struct gi_test *t, const struct test_mesh *mesh,
                                            const struct layout *l)
 {
-    const uint32_t count = 3 * mesh->triangle_count;
-    uint32_t *data = test_array_alloc(l->index_skip + count, sizeof *data);
-    for (uint32_t i = 0; i < count; i++)
-        if (l->index_size == 4)
-            data[l->index_skip + i] = mesh->indices[i];
-        else
-            data[l->index_skip + i / 2] |= mesh->indices[i] << (i & 1 ? 16 : 0);
-    const struct gpu_test_buffer buffer = gpu_test_buffer_device(
-        &t->gpu, 4 * (VkDeviceSize)(l->index_skip + count), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
+    const uint32_t count = l->first_index + 3 * mesh->triangle_count,
+                   added = l->vertex_offset < 0 ? (uint32_t)-l->vertex_offset : 0;
+    const size_t size = (l->index_skip + (size_t)count * l->index_size + 3) / 4 * 4;
+    uint8_t *data = test_array_alloc(size, 1);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t index = i < l->first_index ? 77 : mesh->indices[i - l->first_index] + added;
+        for (uint32_t k = 0; k < l->index_size; k++)
+            data[l->index_skip + i * l->index_size + k] = (uint8_t)(index >> 8 * k);
+    }
+    const struct gpu_test_buffer buffer =
+        gpu_test_buffer_device(&t->gpu, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, data);
     free(data);
     return buffer;
 }
 
-static void require_layout_reads(const struct layout *l, const struct test_mesh *mesh,
-                                 const struct pass_volumes *expected)
+static VkIndexType index_type_of(uint32_t size)
 {
-    const struct sdfgi_settings settings = coarse_settings();
-    gi_test_renew(&pass_context, &settings);
-    pass_context.buffers[pass_context.buffer_count++] = positions_buffer(&pass_context, mesh, l);
-    struct sdfgi_mesh_desc desc = { .position_buffer = pass_context.buffers[0].buffer,
-                                    .position_offset = 4 * l->vertex_skip,
+    return size == 1 ? VK_INDEX_TYPE_UINT8_EXT : (size == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+}
+
+static struct sdfgi_mesh_desc describe(struct gi_test *t, const struct test_mesh *mesh,
+                                       const struct test_mesh *bounded, const struct layout *l)
+{
+    struct sdfgi_mesh_desc desc = { .position_offset = 4 * l->vertex_skip,
                                     .position_stride = 4 * l->stride,
-                                    .vertex_count =
-                                        l->index_size ? mesh->vertex_count : 3 * mesh->triangle_count,
+                                    .first_index = l->first_index,
+                                    .vertex_offset = l->vertex_offset,
+                                    .vertex_count = vertices_of(mesh, l) + other_vertices(l),
                                     .triangle_count = mesh->triangle_count };
+    t->buffers[t->buffer_count] = positions_buffer(t, mesh, l);
+    desc.position_buffer = t->buffers[t->buffer_count++].buffer;
     if (l->index_size) {
-        pass_context.buffers[pass_context.buffer_count++] = index_buffer(&pass_context, mesh, l);
-        desc.index_buffer = pass_context.buffers[1].buffer;
-        desc.index_offset = 4 * l->index_skip;
-        desc.index_type = l->index_size == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32;
+        t->buffers[t->buffer_count] = index_buffer(t, mesh, l);
+        desc.index_buffer = t->buffers[t->buffer_count++].buffer;
+        desc.index_offset = l->index_skip;
+        desc.index_type = index_type_of(l->index_size);
     }
-    test_mesh_bounds(mesh, desc.bounds_min, desc.bounds_max);
+    test_mesh_bounds(bounded, desc.bounds_min, desc.bounds_max);
+    return desc;
+}
+
+static void place_described(struct gi_test *t, const struct sdfgi_mesh_desc *desc)
+{
     sdfgi_mesh handle;
-    REQUIRE_CMP(sdfgi_mesh_create(pass_context.gi, &desc, &handle), ==, SDFGI_OK);
-    pass_scene_place(&pass_context, handle, identity, zero);
+    REQUIRE_CMP(sdfgi_mesh_create(t->gi, desc, &handle), ==, SDFGI_OK);
+    pass_scene_place(t, handle, identity, zero);
+}
+
+static void require_layout_reads(const struct layout *l, enum sdfgi_voxelizer voxelizer,
+                                 const struct test_mesh *mesh, const struct pass_volumes *expected)
+{
+    struct sdfgi_settings settings = coarse_settings();
+    settings.voxelizer = voxelizer;
+    gi_test_renew(&pass_context, &settings);
+    const struct sdfgi_mesh_desc desc = describe(&pass_context, mesh, mesh, l);
+    place_described(&pass_context, &desc);
     gi_test_update(&pass_context, 1);
     struct pass_volumes read = pass_volumes_read(&pass_context);
-    pass_volumes_require_equal(&read, expected);
+    if (pass_volumes_differ(&read, expected) > 0)
+        require_fail(__FILE__, __LINE__, "indices of %u bytes at byte %u, from index %u on, plus %d",
+                     l->index_size, l->index_skip, l->first_index, (int)l->vertex_offset);
+    REQUIRE_CMP(pass_health_count(&pass_context, SDFGI_MESSAGE_TRIANGLES_SKIPPED), ==, 0ul);
     pass_volumes_destroy(&read);
+}
+
+/* Of less than 256 vertices. */
+static struct test_mesh small_torus(void)
+{
+    return snapped(test_mesh_torus((double[]){ 0.3, -0.2, 0.1 }, 3, 1.2, test_rotation_none, 16, 12));
+}
+
+static void require_layouts_read(enum sdfgi_voxelizer voxelizer)
+{
+    static const struct layout layouts[] = {
+        { 3, 0, 2, 0, 0, 0 },   { 3, 5, 2, 28, 0, 0 },     { 8, 1, 4, 12, 0, 0 },     { 3, 0, 0, 0, 0, 0 },
+        { 5, 2, 0, 0, 0, 0 },   { 3, 0, 1, 0, 0, 0 },      { 3, 0, 1, 3, 0, 0 },      { 3, 0, 2, 2, 0, 0 },
+        { 3, 0, 2, 7, 1, 0 },   { 3, 0, 4, 1, 0, 0 },      { 3, 0, 4, 4, 301, 0 },    { 3, 90, 1, 0, 5, 40 },
+        { 4, 0, 1, 1, 2, -60 }, { 3, 0, 2, 0, 301, 1000 }, { 3, 0, 4, 0, 1, -70000 }, { 3, 1, 0, 0, 7, 0 },
+        { 3, 1, 0, 0, 9, -3 },  { 3, 1, 0, 0, 0, 100 },
+    };
+    struct test_mesh mesh = small_torus();
+    struct pass_volumes expected = volumes_of(&mesh);
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++)
+        require_layout_reads(&layouts[i], voxelizer, &mesh, &expected);
+    pass_volumes_destroy(&expected);
+    test_mesh_destroy(&mesh);
 }
 
 static void buffers_of_every_layout_give_the_same_volumes(void **state)
 {
     (void)state;
-    static const struct layout layouts[] = {
-        { 3, 0, 0, 2 }, { 3, 5, 7, 2 }, { 8, 1, 3, 4 }, { 3, 0, 0, 0 }, { 5, 2, 0, 0 }
-    };
-    struct test_mesh mesh = torus();
-    struct pass_volumes expected = volumes_of(&mesh);
-    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++)
-        require_layout_reads(&layouts[i], &mesh, &expected);
-    pass_volumes_destroy(&expected);
-    test_mesh_destroy(&mesh);
+    require_layouts_read(SDFGI_VOXELIZER_COMPUTE);
+}
+
+static void raster_reads_every_layout_too(void **state)
+{
+    (void)state;
+    if (!pass_raster_is_available())
+        skip();
+    require_layouts_read(SDFGI_VOXELIZER_RASTER);
 }
 
 /* ---- Bad triangles */
@@ -257,18 +319,9 @@ static void open_spoiled(struct gi_test *t, const struct sdfgi_settings *setting
 {
     struct test_mesh mesh = spoiled(good);
     gi_test_renew(t, settings);
-    const struct layout plain = { 3, 0, 0, 4 };
-    t->buffers[t->buffer_count++] = positions_buffer(t, &mesh, &plain);
-    t->buffers[t->buffer_count++] = index_buffer(t, &mesh, &plain);
-    struct sdfgi_mesh_desc desc = { .position_buffer = t->buffers[0].buffer,
-                                    .index_buffer = t->buffers[1].buffer,
-                                    .index_type = VK_INDEX_TYPE_UINT32,
-                                    .vertex_count = mesh.vertex_count,
-                                    .triangle_count = mesh.triangle_count };
-    test_mesh_bounds(good, desc.bounds_min, desc.bounds_max);
-    sdfgi_mesh handle;
-    REQUIRE_CMP(sdfgi_mesh_create(t->gi, &desc, &handle), ==, SDFGI_OK);
-    pass_scene_place(t, handle, identity, zero);
+    const struct sdfgi_mesh_desc desc =
+        describe(t, &mesh, good, &(struct layout){ .stride = 3, .index_size = 4 });
+    place_described(t, &desc);
     gi_test_update(t, 4);
     test_mesh_destroy(&mesh);
 }
@@ -315,6 +368,7 @@ int main(void)
         cmocka_unit_test(hard_65_a_transform_to_a_line_leaves_nothing),
         cmocka_unit_test(hard_25_far_and_negative_places_give_the_same_bits),
         cmocka_unit_test(buffers_of_every_layout_give_the_same_volumes),
+        cmocka_unit_test(raster_reads_every_layout_too),
         cmocka_unit_test(hard_14_bad_triangles_are_skipped_and_counted),
         cmocka_unit_test(hard_14_raster_skips_and_counts_them_too),
     };

@@ -34,17 +34,27 @@
 #define MESH_FIELDS(X)                                                                                       \
     X(VkBuffer,     position_buffer, ONE,  SEEN,   WAKE_POSITIONS, WAKE_OTHER_POSITIONS)                     \
     X(VkDeviceSize, position_offset, ONE,  SEEN,   0, 36)                                                    \
+    X(VkDeviceSize, position_range,  ONE,  UNSEEN, 0, 4096)                                                  \
     X(uint32_t,     position_stride, ONE,  SEEN,   0, 12, 16, 24)                                            \
+    X(VkFormat,     position_format, ONE,  SEEN,   0, VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32_SFLOAT)   \
     X(VkBuffer,     uv_buffer,       ONE,  SEEN,   -1, WAKE_UVS, WAKE_OTHER_UVS)                             \
     X(VkDeviceSize, uv_offset,       ONE,  SEEN,   0, 8, 20)                                                 \
+    X(VkDeviceSize, uv_range,        ONE,  UNSEEN, 0, 4096)                                                  \
     X(uint32_t,     uv_stride,       ONE,  SEEN,   0, 8, 12)                                                 \
+    X(VkFormat,     uv_format,       ONE,  SEEN,   0, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_UNORM)       \
     X(VkBuffer,     color_buffer,    ONE,  SEEN,   -1, WAKE_COLORS, WAKE_OTHER_COLORS)                       \
     X(VkDeviceSize, color_offset,    ONE,  SEEN,   0, 16, 36)                                                \
+    X(VkDeviceSize, color_range,     ONE,  UNSEEN, 0, 4096)                                                  \
     X(uint32_t,     color_stride,    ONE,  SEEN,   0, 16, 20)                                                \
+    X(VkFormat,     color_format,    ONE,  SEEN,   0, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16_UNORM)   \
     X(VkBuffer,     index_buffer,    ONE,  SEEN,   -1, WAKE_INDICES, WAKE_OTHER_INDICES)                     \
     X(VkDeviceSize, index_offset,    ONE,  SEEN,   0, 12, 24)                                                \
-    X(VkIndexType,  index_type,      ONE,  SEEN,   VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32)               \
-    X(uint32_t,     vertex_count,    ONE,  UNSEEN, 45, 48, 51)                                               \
+    X(VkDeviceSize, index_range,     ONE,  UNSEEN, 0, 4096)                                                  \
+    X(VkIndexType,  index_type,      ONE,  SEEN,   VK_INDEX_TYPE_UINT16, VK_INDEX_TYPE_UINT32,               \
+                                                   VK_INDEX_TYPE_UINT8_EXT)                                  \
+    X(uint32_t,     first_index,     ONE,  SEEN,   0, 3)                                                     \
+    X(int32_t,      vertex_offset,   ONE,  SEEN,   0, 3)                                                     \
+    X(uint32_t,     vertex_count,    ONE,  UNSEEN, 51, 54, 60)                                               \
     X(uint32_t,     triangle_count,  ONE,  SEEN,   6, 12, 15)                                                \
     X(float,        bounds_min,      MANY, UNSEEN, -1, -1.2)                                                 \
     X(float,        bounds_max,      MANY, UNSEEN, 1, 1.2)                                                   \

@@ -61,7 +61,7 @@ static void init_meshes(struct wake_world *w, const struct wake_device *device)
             .color_buffer = device->buffers[WAKE_COLORS].buffer,
             .index_buffer = device->buffers[i == 1 ? WAKE_INDICES : WAKE_OTHER_INDICES].buffer,
             .index_type = VK_INDEX_TYPE_UINT32,
-            .vertex_count = 48,
+            .vertex_count = 54,
             .triangle_count = 12,
             .bounds_min = { -1, -1, -1 },
             .bounds_max = { 1, 1, 1 }

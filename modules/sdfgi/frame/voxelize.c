@@ -63,16 +63,6 @@ static uint32_t packed_corner(const int32_t corner[3])
     return (uint32_t)corner[0] | (uint32_t)corner[1] << 10 | (uint32_t)corner[2] << 20;
 }
 
-static uint32_t mesh_flags(const struct sdfgi_mesh_desc *d)
-{
-    uint32_t flags = !d->index_buffer                        ? SDFGI_MESH_INDEX_NONE
-                     : d->index_type == VK_INDEX_TYPE_UINT32 ? SDFGI_MESH_INDEX_32
-                                                             : SDFGI_MESH_INDEX_16;
-    flags |= d->uv_buffer ? SDFGI_MESH_HAS_UV : 0;
-    flags |= d->color_buffer ? SDFGI_MESH_HAS_COLOR : 0;
-    return flags;
-}
-
 /* Cells by which a bound is widened that lies so many cells from the anchor. Shaders know vertices as floats
  * in sub-voxels from there: the further away, the coarser. */
 static double slack(double distance)
@@ -116,6 +106,7 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
                                                 const struct instance *instance, const struct mesh *mesh)
 {
     const struct sdfgi_mesh_desc *d = &mesh->desc;
+    const struct mesh_stream *streams = mesh->streams;
     const struct cascade *cascade = &v->cascades->at[work->cascade];
     const uint32_t groups = group_count(d->triangle_count);
     const double columns = v->rec->backend->device.is_cpu ? COLUMNS_PER_THREAD_CPU : COLUMNS_PER_THREAD;
@@ -125,14 +116,14 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
         .slices = slice_count(cascade, &work->box, &instance->bounds, (double)groups * SDFGI_GROUP_TRIANGLE,
                               columns),
         .material = sdfgi_pool_index(&v->scene->materials, instance->desc.material.id),
-        .flags = mesh_flags(d),
-        .position_offset = (uint32_t)(d->position_offset / 4),
-        .position_stride = d->position_stride / 4,
-        .uv_offset = (uint32_t)(d->uv_offset / 4),
-        .uv_stride = d->uv_stride / 4,
-        .color_offset = (uint32_t)(d->color_offset / 4),
-        .color_stride = d->color_stride / 4,
-        .index_offset = (uint32_t)(d->index_offset / 4),
+        .flags = sdfgi_mesh_index_flags(&streams[SDFGI_BINDING_MESH_INDICES]),
+        .position_fetch = sdfgi_mesh_stream_fetch(&streams[SDFGI_BINDING_MESH_POSITIONS]),
+        .position_stride = streams[SDFGI_BINDING_MESH_POSITIONS].stride,
+        .uv_fetch = sdfgi_mesh_stream_fetch(&streams[SDFGI_BINDING_MESH_UVS]),
+        .uv_stride = streams[SDFGI_BINDING_MESH_UVS].stride,
+        .color_fetch = sdfgi_mesh_stream_fetch(&streams[SDFGI_BINDING_MESH_COLORS]),
+        .color_stride = streams[SDFGI_BINDING_MESH_COLORS].stride,
+        .vertex_offset = sdfgi_mesh_first_vertex(d),
         .vertex_count = d->vertex_count,
         .box_low = packed_corner(work->box.low),
         .box_high = packed_corner(work->box.high),

@@ -181,7 +181,7 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
 enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc,
                                           sdfgi_mesh *out)
 {
-    const struct problem problem = sdfgi_check_mesh(desc);
+    const struct problem problem = sdfgi_check_mesh(desc, &scene->backend->device);
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_mesh_create");
     uint32_t id;
@@ -189,9 +189,7 @@ enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfg
     if (!mesh)
         return sdfgi_check_out_of_slots(scene, "sdfgi_mesh_create", MAX_OBJECTS);
     mesh->desc = *desc;
-    mesh->desc.position_stride = desc->position_stride ? desc->position_stride : 12;
-    mesh->desc.uv_stride = desc->uv_stride ? desc->uv_stride : 8;
-    mesh->desc.color_stride = desc->color_stride ? desc->color_stride : 16;
+    sdfgi_mesh_streams(desc, mesh->streams);
     const VkResult result = sdfgi_scene_sets_mesh(scene, mesh);
     if (result != VK_SUCCESS) {
         sdfgi_pool_remove(&scene->meshes, id);

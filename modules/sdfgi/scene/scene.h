@@ -7,6 +7,7 @@
 #include "core/pool.h"
 #include "harmonics.h"
 #include "journal.h"
+#include "mesh_streams.h"
 #include "pass/backend.h"
 
 /* A descriptor set of an object, NULL if it has none. Lies in memory of its own, because frames in flight may
@@ -18,7 +19,8 @@ struct object_set {
 };
 
 struct mesh {
-    struct sdfgi_mesh_desc desc;
+    struct sdfgi_mesh_desc desc; /* without defaults: see `streams` */
+    struct mesh_stream streams[MESH_STREAMS];
     struct object_set *set;
 };
 

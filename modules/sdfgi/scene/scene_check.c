@@ -43,69 +43,6 @@ struct problem sdfgi_check_material(const struct sdfgi_material_desc *d)
     return p;
 }
 
-/* ---- Meshes */
-
-static void check_counts(struct problem *p, const struct sdfgi_mesh_desc *d)
-{
-    if (!d->position_buffer)
-        sdfgi_problem_add(p, "position_buffer is null");
-    if (d->vertex_count == 0)
-        sdfgi_problem_add(p, "vertex_count is 0");
-    if (d->triangle_count == 0)
-        sdfgi_problem_add(p, "triangle_count is 0");
-    if (!d->index_buffer && d->triangle_count > d->vertex_count / 3)
-        sdfgi_problem_add(p, "triangle_count is %u, must be at most vertex_count / 3 = %u without indices",
-                          (unsigned)d->triangle_count, (unsigned)(d->vertex_count / 3));
-    if (d->index_buffer && d->index_type != VK_INDEX_TYPE_UINT16 && d->index_type != VK_INDEX_TYPE_UINT32)
-        sdfgi_problem_add(p, "index_type is %d, must be VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32",
-                          (int)d->index_type);
-    if (d->front_face != VK_FRONT_FACE_COUNTER_CLOCKWISE && d->front_face != VK_FRONT_FACE_CLOCKWISE)
-        sdfgi_problem_add(p, "front_face is %d, must be one of VkFrontFace", (int)d->front_face);
-}
-
-/* Shaders count in words of 4 bytes, with 32 bits. */
-static void check_offset(struct problem *p, const char *field, VkDeviceSize offset)
-{
-    if (offset & 3)
-        sdfgi_problem_add(p, "%s is %llu, must be a multiple of 4", field, (unsigned long long)offset);
-    if (offset >> 34)
-        sdfgi_problem_add(p, "%s is %llu, must be below 2^34", field, (unsigned long long)offset);
-}
-
-static void check_stride(struct problem *p, const char *field, uint32_t stride, uint32_t element)
-{
-    if (stride & 3 || (stride > 0 && stride < element))
-        sdfgi_problem_add(p, "%s is %u, must be 0 or a multiple of 4 that is at least %u", field,
-                          (unsigned)stride, (unsigned)element);
-}
-
-static void check_bounds(struct problem *p, const struct sdfgi_mesh_desc *d)
-{
-    sdfgi_problem_floats(p, "bounds_min", d->bounds_min, 3, -INFINITY, INFINITY);
-    sdfgi_problem_floats(p, "bounds_max", d->bounds_max, 3, -INFINITY, INFINITY);
-    for (int i = 0; i < 3; i++)
-        if (d->bounds_min[i] > d->bounds_max[i])
-            sdfgi_problem_add(p, "bounds_min[%d] is %g, must be at most bounds_max[%d] = %g", i,
-                              (double)d->bounds_min[i], i, (double)d->bounds_max[i]);
-    if (all_zero(d->bounds_min, 3) && all_zero(d->bounds_max, 3))
-        sdfgi_problem_add(p, "bounds_min and bounds_max are 0: state the box around all vertices");
-}
-
-struct problem sdfgi_check_mesh(const struct sdfgi_mesh_desc *d)
-{
-    struct problem p = { "" };
-    check_counts(&p, d);
-    check_offset(&p, "position_offset", d->position_offset);
-    check_offset(&p, "uv_offset", d->uv_offset);
-    check_offset(&p, "color_offset", d->color_offset);
-    check_offset(&p, "index_offset", d->index_offset);
-    check_stride(&p, "position_stride", d->position_stride, 12);
-    check_stride(&p, "uv_stride", d->uv_stride, 8);
-    check_stride(&p, "color_stride", d->color_stride, 16);
-    check_bounds(&p, d);
-    return p;
-}
-
 /* ---- Instances, lights, sky */
 
 struct problem sdfgi_check_transform(const struct sdfgi_transform *t)

@@ -9,7 +9,7 @@
 enum { MAX_OBJECTS = (1 << 20) - 2 }; /* of one kind: what a handle can number */
 
 struct problem sdfgi_check_material(const struct sdfgi_material_desc *desc);
-struct problem sdfgi_check_mesh(const struct sdfgi_mesh_desc *desc);
+struct problem sdfgi_check_mesh(const struct sdfgi_mesh_desc *desc, const struct gpu_device *device);
 struct problem sdfgi_check_transform(const struct sdfgi_transform *transform);
 struct problem sdfgi_check_light(const struct sdfgi_light_desc *desc);
 struct problem sdfgi_check_sky(const struct sdfgi_sky *sky);

@@ -76,17 +76,13 @@ VkResult sdfgi_scene_sets_mesh(struct scene *scene, struct mesh *mesh)
     if (result != VK_SUCCESS)
         return result;
     /* Shaders do not read what the mesh lacks, but every binding needs a buffer. */
-    const VkBuffer positions = mesh->desc.position_buffer;
-    const VkBuffer buffers[4] = {
-        [SDFGI_BINDING_MESH_POSITIONS] = positions,
-        [SDFGI_BINDING_MESH_UVS] = mesh->desc.uv_buffer ? mesh->desc.uv_buffer : positions,
-        [SDFGI_BINDING_MESH_COLORS] = mesh->desc.color_buffer ? mesh->desc.color_buffer : positions,
-        [SDFGI_BINDING_MESH_INDICES] = mesh->desc.index_buffer ? mesh->desc.index_buffer : positions,
-    };
-    VkDescriptorBufferInfo infos[4];
-    VkWriteDescriptorSet writes[4];
-    for (uint32_t i = 0; i < 4; i++) {
-        infos[i] = (VkDescriptorBufferInfo){ buffers[i], 0, VK_WHOLE_SIZE };
+    VkDescriptorBufferInfo infos[MESH_STREAMS];
+    VkWriteDescriptorSet writes[MESH_STREAMS];
+    for (uint32_t i = 0; i < MESH_STREAMS; i++) {
+        const struct mesh_stream *stream =
+            &mesh->streams[mesh->streams[i].buffer ? i : SDFGI_BINDING_MESH_POSITIONS];
+        infos[i] = (VkDescriptorBufferInfo){ stream->buffer, sdfgi_mesh_stream_bound_offset(stream),
+                                             sdfgi_mesh_stream_bound_size(stream) };
         writes[i] = (VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                             .dstSet = mesh->set->set,
                                             .dstBinding = i,
@@ -94,7 +90,7 @@ VkResult sdfgi_scene_sets_mesh(struct scene *scene, struct mesh *mesh)
                                             .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                             .pBufferInfo = &infos[i] };
     }
-    device->fn.UpdateDescriptorSets(device->handle, 4, writes, 0, NULL);
+    device->fn.UpdateDescriptorSets(device->handle, MESH_STREAMS, writes, 0, NULL);
     return VK_SUCCESS;
 }
 

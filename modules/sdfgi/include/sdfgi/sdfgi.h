@@ -207,26 +207,52 @@ SDFGI_API enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_
                                                   sdfgi_material *out);
 SDFGI_API enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material material);
 
-/* Triangles in buffers of the host's, which must have VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Offsets and strides
- * are multiples of 4 bytes. Triangles with a non-finite or out-of-range vertex are skipped and counted. Those
- * that leave the bounds by more than a cell are counted, too: they may be missing, wholly or in part. */
+/* Triangles in buffers of the host's, which must have VK_BUFFER_USAGE_STORAGE_BUFFER_BIT: those that it draws
+ * from, as they are. Normals are not read. Triangles with a non-finite or out-of-range vertex are skipped and
+ * counted. Those that leave the bounds by more than a cell are counted, too: they may be missing, wholly or
+ * in part.
+ *
+ * Formats, whose values are those of Vulkan's vertex input; what a format lacks is 0, alpha 1:
+ *
+ *   R8G8, A2R10G10B10_PACK32, A2B10G10R10_PACK32     UNORM, SNORM, USCALED, SSCALED, UINT, SINT
+ *   R8G8B8, R8G8B8A8, A8B8G8R8_PACK32                these and SRGB
+ *   R16G16, R16G16B16, R16G16B16A16                  these and SFLOAT, not SRGB
+ *   B8G8R8, B8G8R8A8                                 UNORM, SRGB
+ *   R32G32, R32G32B32, R32G32B32A32                  SFLOAT
+ *
+ * UINT and SINT count as USCALED and SSCALED: as the numbers that they are. A device need not know any of
+ * these for vertex input, because shaders of the library decode them. Offsets and strides are multiples of
+ * the bytes of a component, of 4 for packed formats.
+ *
+ * Of a buffer are read: from its offset, `vertex_count` elements, a stride apart; or the indices that
+ * `triangle_count` needs. They must lie in the buffer, with what is missing to the next multiple of 4 bytes
+ * from its beginning: shaders read words. They may be at most maxStorageBufferRange - 258 bytes long,
+ * wherever in the buffer. A range says how many bytes from the offset belong to the mesh: more are refused.
+ * 0: whatever the buffer has. */
 struct sdfgi_mesh_desc {
-    VkBuffer position_buffer; /* 3 floats per vertex */
-    VkDeviceSize position_offset;
-    uint32_t position_stride; /* bytes; 0: 12 */
-    VkBuffer uv_buffer;       /* 2 floats per vertex; VK_NULL_HANDLE: (0, 0) */
-    VkDeviceSize uv_offset;
-    uint32_t uv_stride;    /* bytes; 0: 8 */
-    VkBuffer color_buffer; /* 4 floats per vertex, multiplied into the albedo; VK_NULL_HANDLE: white */
-    VkDeviceSize color_offset;
-    uint32_t color_stride;     /* bytes; 0: 16 */
-    VkBuffer index_buffer;     /* VK_NULL_HANDLE: vertices 0, 1, 2, ... */
-    VkDeviceSize index_offset; /* a multiple of 4 also for 16-bit indices */
-    VkIndexType index_type;    /* VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 */
-    uint32_t vertex_count;     /* > 0 */
-    uint32_t triangle_count;   /* > 0 */
-    float bounds_min[3];       /* object space, containing every vertex; instances are culled by them. */
-    float bounds_max[3];       /* Not all six may be 0 */
+    VkBuffer position_buffer;
+    VkDeviceSize position_offset, position_range; /* bytes */
+    uint32_t position_stride;                     /* bytes; 0: those of the format */
+    VkFormat position_format; /* 2 to 4 components, of which a fourth is not read; 0: R32G32B32_SFLOAT.
+                                 Normalised ones need the transform that makes metres of them, as always */
+    VkBuffer uv_buffer;       /* VK_NULL_HANDLE: (0, 0) */
+    VkDeviceSize uv_offset, uv_range;
+    uint32_t uv_stride;
+    VkFormat uv_format;    /* 2 to 4 components, of which two are read; 0: R32G32_SFLOAT */
+    VkBuffer color_buffer; /* multiplied into the albedo, linear but for SRGB; VK_NULL_HANDLE: white */
+    VkDeviceSize color_offset, color_range;
+    uint32_t color_stride;
+    VkFormat color_format;                  /* 3 or 4 components; 0: R32G32B32A32_SFLOAT */
+    VkBuffer index_buffer;                  /* VK_NULL_HANDLE: indices are 0, 1, 2, ... */
+    VkDeviceSize index_offset, index_range; /* any multiple of 1 byte */
+    VkIndexType index_type; /* VK_INDEX_TYPE_UINT16 (0), VK_INDEX_TYPE_UINT32 or VK_INDEX_TYPE_UINT8_EXT.
+                               Whether the device draws with 8 bits is no matter */
+    uint32_t first_index;   /* as in vkCmdDrawIndexed: indices before the first that is used */
+    int32_t vertex_offset; /* as in vkCmdDrawIndexed: added to every index, with the sum below vertex_count */
+    uint32_t vertex_count; /* > 0; elements from the offsets on */
+    uint32_t triangle_count; /* > 0; three indices each */
+    float bounds_min[3];     /* object space, containing every vertex; instances are culled by them. */
+    float bounds_max[3];     /* Not all six may be 0 */
     VkFrontFace front_face; /* winding of fronts as seen from before them: COUNTER_CLOCKWISE (0) or CLOCKWISE,
                                for meshes baked with an axis flipped. Surfaces lie behind their fronts, and
                                emit from there. The transform of an instance does not change the front */
