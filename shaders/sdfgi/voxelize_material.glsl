@@ -36,6 +36,15 @@ vec2 texture_uv(vec4 rows[2], vec2 uv)
 {
     return vec2(dot(rows[0].xyz, vec3(uv, 1.0)), dot(rows[1].xyz, vec3(uv, 1.0)));
 }
+
+/* Linear RGB, and alpha. */
+vec4 texture_sample(sampler2D from, vec4 rows[2], bool encoded, vec2 uv, uint index[3], float area2)
+{
+    const float level =
+        args.uv_fetch != 0u ? texture_level(index, area2, rows, vec2(textureSize(from, 0))) : 0.0;
+    const vec4 texel = textureLod(from, texture_uv(rows, uv), level);
+    return encoded ? vec4(sdfgi_srgb_decode(texel.rgb), texel.a) : texel;
+}
 #endif
 
 /* The material at a point of a triangle. `area2` is twice the area of its projection along an axis, in
@@ -47,18 +56,14 @@ surface_sample material_sample(uint index[3], vec3 bary, float area2)
     if (args.color_fetch != 0u)
         s.albedo *= mesh_color(index, bary);
 #ifdef SDFGI_VOXELIZE_TEXTURED
-    const bool has_uv = args.uv_fetch != 0u;
-    const vec2 uv = has_uv ? mesh_uv(index, bary) : vec2(0.0);
-    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
-        const float level =
-            has_uv ? texture_level(index, area2, m.albedo_uv, vec2(textureSize(albedo_texture, 0))) : 0.0;
-        s.albedo *= textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level);
-    }
-    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
-        const float level =
-            has_uv ? texture_level(index, area2, m.emission_uv, vec2(textureSize(emission_texture, 0))) : 0.0;
-        s.emission *= textureLod(emission_texture, texture_uv(m.emission_uv, uv), level).rgb;
-    }
+    const vec2 uv = args.uv_fetch != 0u ? mesh_uv(index, bary) : vec2(0.0);
+    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u)
+        s.albedo *= texture_sample(albedo_texture, m.albedo_uv, (m.flags & SDFGI_MATERIAL_ALBEDO_SRGB) != 0u,
+                                   uv, index, area2);
+    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u)
+        s.emission *= texture_sample(emission_texture, m.emission_uv,
+                                     (m.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u, uv, index, area2)
+                          .rgb;
 #endif
     return s;
 }

@@ -98,6 +98,8 @@ SDFGI_ASSERT_SIZE(sdfgi_light_params, 64);
 #define SDFGI_MATERIAL_ALBEDO_TEXTURE        1u
 #define SDFGI_MATERIAL_EMISSION_TEXTURE      2u
 #define SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION 4u
+#define SDFGI_MATERIAL_ALBEDO_SRGB           8u /* the texture's texels are encoded, and it does not decode */
+#define SDFGI_MATERIAL_EMISSION_SRGB         16u
 
 struct sdfgi_material_params {
     vec3 albedo;

@@ -19,7 +19,8 @@
     X(VkImageLayout,        layout,       ONE,  UNSEEN, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL)         \
     X(float,                uv_transform, MANY, SEEN,   0, 0.5, 1, -1, 3)                                    \
     X(VkSamplerAddressMode, address_u,    ONE,  SEEN,   0, 1, 2)                                             \
-    X(VkSamplerAddressMode, address_v,    ONE,  SEEN,   0, 1, 2)
+    X(VkSamplerAddressMode, address_v,    ONE,  SEEN,   0, 1, 2)                                             \
+    X(bool,                 decode_srgb,  ONE,  SEEN,   0, 1)
 
 #define MATERIAL_FIELDS(X)                                                                                   \
     X(float,                albedo,                MANY, SEEN,   0, 0.2, 0.4, 0.6)                           \

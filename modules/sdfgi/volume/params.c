@@ -204,7 +204,9 @@ struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
         .alpha_cutoff = m->alpha_cutoff,
         .flags = (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
                  (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
-                 (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0),
+                 (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0) |
+                 (m->albedo_texture.decode_srgb ? SDFGI_MATERIAL_ALBEDO_SRGB : 0) |
+                 (m->emission_texture.decode_srgb ? SDFGI_MATERIAL_EMISSION_SRGB : 0),
     };
     uv_rows(m->albedo_texture.uv_transform, p.albedo_uv);
     uv_rows(m->emission_texture.uv_transform, p.emission_uv);

@@ -184,11 +184,15 @@ typedef struct {
  * sampler of its own, at the mip level whose texels are as large as sub-voxels: give the view all levels. A
  * texture without them is sampled at points, and details finer than a sub-voxel may be missed. */
 struct sdfgi_texture {
-    VkImageView view;      /* 2D, of a format that can be filtered; sRGB where the content is sRGB */
+    VkImageView view;      /* 2D, of a format that can be filtered */
     VkImageLayout layout;  /* VK_IMAGE_LAYOUT_UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
     float uv_transform[6]; /* row-major 2x3, uv' = M * (u, v, 1); all zero: identity */
     /* What lies outside [0, 1]: VK_SAMPLER_ADDRESS_MODE_REPEAT (0), _MIRRORED_REPEAT or _CLAMP_TO_EDGE. */
     VkSamplerAddressMode address_u, address_v;
+    /* Whether RGB is encoded as sRGB in a view whose format is not: the library then decodes it, as a host's
+     * shader would, after filtering. A view of an sRGB format needs no flag: the device decodes, and filters
+     * better. */
+    bool decode_srgb;
 };
 
 struct sdfgi_material_desc {
