@@ -2,7 +2,9 @@
  * Creation, settings, destruction. */
 #include "context.h"
 
+#include "core/extent.h"
 #include "core/problem.h"
+#include "scene/up_axis.h"
 
 #include <string.h>
 
@@ -20,6 +22,8 @@ static struct problem desc_problem(const struct sdfgi_desc *d)
     if (d->frames_in_flight > SDFGI_MAX_FRAMES_IN_FLIGHT)
         sdfgi_problem_add(&p, "frames_in_flight is %u, must be at most %d", (unsigned)d->frames_in_flight,
                           (int)SDFGI_MAX_FRAMES_IN_FLIGHT);
+    if ((unsigned)d->up_axis > SDFGI_UP_MINUS_Z)
+        sdfgi_problem_add(&p, "up_axis is %d, must be one of enum sdfgi_up_axis", (int)d->up_axis);
     if (!d->allocator.alloc != !d->allocator.free)
         sdfgi_problem_add(&p, "allocator.%s is null, must be set where allocator.%s is",
                           d->allocator.alloc ? "free" : "alloc", d->allocator.alloc ? "alloc" : "free");
@@ -130,6 +134,8 @@ enum sdfgi_result sdfgi_create(const struct sdfgi_desc *desc, sdfgi **out)
     gi->backend.retired.frames_in_flight = desc->frames_in_flight ? desc->frames_in_flight : 2;
     sdfgi_settings_default(&gi->settings);
     sdfgi_scene_init(&gi->scene, &gi->backend);
+    gi->scene.up_axis = desc->up_axis;
+    gi->scene.left_handed = desc->left_handed;
     sdfgi_volume_init(&gi->volume, &gi->backend, &gi->scene);
     sdfgi_volume_reset(&gi->volume, NULL, &gi->settings);
     const enum sdfgi_result result = init(gi, desc);
@@ -170,6 +176,14 @@ static enum sdfgi_result check_settings(struct sdfgi *gi, const struct sdfgi_set
     char error[160];
     if (!sdfgi_settings_validate(settings, error, sizeof error)) {
         sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_INVALID_SETTING, "sdfgi_set_settings: %s", error);
+        return SDFGI_ERROR_INVALID_ARGUMENT;
+    }
+    if (sdfgi_settings_y_scale(settings) != 1 && sdfgi_up_vector(gi->scene.up_axis).y == 0) {
+        sdfgi_message_log(
+            &gi->backend.hooks, SDFGI_MESSAGE_INVALID_SETTING,
+            "sdfgi_set_settings: sdfgi_y_scale is %g%%, must be 100%% where up_axis is +Z or -Z: "
+            "cells are flattened along Y",
+            100 * sdfgi_settings_y_scale(settings));
         return SDFGI_ERROR_INVALID_ARGUMENT;
     }
     return SDFGI_OK;

@@ -147,11 +147,13 @@ bool sdfgi_cells_is_set(uvec2 bits, vec3 at)
  * fills no layer: there the way up could lead to its far side. */
 bool sdfgi_cells_step_out(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout vec3 at)
 {
-    const uint y = uint(floor(at.y * 4.0)) & 3u;
-    const uvec2 layer = sdfgi_trace_box_bits(uvec3(0u, y, 0u), uvec3(3u, y, 3u));
-    const float up = sign(eye.y);
-    at.y += 0.25 * up;
-    return (bits & layer) == layer && normal.y * up > -0.5 &&
+    const bvec3 vertical = notEqual(vec3(0.0, sdfgi_frame.up_y, sdfgi_frame.up_z), vec3(0.0));
+    const vec3 axis = vec3(vertical);
+    const uvec3 depth = uvec3(vertical) * (uint(floor(dot(at, axis) * 4.0)) & 3u);
+    const uvec2 layer = sdfgi_trace_box_bits(depth, depth + 3u * uvec3(not(vertical)));
+    const vec3 up = axis * sign(dot(eye, axis));
+    at += 0.25 * up;
+    return (bits & layer) == layer && dot(normal, up) > -0.5 &&
            !sdfgi_cells_is_set(sdfgi_cell_bits(cascade, ivec3(floor(at))), at);
 }
 

@@ -7,6 +7,11 @@
 #include "sdfgi_resources.glsl"
 #include "../lib/sky.glsl"
 
+float sdfgi_sky_height(vec3 dir)
+{
+    return dir.y * sdfgi_frame.up_y + dir.z * sdfgi_frame.up_z;
+}
+
 /* `bands`: factors on the bands 0, 1 and 2. Below 0, where so few bands cannot follow a bright spot, there is
  * no light. */
 vec3 sdfgi_sky_harmonics(vec3 dir, vec3 bands)
@@ -25,7 +30,8 @@ vec3 sdfgi_sky_harmonics(vec3 dir, vec3 bands)
 
 vec3 sdfgi_sky_towards(vec3 dir)
 {
-    return sdfgi_sky_radiance(dir, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon, sdfgi_frame.sky_ground) +
+    return sdfgi_sky_radiance(sdfgi_sky_height(dir), sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
+                              sdfgi_frame.sky_ground) +
            sdfgi_sky_harmonics(dir, vec3(1.0));
 }
 
@@ -40,7 +46,7 @@ vec3 sdfgi_sky_everywhere()
  * (Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps). */
 vec3 sdfgi_sky_around(vec3 normal)
 {
-    return sdfgi_sky_irradiance(normal, sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
+    return sdfgi_sky_irradiance(sdfgi_sky_height(normal), sdfgi_frame.sky_zenith, sdfgi_frame.sky_horizon,
                                 sdfgi_frame.sky_ground) +
            sdfgi_sky_harmonics(normal, vec3(1.0, 2.0 / 3.0, 0.25));
 }

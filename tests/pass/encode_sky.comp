@@ -21,6 +21,6 @@ void main()
     if (i >= count)
         return;
     const vec3 zenith = vec3(1.0, 0.0, 0.0), horizon = vec3(0.0, 1.0, 0.0), ground = vec3(0.0, 0.0, 1.0);
-    data[3u * i + 1u].rgb = sdfgi_sky_irradiance(data[3u * i].xyz, zenith, horizon, ground);
-    data[3u * i + 2u].rgb = sdfgi_sky_radiance(data[3u * i].xyz, zenith, horizon, ground);
+    data[3u * i + 1u].rgb = sdfgi_sky_irradiance(data[3u * i].y, zenith, horizon, ground);
+    data[3u * i + 2u].rgb = sdfgi_sky_radiance(data[3u * i].y, zenith, horizon, ground);
 }

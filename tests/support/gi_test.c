@@ -37,6 +37,8 @@ struct sdfgi_desc gi_test_desc(struct gi_test *t, const struct sdfgi_settings *s
         .frames_in_flight = 2,
         .settings = settings,
         .log = { log_message, t },
+        .up_axis = t->up_axis,
+        .left_handed = t->left_handed,
     };
 }
 

@@ -17,6 +17,8 @@ struct gi_test {
     struct gpu_test_buffer buffers[2 * GI_TEST_MAX_MESHES];
     uint32_t buffer_count;
     struct sdfgi_frame_desc frame;
+    enum sdfgi_up_axis up_axis; /* of contexts that gi_test_restart makes */
+    bool left_handed;
     uint32_t messages[SDFGI_MESSAGE_COUNT]; /* how often each was logged */
     char last_message[256];
 };

@@ -34,6 +34,13 @@ static double determinant(const float m[9])
            (double)m[6] * (m[1] * m[5] - m[2] * m[4]);
 }
 
+/* Whether the cross product of the edges of a triangle, once transformed, points behind its front. */
+static bool is_reversed(const struct scene *scene, const struct instance *instance, VkFrontFace front_face)
+{
+    const bool mirrored = determinant(instance->desc.transform.basis) < 0;
+    return (mirrored != scene->left_handed) != (front_face == VK_FRONT_FACE_CLOCKWISE);
+}
+
 /* Parts of a sub-voxel to which an instance's place is rounded, so that far from the world's origin, where
  * doubles are coarser, it comes out the same. Well below the margin of edges. */
 #define ANCHOR_PARTS 4096.0
@@ -130,7 +137,7 @@ static struct sdfgi_voxelize_args voxelize_args(const struct voxelizer *v, const
     };
     fill_rows(cascade, &instance->desc.transform, &args);
     fill_bounds(cascade, instance, v->cascades->resolution, &args);
-    if ((determinant(instance->desc.transform.basis) < 0) != (d->front_face == VK_FRONT_FACE_CLOCKWISE))
+    if (is_reversed(v->scene, instance, d->front_face))
         args.flags |= SDFGI_MESH_REVERSED;
     if (is_checked(cascade, work, instance))
         args.flags |= SDFGI_MESH_CHECKED;

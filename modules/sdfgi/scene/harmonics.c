@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "harmonics.h"
 
+#include "up_axis.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -39,17 +41,40 @@ static void turn(const float f[static FUNCTIONS], float c, float s, float out[st
     out[8] = (x2 + f[8]) / 2;
 }
 
-void sdfgi_harmonics_factors(const struct sdfgi_sky_harmonics *h, float factors[static FUNCTIONS][3])
+/* The sky's direction of a direction d in a world where `up` is up is (x, u y + v z, u z - v y), u and v
+ * being the components of up along Y and Z: put into the functions and sorted by them. One of u and v is 0.
+ */
+static void tilt(const float f[static FUNCTIONS], const struct up_vector *up, float out[static FUNCTIONS])
 {
+    const float u = up->y, v = up->z;
+    out[0] = f[0];
+    out[1] = u * f[1] - v * f[2];
+    out[2] = v * f[1] + u * f[2];
+    out[3] = f[3];
+    out[4] = u * f[4] - v * f[7];
+    out[5] = (u * u - v * v) * f[5];
+    /* Of x^2, y^2 and z^2: 1 is their sum. */
+    const float x2 = f[8] - f[6], y2 = u * u * (-f[6] - f[8]) + v * v * 2 * f[6],
+                z2 = v * v * (-f[6] - f[8]) + u * u * 2 * f[6];
+    out[6] = z2 / 2;
+    out[7] = v * f[4] + u * f[7];
+    out[8] = (x2 - y2) / 2;
+}
+
+void sdfgi_harmonics_factors(const struct sdfgi_sky_harmonics *h, enum sdfgi_up_axis up_axis,
+                             float factors[static FUNCTIONS][3])
+{
+    const struct up_vector up = sdfgi_up_vector(up_axis);
     const float c = cosf(h->rotation_rad), s = sinf(h->rotation_rad);
     const float intensity = h->intensity > 0 ? h->intensity : 1;
     for (int k = 0; k < 3; k++) {
-        float plain[FUNCTIONS], turned[FUNCTIONS];
+        float plain[FUNCTIONS], turned[FUNCTIONS], tilted[FUNCTIONS];
         for (int i = 0; i < FUNCTIONS; i++)
             plain[i] = h->coefficients[i][k] * constants[i] * intensity;
         turn(plain, c, s, turned);
+        tilt(turned, &up, tilted);
         for (int i = 0; i < FUNCTIONS; i++)
-            factors[i][k] = turned[i];
+            factors[i][k] = tilted[i];
     }
 }
 

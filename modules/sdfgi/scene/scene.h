@@ -48,6 +48,8 @@ enum { ADDRESS_MODES = 3 }; /* REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE: the first
 
 struct scene {
     struct backend *backend;
+    enum sdfgi_up_axis up_axis;
+    bool left_handed;
     struct pool meshes, materials, instances, lights;
     struct set_pool *set_pools;
     VkSampler samplers[ADDRESS_MODES][ADDRESS_MODES]; /* by mode of u, v; null until a texture needs it */

@@ -3,6 +3,7 @@
 #include "volume.h"
 
 #include "change.h"
+#include "scene/up_axis.h"
 
 #include <math.h>
 #include <string.h>
@@ -81,6 +82,13 @@ static vec3 scaled(const float color[static 3], float factor)
                    fminf(color[2] * factor, BRIGHTEST) };
 }
 
+static void fill_up(struct sdfgi_frame_params *p, enum sdfgi_up_axis axis)
+{
+    const struct up_vector up = sdfgi_up_vector(axis);
+    p->up_y = up.y;
+    p->up_z = up.z;
+}
+
 static void fill_sky(struct sdfgi_frame_params *p, const struct sdfgi_sky *sky, float factor)
 {
     p->sky_zenith = scaled(sky->zenith, factor);
@@ -94,13 +102,12 @@ static float limited(float value)
     return fminf(fmaxf(value, -BRIGHTEST), BRIGHTEST);
 }
 
-static void fill_harmonics(struct sdfgi_frame_params *p, const struct sdfgi_sky_harmonics *harmonics,
-                           float factor)
+static void fill_harmonics(struct sdfgi_frame_params *p, const struct scene *scene, float factor)
 {
     float factors[9][3];
-    if (factor == 0 || !sdfgi_harmonics_any(harmonics))
+    if (factor == 0 || !sdfgi_harmonics_any(&scene->harmonics))
         return;
-    sdfgi_harmonics_factors(harmonics, factors);
+    sdfgi_harmonics_factors(&scene->harmonics, scene->up_axis, factors);
     p->sky_has_harmonics = 1;
     for (int i = 0; i < 9; i++)
         p->sky_harmonics[i] = (vec4){ limited(factors[i][0] * factor), limited(factors[i][1] * factor),
@@ -149,8 +156,9 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     memset(p, 0, sizeof *p);
     for (uint32_t c = 0; c < state->cascades.count; c++)
         p->cascades[c] = cascade_params(state, c);
+    fill_up(p, input->scene->up_axis);
     fill_sky(p, &input->scene->sky, input->settings->read_sky_light ? exposure : 0.0f);
-    fill_harmonics(p, &input->scene->harmonics, input->settings->read_sky_light ? exposure : 0.0f);
+    fill_harmonics(p, input->scene, input->settings->read_sky_light ? exposure : 0.0f);
     fill_settings(p, input->settings);
     p->exposure = exposure;
     p->exposure_inverse = 1.0f / exposure;

@@ -21,7 +21,7 @@
  *
  * CONVENTIONS
  *   Units      metres, radians, W/m^2 (irradiance), W/(m^2 sr) (radiance), W/sr (intensity), linear RGB.
- *   Space      right or left handed, any up axis except for sdfgi_y_scale and the sky, which take +Y as up.
+ *   Space      right handed with +Y up, or as sdfgi_desc::up_axis and left_handed say.
  *   Positions  cross this interface as double[3] in world space.
  *   Lifetime   descriptors and what they point to need only outlive the call. Vulkan handles are borrowed and
  *              must outlive the object that was made from them.
@@ -123,6 +123,10 @@ struct sdfgi_vulkan {
                              because not every driver shows it */
 };
 
+/* Where up is in the world. The sky follows it, and lookups at level ground. sdfgi_y_scale does not: cells
+ * are flattened along Y, and with Z up nothing but 100 % is taken. */
+enum sdfgi_up_axis { SDFGI_UP_Y = 0, SDFGI_UP_Z, SDFGI_UP_MINUS_Y, SDFGI_UP_MINUS_Z };
+
 struct sdfgi_desc {
     struct sdfgi_vulkan vulkan;
     uint32_t frames_in_flight;             /* 1..8; 0: 2. A command buffer recorded by sdfgi_update must have
@@ -141,6 +145,10 @@ struct sdfgi_desc {
     /* False: sdfgi_create makes the pipelines that every frame needs. True: it makes none, and is over at
      * once; sdfgi_prepare makes them, or else the sdfgi_set_settings that switches on. */
     bool pipelines_later;
+    enum sdfgi_up_axis up_axis; /* 0: +Y */
+    bool left_handed;           /* the world's X, Y and Z are a left hand's, as in Direct3D and Unreal. Only
+                                   sdfgi_mesh_desc::front_face depends on it: what is clockwise to one hand is
+                                   counter-clockwise to the other. It does not follow from a flipped viewport */
 };
 
 typedef struct sdfgi sdfgi;
@@ -312,8 +320,9 @@ SDFGI_API enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light,
                                                const struct sdfgi_light_desc *desc);
 SDFGI_API enum sdfgi_result sdfgi_light_destroy(sdfgi *gi, sdfgi_light light);
 
-/* Sky radiance in direction d (unit, +Y up): lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|).
- * A uniform sky has three equal colours; all zero, the initial state, is no sky. */
+/* Sky radiance in direction d, a unit vector of height h = dot(d, up), with up as sdfgi_desc::up_axis says:
+ * lerp(horizon, h >= 0 ? zenith : ground, |h|). A uniform sky has three equal colours; all zero, the initial
+ * state, is no sky. */
 struct sdfgi_sky {
     float zenith[3], horizon[3], ground[3]; /* W/(m^2 sr), >= 0 */
 };
