@@ -146,9 +146,10 @@ struct sdfgi_desc {
      * once; sdfgi_prepare makes them, or else the sdfgi_set_settings that switches on. */
     bool pipelines_later;
     enum sdfgi_up_axis up_axis; /* 0: +Y */
-    bool left_handed;           /* the world's X, Y and Z are a left hand's, as in Direct3D and Unreal. Only
-                                   sdfgi_mesh_desc::front_face depends on it: what is clockwise to one hand is
-                                   counter-clockwise to the other. It does not follow from a flipped viewport */
+    /* Whether the world's X, Y and Z are those of a left hand, as in Direct3D and Unreal. Only
+     * sdfgi_mesh_desc::front_face depends on it: what is clockwise to one hand is counter-clockwise to the
+     * other. A flipped viewport does not make a world left-handed. */
+    bool left_handed;
 };
 
 typedef struct sdfgi sdfgi;
