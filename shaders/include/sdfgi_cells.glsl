@@ -147,7 +147,8 @@ bool sdfgi_cells_is_set(uvec2 bits, vec3 at)
  * fills no layer: there the way up could lead to its far side. */
 bool sdfgi_cells_step_out(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout vec3 at)
 {
-    const bvec3 vertical = notEqual(vec3(0.0, sdfgi_frame.up_y, sdfgi_frame.up_z), vec3(0.0));
+    const bool along_z = (sdfgi_frame.up_axis & 1u) != 0u;
+    const bvec3 vertical = bvec3(false, !along_z, along_z);
     const vec3 axis = vec3(vertical);
     const uvec3 depth = uvec3(vertical) * (uint(floor(dot(at, axis) * 4.0)) & 3u);
     const uvec2 layer = sdfgi_trace_box_bits(depth, depth + 3u * uvec3(not(vertical)));

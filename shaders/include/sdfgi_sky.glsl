@@ -9,7 +9,8 @@
 
 float sdfgi_sky_height(vec3 dir)
 {
-    return dir.y * sdfgi_frame.up_y + dir.z * sdfgi_frame.up_z;
+    const float along = (sdfgi_frame.up_axis & 1u) != 0u ? dir.z : dir.y;
+    return (sdfgi_frame.up_axis & 2u) != 0u ? -along : along;
 }
 
 /* `bands`: factors on the bands 0, 1 and 2. Below 0, where so few bands cannot follow a bright spot, there is

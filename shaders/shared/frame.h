@@ -53,9 +53,9 @@ struct sdfgi_frame_params {
     vec3 sky_zenith; /* radiance times exposure; zero when the sky is not read */
     uint sky_has_harmonics;
     vec3 sky_horizon;
-    float up_y; /* up in the world is the unit vector (0, up_y, up_z), along one of the axes */
+    uint up_axis; /* enum sdfgi_up_axis. Bit 0: up is along Z, not Y; bit 1: against it */
     vec3 sky_ground;
-    float up_z;
+    uint padding_1;
     float y_scale; /* height of a cell over its width */
     float exposure;
     float exposure_inverse; /* 1 / exposure */
@@ -78,7 +78,7 @@ struct sdfgi_frame_params {
     uint cycle_visits;   /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
     uint lists_emitters; /* 1: something emits, and emitters are listed */
     float dark;          /* light times exposure that counts as dark */
-    uint padding_1, padding_2;
+    uint padding_2, padding_3;
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 18 * 16);

@@ -43,9 +43,9 @@
     X(sdfgi_frame_params, sky_zenith)                                                                        \
     X(sdfgi_frame_params, sky_has_harmonics)                                                                 \
     X(sdfgi_frame_params, sky_horizon)                                                                       \
-    X(sdfgi_frame_params, up_y)                                                                              \
+    X(sdfgi_frame_params, up_axis)                                                                           \
     X(sdfgi_frame_params, sky_ground)                                                                        \
-    X(sdfgi_frame_params, up_z)                                                                              \
+    X(sdfgi_frame_params, padding_1)                                                                         \
     X(sdfgi_frame_params, y_scale)                                                                           \
     X(sdfgi_frame_params, exposure)                                                                          \
     X(sdfgi_frame_params, exposure_inverse)                                                                  \
@@ -68,8 +68,8 @@
     X(sdfgi_frame_params, cycle_visits)                                                                      \
     X(sdfgi_frame_params, lists_emitters)                                                                    \
     X(sdfgi_frame_params, dark)                                                                              \
-    X(sdfgi_frame_params, padding_1)                                                                         \
     X(sdfgi_frame_params, padding_2)                                                                         \
+    X(sdfgi_frame_params, padding_3)                                                                         \
     X(sdfgi_frame_params, sky_harmonics)                                                                     \
     X(sdfgi_light_params, position)                                                                          \
     X(sdfgi_light_params, range_m)                                                                           \

@@ -3,10 +3,11 @@
 #include "volume.h"
 
 #include "change.h"
-#include "scene/up_axis.h"
 
 #include <math.h>
 #include <string.h>
+
+_Static_assert(SDFGI_UP_Z == 1 && SDFGI_UP_MINUS_Y == 2 && SDFGI_UP_MINUS_Z == 3, "bits of up_axis");
 
 static ivec3 cell_of(const int32_t at[3])
 {
@@ -82,13 +83,6 @@ static vec3 scaled(const float color[static 3], float factor)
                    fminf(color[2] * factor, BRIGHTEST) };
 }
 
-static void fill_up(struct sdfgi_frame_params *p, enum sdfgi_up_axis axis)
-{
-    const struct up_vector up = sdfgi_up_vector(axis);
-    p->up_y = up.y;
-    p->up_z = up.z;
-}
-
 static void fill_sky(struct sdfgi_frame_params *p, const struct sdfgi_sky *sky, float factor)
 {
     p->sky_zenith = scaled(sky->zenith, factor);
@@ -156,7 +150,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     memset(p, 0, sizeof *p);
     for (uint32_t c = 0; c < state->cascades.count; c++)
         p->cascades[c] = cascade_params(state, c);
-    fill_up(p, input->scene->up_axis);
+    p->up_axis = (uint32_t)input->scene->up_axis;
     fill_sky(p, &input->scene->sky, input->settings->read_sky_light ? exposure : 0.0f);
     fill_harmonics(p, input->scene, input->settings->read_sky_light ? exposure : 0.0f);
     fill_settings(p, input->settings);
