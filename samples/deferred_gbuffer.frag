@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT
+ * The G-buffer: albedo, normal, and what surfaces emit, where the light of the picture is added up. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "sample_push.glsl"
+
+layout(location = 0) in vec3 normal_in;
+layout(location = 0) out vec4 albedo;
+layout(location = 1) out vec4 normal;
+layout(location = 2) out vec4 radiance;
+
+void main()
+{
+    albedo = base_color;
+    normal = vec4(normalize(normal_in), 0.0);
+    radiance = vec4(glow.rgb, 1.0);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ * A forward shader: the lamp's light, and what it and the sky send from elsewhere. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "sample_frame.glsl"
+#include "sample_push.glsl"
+/* GI begins */
+#define SDFGI_SET 1
+#include "sdfgi.glsl"
+/* GI ends */
+
+layout(location = 0) in vec3 normal_in;
+layout(location = 1) in vec3 position;
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    const vec3 normal = normalize(normal_in);
+    vec3 irradiance = lamp_irradiance(position, normal);
+    /* GI begins */
+    irradiance += sdfgi_irradiance(position, normal, eye.xyz - position);
+    /* GI ends */
+    radiance = vec4(base_color.rgb / PI * irradiance + glow.rgb, 1.0);
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ * The command line of the sample hosts. */
+#ifndef SAMPLE_OPTIONS_H
+#define SAMPLE_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { SAMPLE_MAX_SETTINGS = 16 };
+
+struct sample_options {
+    const char *out;                           /* picture's file; NULL: none */
+    bool gi;                                   /* --gi on or off */
+    bool window;                               /* --window */
+    uint32_t width, height;                    /* --size WxH */
+    uint32_t frames;                           /* --frames N: as many at most */
+    uint32_t setting_count;                    /* --set NAME=VALUE, as often as wanted */
+    char settings[SAMPLE_MAX_SETTINGS][2][64]; /* names and values */
+};
+
+/* A wrong command line ends the program with 2, --help with 0. */
+void sample_options_read(struct sample_options *options, int argc, char **argv);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
