@@ -235,7 +235,7 @@ int main(int argc, char **argv)
     add_lights(gi, &r.scene.view);
     /* GI ends */
     bool settled = false;
-    while ((window || (!settled && gpu.frame < options.frames)) && sample_window_acquire(window, &gpu)) {
+    while ((window || !settled) && gpu.frame < options.frames && sample_window_acquire(window, &gpu)) {
         const VkCommandBuffer cmd = sample_frame_begin(&gpu);
         if (gpu.frame == 0)
             clear_indirect(&r, cmd);

@@ -8,7 +8,8 @@
 static const char usage[] =
     "usage: %s [--out FILE.ppm|FILE.pfm] [--gi on|off] [--size WxH] [--frames N] [--set NAME=VALUE]...\n"
     "       [--window]\n"
-    "Draws a room until its light has settled, or for N frames (1000).\n";
+    "Draws a room until its light has settled, for 1000 frames or N at most. A window stays open for N\n"
+    "frames, or until it is closed.\n";
 
 static void end(const char *program, bool is_help)
 {
@@ -56,7 +57,7 @@ static bool read_option(struct sample_options *o, const char *name, const char *
 
 void sample_options_read(struct sample_options *o, int argc, char **argv)
 {
-    *o = (struct sample_options){ .gi = true, .width = 640, .height = 360, .frames = 1000 };
+    *o = (struct sample_options){ .gi = true, .width = 640, .height = 360 };
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--help") == 0)
             end(argv[0], true);
@@ -67,4 +68,6 @@ void sample_options_read(struct sample_options *o, int argc, char **argv)
         else
             i++;
     }
+    if (o->frames == 0)
+        o->frames = o->window ? UINT32_MAX : 1000;
 }

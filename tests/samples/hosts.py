@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The sample hosts with a renderer: what they draw, that they draw the same, and that no validation message
+comes. As test cases in TAP. Usage: hosts.py FORWARD_HOST DEFERRED_HOST"""
+import array
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+WIDTH, HEIGHT = 160, 90
+# Small volumes, so that a software driver settles within a minute. The room fits into the coarser one.
+SETTINGS = {"sdfgi_cascades": 2, "sdfgi_resolution": 64, "sdfgi_ray_count": 64,
+            "sdfgi_frames_to_converge": 4, "sdfgi_cell_rays": 64}
+# Pixels of the floor to the left of the block, where it keeps off the lamp's light: x, y from the upper left.
+SHADOW = [(x, y) for x in range(56, 66) for y in range(55, 58)]
+# Both hosts ask for the same light at the same places. What differs: half floats (2**-11) of a picture of
+# normals and of one of irradiance, and places that depths tell to 1e-4 m.
+SAME = 0.01
+
+hosts = {"forward": sys.argv[1], "deferred": sys.argv[2]}
+scratch = tempfile.TemporaryDirectory()
+
+
+def environment():
+    wanted = os.environ.get("SDFGI_TEST_VALIDATION", "1") != "0"
+    layers = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+              "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;"
+                                  "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT"}
+    return {**os.environ, **(layers if wanted else {})}
+
+
+def run(host, *arguments):
+    """What a host says, on both outputs."""
+    done = subprocess.run([hosts[host], "--size", f"{WIDTH}x{HEIGHT}", *arguments], env=environment(),
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    return done.stdout, done.returncode
+
+
+def read_pfm(path):
+    """Rows from the top, three floats a pixel."""
+    data = pathlib.Path(path).read_bytes()
+    kind, size, scale, texels = data.split(b"\n", 3)
+    assert (kind, size, scale) == (b"PF", f"{WIDTH} {HEIGHT}".encode(), b"-1.0"), (kind, size, scale)
+    floats = array.array("f", texels)
+    assert len(floats) == 3 * WIDTH * HEIGHT
+    rows = [floats[3 * WIDTH * y:3 * WIDTH * (y + 1)] for y in range(HEIGHT)]
+    return [[tuple(row[3 * x:3 * x + 3]) for x in range(WIDTH)] for row in reversed(rows)]
+
+
+said, pictures = {}, {}
+for name in hosts:
+    for gi in ("on", "off"):
+        out = f"{scratch.name}/{name}_{gi}.pfm"
+        chosen = [word for key, value in SETTINGS.items() for word in ("--set", f"{key}={value}")]
+        said[name, gi] = run(name, "--gi", gi, "--out", out, *chosen)
+        pictures[name, gi] = read_pfm(out) if said[name, gi][1] == 0 else None
+
+
+def runs_that_failed_or_did_not_settle():
+    """Anything but the one line is a message of the library or of the validation layer."""
+    for key, (text, code) in said.items():
+        if code != 0 or not text.startswith("settled after ") or text.count("\n") != 1:
+            yield f"{key}: exit code {code}: {text[:2000]}"
+
+
+def mean(picture, places):
+    return [sum(picture[y][x][k] for x, y in places) / len(places) for k in range(3)]
+
+
+def shadows_without_light_of_the_wall():
+    for name in hosts:
+        off, on = (mean(pictures[name, gi], SHADOW) for gi in ("off", "on"))
+        if max(off) != 0:
+            yield f"{name}: without GI the shadow has {off}"
+        if on[0] < 2 * max(on[1], on[2]) or not 0.1 < on[0] < 1:
+            yield f"{name}: with GI the shadow has {on}, not the light of a red wall"
+
+
+def everywhere():
+    return [(x, y) for x in range(WIDTH) for y in range(HEIGHT)]
+
+
+def light_that_is_not_the_same():
+    """What GI adds, pixel by pixel, over its mean."""
+    def added(name, x, y):
+        return [on - off for on, off in zip(pictures[name, "on"][y][x], pictures[name, "off"][y][x])]
+    light = {name: [added(name, x, y) for x, y in everywhere()] for name in hosts}
+    size = sum(map(sum, light["forward"]))
+    apart = [sum(abs(a - b) for a, b in zip(one, other)) for one, other in zip(*light.values())]
+    if sum(apart) > SAME * size:
+        yield f"pictures differ by {sum(apart) / size:.4f} of their mean"
+    # Pixels along edges may show another surface.
+    far = sum(each > 0.1 * size / len(apart) for each in apart)
+    if far > 0.005 * len(apart):
+        yield f"{far} pixels of {len(apart)} differ by more than a tenth of the mean"
+
+
+def pictures_for_displays_that_are_bad():
+    out = pathlib.Path(f"{scratch.name}/shown.ppm")
+    text, code = run("forward", "--gi", "off", "--out", str(out))
+    data = out.read_bytes() if code == 0 else b""
+    if not data.startswith(b"P6\n%d %d\n255\n" % (WIDTH, HEIGHT)) or len(data) != 3 * WIDTH * HEIGHT + 14:
+        yield f"{len(data)} bytes that begin with {data[:20]}: {text}"
+    for wrong in (["--gi"], ["--gi", "maybe"], ["--size", "0x4"], ["--set", "sdfgi_cascades"], ["--what", "1"]):
+        if run("deferred", *wrong)[1] != 2:
+            yield f"{wrong} is taken"
+    text, code = run("deferred", "--set", "sdfgi_cascade=2")
+    if code != 1 or "sdfgi_cascade" not in text:
+        yield f"a setting that there is not: exit code {code}: {text}"
+
+
+CLAIMS = {
+    "hosts_settle_and_no_message_comes": runs_that_failed_or_did_not_settle,
+    "a_red_wall_lights_the_shadow_of_a_block": shadows_without_light_of_the_wall,
+    "forward_and_deferred_show_the_same_light": light_that_is_not_the_same,
+    "command_lines_are_checked": pictures_for_displays_that_are_bad,
+}
+
+failed = 0
+print(f"1..{len(CLAIMS)}")
+for index, (claim, check) in enumerate(CLAIMS.items(), 1):
+    try:
+        problems = list(check())
+    except TypeError:
+        problems = ["a picture is missing"]
+    for problem in problems:
+        print(f"# {problem}", file=sys.stderr)
+    failed += bool(problems)
+    print(f"{'not ok' if problems else 'ok'} {index} - {claim}")
+sys.exit(failed > 0)
