@@ -174,7 +174,8 @@ SDFGI_API void sdfgi_get_settings(const sdfgi *gi, struct sdfgi_settings *settin
 
 /* ---- Scene ------------------------------------------------------------------------------------------ */
 
-/* Handles: 0 is never valid. A stale handle is refused with SDFGI_ERROR_INVALID_ARGUMENT. */
+/* Handles: 0 is never valid. A stale handle is refused with SDFGI_ERROR_INVALID_ARGUMENT. There may be 1,024
+ * lights, 4,096 materials, 1,048,574 meshes and as many instances: SDFGI_ERROR_OUT_OF_MEMORY refuses more. */
 typedef struct {
     uint32_t id;
 } sdfgi_mesh;
@@ -241,7 +242,10 @@ SDFGI_API enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material mat
  * `triangle_count` needs. They must lie in the buffer, with what is missing to the next multiple of 4 bytes
  * from its beginning: shaders read words. They may be at most maxStorageBufferRange - 258 bytes long,
  * wherever in the buffer. A range says how many bytes from the offset belong to the mesh: more are refused.
- * 0: whatever the buffer has. */
+ * 0: whatever the buffer has.
+ *
+ * What earlier work of the same queue has written to the buffers is visible to sdfgi_update. After
+ * sdfgi_mesh_destroy they must stay until the frames in flight are over. */
 struct sdfgi_mesh_desc {
     VkBuffer position_buffer;
     VkDeviceSize position_offset, position_range; /* bytes */
@@ -355,7 +359,8 @@ struct sdfgi_frame_desc {
                  with sdfgi_reset, light that is known there stays */
 };
 
-/* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance.
+/* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance. It waits
+ * for all earlier work of the queue, and leaves pipelines, sets and push constants of its own bound.
  * Afterwards the descriptor set may be used by graphics and compute work later in the same queue: the
  * barriers are recorded. Records nothing at all while GI is disabled. Where surfaces outgrow the list of
  * light cells, allocates a longer one. */
@@ -410,8 +415,10 @@ struct sdfgi_gather_desc {
     VkImageView depth, normal, output;
     VkImageLayout input_layout;        /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
     uint32_t width, height;            /* pixels of all three: 1 to the device's maxImageDimension2D */
-    float inverse_view_projection[16]; /* column-major: clip to position relative to
-                                          sdfgi_frame_desc::origin; not 0 */
+    float inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin;
+                                          not 0. Clip space has y = -1 at the first row of the images, as a
+                                          viewport of positive height gives it: with a negative height
+                                          negate elements 4 to 7 */
     float background_depth;            /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
     enum sdfgi_gather_resolution resolution; /* 0: SDFGI_GATHER_FULL */
     float scale;                             /* factor on the output, >= 0 and finite; 0 means 1 */
@@ -419,7 +426,8 @@ struct sdfgi_gather_desc {
 
 /* Records the gather into `cmd`, after sdfgi_update in the same queue. Host writes to depth and normal must
  * be made visible to compute shader reads by the host; the output is made visible to later compute and
- * fragment reads. Does nothing and returns SDFGI_OK while GI is not active. The first call makes its
+ * fragment reads. Does nothing and returns SDFGI_OK while GI is not active: the output keeps what it has, and
+ * a host clears it when it switches GI off. The images have one sample a pixel. The first call makes its
  * pipeline, as the first material with a texture makes one, unless sdfgi_prepare has.
  *
  * Light of what the picture shows is gathered before that of other places, in the updates that follow.
