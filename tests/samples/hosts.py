@@ -5,6 +5,7 @@ comes. As test cases in TAP. Usage: hosts.py FORWARD_HOST DEFERRED_HOST"""
 import array
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -31,9 +32,9 @@ def environment():
     return {**os.environ, **(layers if wanted else {})}
 
 
-def run(host, *arguments):
+def run(host, *arguments, before=()):
     """What a host says, on both outputs."""
-    done = subprocess.run([hosts[host], "--size", f"{WIDTH}x{HEIGHT}", *arguments], env=environment(),
+    done = subprocess.run([*before, hosts[host], "--size", f"{WIDTH}x{HEIGHT}", *arguments], env=environment(),
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     return done.stdout, done.returncode
 
@@ -111,10 +112,25 @@ def pictures_for_displays_that_are_bad():
         yield f"a setting that there is not: exit code {code}: {text}"
 
 
+def windows_that_do_not_show_frames():
+    """Under an X server of its own, where one is installed."""
+    if not shutil.which("xvfb-run") or not shutil.which("xauth"):
+        return
+    for name in hosts:
+        text, code = run(name, "--window", "--frames", "3", "--set", "sdfgi_cascades=1", "--set",
+                         "sdfgi_resolution=32", before=["xvfb-run", "-a", "-s", "-screen 0 640x480x24"])
+        # A driver or a build without windows says so in one line.
+        if text.startswith("failed: opening a window"):
+            continue
+        if code != 0 or text != "stopped after 3 frames\n":
+            yield f"{name}: exit code {code}: {text[:2000]}"
+
+
 CLAIMS = {
     "hosts_settle_and_no_message_comes": runs_that_failed_or_did_not_settle,
     "a_red_wall_lights_the_shadow_of_a_block": shadows_without_light_of_the_wall,
     "forward_and_deferred_show_the_same_light": light_that_is_not_the_same,
+    "windows_show_frames_without_a_message": windows_that_do_not_show_frames,
     "command_lines_are_checked": pictures_for_displays_that_are_bad,
 }
 
