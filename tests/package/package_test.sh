@@ -3,7 +3,7 @@
 # The library alone is built with the one command of docs/packaging.md, where nothing is to be found but the
 # headers of Vulkan; it exports what its headers say, and nothing else; hosts in C and C++ build and run against
 # an installed copy that was moved, through pkg-config and CMake, with the shared and the static library; and
-# the smallest host draws a picture.
+# sample hosts draw pictures.
 #
 # usage: package_test.sh SOURCE VERSION PICTURE_COLORS
 set -eu
@@ -125,3 +125,31 @@ quietly "the smallest host" $CC -std=c11 -Wall -Wextra -Wpedantic -I. -o minimal
     $(pkg-config --cflags --libs sdfgi vulkan)
 quietly "the smallest host's picture" env LD_LIBRARY_PATH="$libdir" ./minimal_host picture.ppm
 "$picture_colors" picture.ppm || fail "the picture shows a single colour"
+
+# Hosts with a renderer, in a folder that holds samples alone.
+if ls /usr/include/cglm/cglm.h >/dev/null 2>&1; then
+    mkdir samples
+    cp "$source"/samples/sample_* "$source"/samples/forward_host.* "$source"/samples/deferred_* samples/
+    cd samples
+    for shader in *.vert *.frag *.comp; do
+        name=$(echo "$shader" | tr . _)
+        quietly "$shader" glslangValidator -V --quiet --target-env vulkan1.2 "-I$shaders" --vn "$name" \
+            -o "${name%_*}_spirv.h" "$shader"
+    done
+    # shellcheck disable=SC2086 # flags are words
+    {
+        vulkan=$(pkg-config --cflags --libs vulkan)
+        quietly "what sample hosts share" $CC -std=c11 -Wall -Wextra -Werror -c sample_*.c $cflags
+        quietly "the deferred host" $CC -std=c11 -Wall -Wextra -Werror $cflags -o deferred deferred_host.c \
+            sample_*.o $shared $vulkan -lm
+        quietly "the forward host" $CXX -std=c++17 -Wall -Wextra -Werror $cflags \
+            -o forward forward_host.cpp sample_*.o $shared $vulkan -lm
+    }
+    for host in forward deferred; do
+        quietly "the $host host's picture" env LD_LIBRARY_PATH="$libdir" ./$host --size 64x48 --gi off \
+            --out $host.ppm
+        "$picture_colors" $host.ppm || fail "the picture of the $host host shows a single colour"
+    done
+else
+    echo "package_test: no cglm here: hosts with a renderer were not tried"
+fi
