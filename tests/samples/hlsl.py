@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The commands and the shader of docs/integration.md for HLSL work as they stand there: what comes out compiles,
-is valid, and reads the descriptors that the GLSL reads. Skipped with 77 where spirv-cross is not installed.
-Usage: hlsl.py ROOT"""
+"""The commands and the shader of docs/integration.md for HLSL work as they stand there: what comes out
+compiles, is valid, and reads the descriptors that the GLSL reads. Skipped with 77 where spirv-cross is not
+installed. Usage: hlsl.py ROOT"""
 import json
 import os
 import pathlib
@@ -23,7 +23,8 @@ shader = re.search(r"^```hlsl\n(.*?)^```", section, re.S | re.M).group(1)
 
 
 def run(words, **more):
-    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **more)
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+                          **more)
     if done.returncode != 0:
         sys.exit(f"{words}: {done.stdout[-3000:]}")
     return done.stdout
@@ -39,11 +40,12 @@ def descriptors(spirv):
 
 with tempfile.TemporaryDirectory() as folder:
     pathlib.Path(folder, "sdfgi.pc").write_text(
-        f"shaderdir={root}/shaders/include\nName: sdfgi\nDescription: sources\nVersion: 0\n", encoding="utf-8")
+        f"shaderdir={root}/shaders/include\nName: sdfgi\nDescription: sources\nVersion: 0\n",
+        encoding="utf-8")
     run(["sh", "-euc", commands], cwd=folder, env={**os.environ, "PKG_CONFIG_PATH": folder})
     pathlib.Path(folder, "host.frag.hlsl").write_text(shader, encoding="utf-8")
-    run(["glslangValidator", "-D", "-V", "--target-env", "vulkan1.1", "-S", "frag", "-e", "main", "-o", "host.spv",
-         "host.frag.hlsl"], cwd=folder)
+    run(["glslangValidator", "-D", "-V", "--target-env", "vulkan1.1", "-S", "frag", "-e", "main", "-o",
+         "host.spv", "host.frag.hlsl"], cwd=folder)
     run(["spirv-val", "--target-env", "vulkan1.1", "host.spv"], cwd=folder)
     pathlib.Path(folder, "host.frag").write_text("""#version 450
 #extension GL_GOOGLE_include_directive : require

@@ -42,7 +42,8 @@ def hosts_that_take_too_many_lines():
 
 def lines_about_the_library_that_are_not_marked():
     """Names of the library outside of the marks, but for what comments say."""
-    names = {name for host in HOSTS.values() for name in host} | {path.name for path in samples.glob("sample_*")}
+    names = {name for host in HOSTS.values() for name in host}
+    names |= {path.name for path in samples.glob("sample_*")}
     for name in sorted(names):
         code = re.sub(r"/\*.*?\*/", "", "\n".join(split(name)[1]), flags=re.S)
         for line in code.splitlines():

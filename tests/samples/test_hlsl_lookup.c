@@ -8,6 +8,7 @@
 #include "lookup_hlsl.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum { POINTS = 48, ROW = 16, FRAMES = 8 };
 
@@ -47,7 +48,7 @@ static void look_up(struct gi_test *t, const uint32_t *code, size_t bytes, float
     gpu_test_compute(&t->gpu, &shader, POINTS, rows, sizeof(float[POINTS][ROW]));
 }
 
-/* Compilers order and fuse operations differently, which may turn a ray that grazes an edge. */
+/* Compilers fuse operations differently: 1e-4 is a hundred times what that does to a value. */
 static void hlsl_answers_as_glsl_does(void **state)
 {
     (void)state;
@@ -62,8 +63,9 @@ static void hlsl_answers_as_glsl_does(void **state)
             lit += k != 3 && k != 7 && glsl[i][k] > 0.05f;
             apart += !(fabsf(glsl[i][k] - hlsl[i][k]) <= 1e-4f * fabsf(glsl[i][k]) + 1e-6f);
         }
+    printf("%d values of %d are lit, %d differ\n", lit, 12 * POINTS, apart);
     REQUIRE_CMP(lit, >, 9 * POINTS);
-    REQUIRE_CMP(apart, <=, 4);
+    REQUIRE_CMP(apart, ==, 0);
     gi_test_close(&t);
 }
 
