@@ -170,6 +170,39 @@ static VkPipelineShaderStageCreateInfo stage_make(struct sample_gpu *gpu, VkShad
     return made;
 }
 
+/* ---- What all pipelines of meshes have */
+
+static const VkVertexInputBindingDescription vertex_buffer = { 0, sizeof(struct sample_vertex),
+                                                               VK_VERTEX_INPUT_RATE_VERTEX };
+static const VkVertexInputAttributeDescription vertex_attributes[] = {
+    { 0, 0, VK_FORMAT_R8G8B8A8_SNORM, offsetof(struct sample_vertex, normal) },
+    { 1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(struct sample_vertex, position) }
+};
+static const VkPipelineVertexInputStateCreateInfo vertices = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+    .vertexBindingDescriptionCount = 1,
+    .pVertexBindingDescriptions = &vertex_buffer,
+    .vertexAttributeDescriptionCount = 2,
+    .pVertexAttributeDescriptions = vertex_attributes
+};
+static const VkPipelineInputAssemblyStateCreateInfo triangles = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST
+};
+static const VkPipelineMultisampleStateCreateInfo one_sample = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+    .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT
+};
+static const VkPipelineDepthStencilStateCreateInfo depth_test = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+    .depthTestEnable = VK_TRUE,
+    .depthWriteEnable = VK_TRUE,
+    .depthCompareOp = VK_COMPARE_OP_LESS
+};
+static const VkPipelineColorBlendAttachmentState plain[SAMPLE_MAX_COLORS] = { { .colorWriteMask = 15 },
+                                                                              { .colorWriteMask = 15 },
+                                                                              { .colorWriteMask = 15 } };
+
 VkPipeline sample_mesh_pipeline_make(struct sample_gpu *gpu, const struct sample_pass *pass,
                                      VkPipelineLayout layout, struct sample_code vertex,
                                      struct sample_code fragment)
@@ -178,23 +211,6 @@ VkPipeline sample_mesh_pipeline_make(struct sample_gpu *gpu, const struct sample
     VkPipelineShaderStageCreateInfo stages[2] = { stage_make(gpu, VK_SHADER_STAGE_VERTEX_BIT, vertex) };
     if (!depth_alone)
         stages[1] = stage_make(gpu, VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
-    const VkVertexInputBindingDescription buffer = { 0, sizeof(struct sample_vertex),
-                                                     VK_VERTEX_INPUT_RATE_VERTEX };
-    const VkVertexInputAttributeDescription attributes[] = {
-        { 0, 0, VK_FORMAT_R8G8B8A8_SNORM, offsetof(struct sample_vertex, normal) },
-        { 1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(struct sample_vertex, position) }
-    };
-    const VkPipelineVertexInputStateCreateInfo vertices = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = 1,
-        .pVertexBindingDescriptions = &buffer,
-        .vertexAttributeDescriptionCount = 2,
-        .pVertexAttributeDescriptions = attributes
-    };
-    const VkPipelineInputAssemblyStateCreateInfo triangles = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST
-    };
     const VkViewport viewport = { 0, 0, (float)pass->width, (float)pass->height, 0, 1 };
     const VkRect2D scissor = { { 0, 0 }, { pass->width, pass->height } };
     const VkPipelineViewportStateCreateInfo view = {
@@ -211,19 +227,6 @@ VkPipeline sample_mesh_pipeline_make(struct sample_gpu *gpu, const struct sample
         .depthBiasSlopeFactor = 2,
         .lineWidth = 1
     };
-    const VkPipelineMultisampleStateCreateInfo samples = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT
-    };
-    const VkPipelineDepthStencilStateCreateInfo depth = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = VK_TRUE,
-        .depthCompareOp = VK_COMPARE_OP_LESS
-    };
-    const VkPipelineColorBlendAttachmentState plain[SAMPLE_MAX_COLORS] = { { .colorWriteMask = 15 },
-                                                                           { .colorWriteMask = 15 },
-                                                                           { .colorWriteMask = 15 } };
     const VkPipelineColorBlendStateCreateInfo blend = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = pass->color_count,
@@ -236,8 +239,8 @@ VkPipeline sample_mesh_pipeline_make(struct sample_gpu *gpu, const struct sample
                                                 .pInputAssemblyState = &triangles,
                                                 .pViewportState = &view,
                                                 .pRasterizationState = &raster,
-                                                .pMultisampleState = &samples,
-                                                .pDepthStencilState = &depth,
+                                                .pMultisampleState = &one_sample,
+                                                .pDepthStencilState = &depth_test,
                                                 .pColorBlendState = &blend,
                                                 .layout = layout,
                                                 .renderPass = pass->pass };
