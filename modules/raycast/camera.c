@@ -37,11 +37,17 @@ void raycast_camera_init(struct camera *c, const struct raycast_camera *view, ui
     cross(forward, view_up, right);
     normalize(right);
     cross(right, forward, up);
-    origin_near(view->position, c->origin);
-    c->position =
-        vec3_make((float)(view->position[0] - c->origin[0]), (float)(view->position[1] - c->origin[1]),
-                  (float)(view->position[2] - c->origin[2]));
-    const double half_height = tan(0.5 * view->yfov_deg * (3.14159265358979323846 / 180.0));
+    c->orthographic = view->ymag_m > 0.0f;
+    c->near_m = c->orthographic ? view->znear_m : 0.0f;
+    c->length_m = c->orthographic ? view->zfar_m - view->znear_m : INFINITY;
+    double position[3];
+    for (int k = 0; k < 3; k++)
+        position[k] = view->position[k] + (double)c->near_m * forward[k];
+    origin_near(position, c->origin);
+    c->position = vec3_make((float)(position[0] - c->origin[0]), (float)(position[1] - c->origin[1]),
+                            (float)(position[2] - c->origin[2]));
+    const double half_height =
+        c->orthographic ? (double)view->ymag_m : tan(0.5 * view->yfov_deg * (3.14159265358979323846 / 180.0));
     c->forward = scaled(forward, 1.0);
     c->right = scaled(right, half_height * width / height);
     c->up = scaled(up, half_height);

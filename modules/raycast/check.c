@@ -59,7 +59,11 @@ static bool camera_check(const struct raycast_camera *c, char *error, size_t siz
         return raycast_fail(error, size, "camera: position and look_at must be finite");
     if (!has_length(c->up))
         return raycast_fail(error, size, "camera.up: must be a direction");
-    if (!(c->yfov_deg > 0.0f && c->yfov_deg < 180.0f))
+    if (!are_amounts(&c->ymag_m, 1))
+        return raycast_fail(error, size, "camera.ymag: must be finite and not negative");
+    if (c->ymag_m > 0.0f && !(c->znear_m >= 0.0f && c->zfar_m > c->znear_m && isfinite(c->zfar_m)))
+        return raycast_fail(error, size, "camera: needs 0 <= znear < zfar");
+    if (c->ymag_m == 0.0f && !(c->yfov_deg > 0.0f && c->yfov_deg < 180.0f))
         return raycast_fail(error, size, "camera.yfov_deg: %g is not between 0 and 180", (double)c->yfov_deg);
     double f[3], sine2 = 0.0, length2 = 0.0, up2 = 0.0;
     for (int k = 0; k < 3; k++)

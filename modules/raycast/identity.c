@@ -130,6 +130,11 @@ static uint64_t hash_view(uint64_t h, const struct raycast_view *v)
     h = HASH(h, v->camera.look_at);
     h = HASH(h, v->camera.up);
     h = HASH(h, v->camera.yfov_deg);
+    if (v->camera.ymag_m > 0.0f) {
+        h = HASH(h, v->camera.ymag_m);
+        h = HASH(h, v->camera.znear_m);
+        h = HASH(h, v->camera.zfar_m);
+    }
     h = HASH(h, v->sky);
     h = HASH(h, v->sun);
     for (uint32_t i = 0; i < v->light_count; i++)

@@ -250,13 +250,13 @@ void integrator_first_light(const struct integrator *it, const struct surface *s
         vec3_add(out->direct, vec3_scale(vec3_mul(vec3_add(v.diffuse, v.specular), discs), 1.0f / v.pdf));
 }
 
-void integrator_path(const struct integrator *it, struct vec3 origin, struct vec3 direction, struct random *r,
+void integrator_path(const struct integrator *it, const struct camera_ray *from, struct random *r,
                      uint64_t *rays, struct path_sample *out)
 {
     const struct ray ray = {
-        .origin = origin,
-        .direction = direction,
-        .length_m = INFINITY,
+        .origin = from->origin,
+        .direction = from->direction,
+        .length_m = from->length_m,
         .key = random_bits(r),
         .from_camera = true,
     };
@@ -265,7 +265,7 @@ void integrator_path(const struct integrator *it, struct vec3 origin, struct vec
     ++*rays;
     out->hit = geometry_intersect(it->seen, &ray, &s);
     if (!out->hit) {
-        out->emission = sky_radiance(&it->lights.sky, direction);
+        out->emission = sky_radiance(&it->lights.sky, ray.direction);
         return;
     }
     if (s.emits)
@@ -274,5 +274,5 @@ void integrator_path(const struct integrator *it, struct vec3 origin, struct vec
     out->normal = s.normal;
     out->albedo = s.diffuse;
     it->geometry->methods->adopt(it->geometry, &s);
-    integrator_first_light(it, &s, vec3_negate(direction), r, rays, &out->light);
+    integrator_first_light(it, &s, vec3_negate(ray.direction), r, rays, &out->light);
 }

@@ -5,6 +5,7 @@
 #ifndef RAYCAST_INTEGRATOR_H
 #define RAYCAST_INTEGRATOR_H
 
+#include "camera.h"
 #include "geometry.h"
 #include "lights.h"
 #include "lobe.h"
@@ -41,7 +42,7 @@ void integrator_start(struct integrator *it);
 void integrator_first_light(const struct integrator *it, const struct surface *s, struct vec3 towards_viewer,
                             struct random *r, uint64_t *rays, struct first_light *out);
 
-void integrator_path(const struct integrator *it, struct vec3 origin, struct vec3 direction, struct random *r,
+void integrator_path(const struct integrator *it, const struct camera_ray *from, struct random *r,
                      uint64_t *rays, struct path_sample *out);
 
 #endif

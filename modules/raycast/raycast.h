@@ -41,7 +41,10 @@ struct raycast;
 struct raycast_camera {
     double position[3], look_at[3];
     float up[3];
-    float yfov_deg; /* (0, 180) */
+    float yfov_deg; /* of a pinhole, (0, 180) */
+    /* Above 0: the camera is orthographic, and this is half the height of what it shows. Nothing nearer than
+     * znear_m along its axis is shown, or farther than zfar_m; 0 <= znear_m < zfar_m. */
+    float ymag_m, znear_m, zfar_m;
 };
 
 /* Radiance from direction d: lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|). All zero: no sky. */

@@ -46,8 +46,8 @@ static void render_sample(struct raycast *rc, uint32_t x, uint32_t y, uint32_t s
     const float px = ((float)x + random_float(&r)) / (float)rc->film.width;
     const float py = ((float)y + random_float(&r)) / (float)rc->film.height;
     struct path_sample s;
-    integrator_path(&rc->integrator, rc->camera.position, camera_direction(&rc->camera, px, py), &r, rays,
-                    &s);
+    const struct camera_ray ray = camera_ray(&rc->camera, px, py);
+    integrator_path(&rc->integrator, &ray, &r, rays, &s);
     if (!film_add(&rc->film, pixel, &s, s.hit ? camera_depth(&rc->camera, s.position) : 0.0f))
         ++*not_finite;
 }

@@ -24,7 +24,10 @@ static uint32_t width, height, samples;
 
 struct axes {
     double forward[3], right[3], up[3]; /* right and up reach to the picture's edge */
+    bool parallel;                      /* an orthographic camera, of `flat_ymag_m` */
 };
+
+static const float flat_ymag_m = 1.2f, flat_znear_m = 0.5f;
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
@@ -39,11 +42,11 @@ static void scale_to(double v[3], double length)
         v[k] *= factor;
 }
 
-static struct axes camera_axes(void)
+static struct axes camera_axes(bool parallel)
 {
     static const double world_up[3] = { 0, 1, 0 };
-    const double reach = tan(camera_yfov_deg * pi / 360);
-    struct axes a;
+    const double reach = parallel ? (double)flat_ymag_m : tan(camera_yfov_deg * pi / 360);
+    struct axes a = { .parallel = parallel };
     for (int k = 0; k < 3; k++)
         a.forward[k] = camera_target[k] - camera_position[k];
     scale_to(a.forward, 1);
@@ -61,12 +64,15 @@ static double pixel_mean(const struct axes *a, floor_radiance *radiance, uint32_
     for (int i = 0; i < PIXEL_STEPS * PIXEL_STEPS; i++) {
         const double u = 2 * (x + (i % PIXEL_STEPS + 0.5) / PIXEL_STEPS) / width - 1;
         const double v = 1 - 2 * (y + (i / PIXEL_STEPS + 0.5) / PIXEL_STEPS) / height;
-        double direction[3];
-        for (int k = 0; k < 3; k++)
-            direction[k] = a->forward[k] + u * a->right[k] + v * a->up[k];
-        const double range = -camera_position[1] / direction[1];
+        double start[3], direction[3];
+        for (int k = 0; k < 3; k++) {
+            const double aside = u * a->right[k] + v * a->up[k];
+            start[k] = camera_position[k] + (a->parallel ? aside : 0);
+            direction[k] = a->forward[k] + (a->parallel ? 0 : aside);
+        }
+        const double range = -start[1] / direction[1];
         assert_true(range > 0);
-        sum += radiance(camera_position[0] + range * direction[0], camera_position[2] + range * direction[2]);
+        sum += radiance(start[0] + range * direction[0], start[2] + range * direction[2]);
     }
     return sum / (PIXEL_STEPS * PIXEL_STEPS);
 }
@@ -88,7 +94,7 @@ static void pictures_make(struct pictures *p, const struct built_scene *s, const
     assert_true(raycast_image(rc, RAYCAST_AOV_RADIANCE, p->traced));
     assert_true(raycast_image(rc, RAYCAST_AOV_VARIANCE, p->variance));
     raycast_destroy(rc);
-    const struct axes a = camera_axes();
+    const struct axes a = camera_axes(v->camera.ymag_m > 0);
     for (uint32_t i = 0; i < width * height; i++)
         for (int k = 0; k < 3; k++)
             p->expected[3 * i + (uint32_t)k] = (float)pixel_mean(&a, radiance, i % width, i / width);
@@ -117,7 +123,6 @@ static void floor_agrees(const struct built_scene *s, struct raycast_view v, flo
 {
     struct pictures p;
     v.materials = RAYCAST_MATERIALS_LAMBERT;
-    v.camera.yfov_deg = camera_yfov_deg;
     pictures_make(&p, s, &v, radiance, spp);
     const double share = accepted(&p);
     for (size_t i = 0; i < (size_t)3 * width * height; i++)
@@ -155,6 +160,43 @@ static void point_light_is_right_in_every_pixel(void **state)
     v.lights = &light;
     v.light_count = 1;
     floor_agrees(&s, v, under_lamp, samples / 4, 1.01f);
+    sdfgi_scene_finish(&s);
+}
+
+static void point_light_is_right_seen_by_parallel_rays(void **state)
+{
+    (void)state;
+    struct built_scene s;
+    floor_init(&s, 0.5f);
+    const struct raycast_light light = { .position = { 1, 2, 0 }, .intensity = { 7, 7, 7 } };
+    struct raycast_view v = view_make(camera_position, camera_target, 0);
+    v.camera.ymag_m = flat_ymag_m;
+    v.camera.znear_m = flat_znear_m;
+    v.camera.zfar_m = 100;
+    v.lights = &light;
+    v.light_count = 1;
+    floor_agrees(&s, v, under_lamp, samples / 4, 1.01f);
+    sdfgi_scene_finish(&s);
+}
+
+/* A floor 1 m under the camera, which looks down: depths count from the camera, whatever its planes, and
+ * what lies outside these is not there. */
+static void parallel_rays_end_at_the_planes(void **state)
+{
+    (void)state;
+    static const float planes[][3] = { { 0, 2, 1 }, { 0.75f, 1.25f, 1 }, { 0, 0.9f, 0 }, { 1.1f, 2, 0 } };
+    struct built_scene s;
+    floor_init(&s, 0.5f);
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) {
+        struct raycast_view v = view_make((double[]){ 0.2, 1, 0.3 }, (double[]){ 0.2, 0, 0.3 }, 0);
+        v.camera.up[1] = 0;
+        v.camera.up[2] = -1;
+        v.camera.ymag_m = 1;
+        v.camera.znear_m = planes[i][0];
+        v.camera.zfar_m = planes[i][1];
+        const double depth_m = trace_mean(&s, &v, 8, 8, 1, 1, RAYCAST_AOV_DEPTH);
+        assert_true(fabs(depth_m - (double)planes[i][2]) < 1e-5);
+    }
     sdfgi_scene_finish(&s);
 }
 
@@ -256,6 +298,8 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(limit_is_the_normal_quantile),
         cmocka_unit_test(point_light_is_right_in_every_pixel),
+        cmocka_unit_test(point_light_is_right_seen_by_parallel_rays),
+        cmocka_unit_test(parallel_rays_end_at_the_planes),
         cmocka_unit_test(black_wall_is_right_in_every_pixel),
         cmocka_unit_test(emissive_square_is_right_in_every_pixel),
         cmocka_unit_test(furnaces_within_a_thousandth), /* the last one: only in full */
