@@ -44,7 +44,7 @@ struct gltf_texture_ref {
 };
 
 struct gltf_material {
-    char *name; /* up to 255 bytes of UTF-8 */
+    char *name;          /* up to 255 bytes of UTF-8 */
     float base_color[4]; /* linear RGBA factor */
     float metallic;      /* [0, 1] */
     float roughness;     /* [0, 1] */
@@ -91,14 +91,15 @@ struct gltf_light {
     float intensity[3];         /* W/sr (point, spot) or W/m^2 (directional): colour times intensity */
     float range;                /* metres; 0: unlimited */
     float inner_rad, outer_rad; /* spot: half angles, 0 <= inner < outer <= pi/2 */
-    char *name; /* up to 255 bytes of UTF-8 */
+    char *name;                 /* up to 255 bytes of UTF-8 */
 };
 
 struct gltf_camera {
     double transform[16]; /* column-major, camera to world, rigid; looks along -Z */
-    float yfov_rad;       /* 0: orthographic, with ymag */
-    float ymag;
-    char *name; /* up to 255 bytes of UTF-8 */
+    float yfov_rad;       /* 0: orthographic, with the members below */
+    float ymag;           /* half the height of the picture, metres */
+    float znear, zfar;    /* metres along the axis, 0 <= znear < zfar */
+    char *name;           /* up to 255 bytes of UTF-8 */
 };
 
 struct gltf_scene {

@@ -17,6 +17,9 @@ constexpr double pi = 3.14159265358979323846;
 // As for emission: above any light, far from the largest float.
 constexpr double max_intensity = 1e30;
 
+// Metres, of orthographic cameras.
+constexpr double least_size = 1e-6, most_size = 1e9;
+
 float clamp_to(double value, double least, double most)
 {
     return static_cast<float>(std::min(std::max(value, least), most));
@@ -74,6 +77,16 @@ void cone_import(const tinygltf::SpotLight &from, gltf_light &to)
     const float half_pi = std::nextafter(static_cast<float>(pi / 2), 0.0f);
     to.outer_rad = std::min(clamp_to(from.outerConeAngle, least_angle, pi / 2), half_pi);
     to.inner_rad = clamp_to(from.innerConeAngle, 0, static_cast<double>(to.outer_rad) * 0.999);
+}
+
+// Magnifications may be negative, to mirror a picture: cameras here do not mirror.
+void orthographic_import(const tinygltf::OrthographicCamera &from, gltf_camera &to, const std::string &what)
+{
+    to.ymag = clamp_to(std::fabs(from.ymag), least_size, most_size);
+    to.znear = clamp_to(from.znear, 0, most_size);
+    to.zfar = clamp_to(from.zfar, 0, most_size);
+    if (!(to.zfar > to.znear))
+        fail("%s: zfar must be greater than znear", what.c_str());
 }
 
 // The node's axes without scale and shear, right-handed; the identity where the node has collapsed.
@@ -135,7 +148,7 @@ void camera_import(importer &in, std::vector<gltf_camera> &cameras, int index, c
     if (from.type == "perspective")
         to.yfov_rad = clamp_to(from.perspective.yfov, 1e-3, pi - 1e-3);
     else
-        to.ymag = clamp_to(std::fabs(from.orthographic.ymag), 1e-6, max_intensity);
+        orthographic_import(from.orthographic, to, label("cameras", static_cast<size_t>(index)));
     cameras.push_back(to);
     cameras.back().name = name_copy(from.name);
 }

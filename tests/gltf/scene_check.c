@@ -123,7 +123,10 @@ static void camera_check(const struct gltf_camera *c)
 {
     check(is_name(c->name));
     rigid_check(c->transform);
-    check(c->yfov_rad == 0 ? c->ymag > 0 && isfinite(c->ymag) : c->yfov_rad > 0 && c->yfov_rad < 3.1415927f);
+    if (c->yfov_rad == 0)
+        check(c->ymag > 0 && isfinite(c->ymag) && c->znear >= 0 && c->znear < c->zfar && isfinite(c->zfar));
+    else
+        check(c->yfov_rad > 0 && c->yfov_rad < 3.1415927f);
 }
 
 static void image_check(const struct gltf_image *image)

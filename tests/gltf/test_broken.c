@@ -110,6 +110,10 @@ static const struct broken rows[] = {
     { "a_missing_root_is_refused", ",\"nodes\":[{}],\"scenes\":[{\"nodes\":[3]}]", "node 3" },
     { "a_missing_scene_is_refused", ",\"scene\":2,\"scenes\":[{}]", "scene 2" },
     { "a_missing_mesh_is_refused", ",\"nodes\":[{\"mesh\":0}]", "mesh 0" },
+    { "a_camera_that_ends_before_it_begins_is_refused",
+      ",\"cameras\":[{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":1,\"znear\":2,"
+      "\"zfar\":2}}],\"nodes\":[{\"camera\":0}]",
+      "cameras[0]: zfar must be greater" },
     { "a_missing_camera_is_refused", ",\"nodes\":[{\"camera\":1}]", "camera 1" },
     { "a_missing_light_is_refused",
       ",\"nodes\":[{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}}]" LIGHT("{\"type\":\"point\"}"),

@@ -165,15 +165,16 @@ static void cameras_are_rigid_and_keep_their_lens(void **state)
     struct gltf_scene *const s = nodes_load(
         ",\"cameras\":[{\"type\":\"perspective\",\"name\":\"eye\",\"perspective\":{\"yfov\":0.75,\"znear\":0."
         "1}},"
-        "{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":2,\"ymag\":3,\"znear\":0,\"zfar\":9}}],"
+        "{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":2,\"ymag\":-3,\"znear\":0.5,\"zfar\":9}}],"
         "\"nodes\":[{\"camera\":0,\"scale\":[2,3,4],\"translation\":[1,2,3]},{\"camera\":1}]");
     assert_int_equal(s->camera_count, 2);
     assert_string_equal(s->cameras[0].name, "eye");
     doubles_expect(s->cameras[0].transform,
                    (const double[]){ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1 }, 16, 1e-15);
     floats_expect(&s->cameras[0].yfov_rad, (const double[]){ 0.75 }, 1, 0);
-    floats_expect((const float[]){ s->cameras[1].yfov_rad, s->cameras[1].ymag }, (const double[]){ 0, 3 }, 2,
-                  0);
+    const struct gltf_camera *flat = &s->cameras[1];
+    floats_expect((const float[]){ flat->yfov_rad, flat->ymag, flat->znear, flat->zfar },
+                  (const double[]){ 0, 3, 0.5, 9 }, 4, 0);
     gltf_scene_destroy(s);
 }
 
