@@ -208,7 +208,10 @@ static void sun_convert(const struct host_sun *from, struct raycast_sun *to)
 static struct raycast_view view_convert(const struct host_view *from, struct raycast_light *lights)
 {
     struct raycast_view to = {
-        .camera.yfov_deg = (float)(from->camera.yfov_rad * degrees_per_radian),
+        .camera = { .yfov_deg = (float)(from->camera.yfov_rad * degrees_per_radian),
+                    .ymag_m = from->camera.ymag_m,
+                    .znear_m = from->camera.znear_m,
+                    .zfar_m = from->camera.zfar_m },
         .lights = lights,
         .light_count = from->light_count,
         .punctual_scale = from->punctual_scale,

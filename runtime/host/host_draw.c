@@ -32,14 +32,15 @@ bool host_frustum_sees(const struct host_frustum *frustum, const struct host_ins
 static void camera_frustum(const struct host_camera_frame *camera, struct host_frustum *out)
 {
     const double *const sides[2] = { camera->right, camera->up };
-    const double tangents[2] = { camera->tan_x, camera->tan_y };
+    const double halves[2] = { camera->half_x, camera->half_y };
     *out = (struct host_frustum){ .count = 5 };
     memcpy(out->origin, camera->position, sizeof(out->origin));
     for (int side = 0; side < 4; side++) {
         double *plane = out->planes[side];
-        const double sign = side % 2 == 0 ? 1.0 : -1.0;
+        const double half = halves[side / 2], sign = side % 2 == 0 ? 1.0 : -1.0;
         for (int i = 0; i < 3; i++)
-            plane[i] = tangents[side / 2] * camera->forward[i] + sign * sides[side / 2][i];
+            plane[i] = (camera->orthographic ? 0.0 : half * camera->forward[i]) + sign * sides[side / 2][i];
+        plane[3] = camera->orthographic ? half : 0.0;
         host_normalize3(plane);
     }
     memcpy(out->planes[4], camera->forward, sizeof(camera->forward));
@@ -131,6 +132,15 @@ void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd)
     }
 }
 
+/* Grows with how far a thing is behind others: from the camera's point, or from its plane. */
+static double depth_order(const struct host_camera_frame *camera, const struct host_instance *instance)
+{
+    double to_center[3];
+    for (int k = 0; k < 3; k++)
+        to_center[k] = instance->center[k] - camera->position[k];
+    return host_dot3(to_center, camera->orthographic ? camera->forward : to_center);
+}
+
 /* Insertion sort, far to near: the order changes little from frame to frame, and few things are blended. */
 static uint32_t sort_blended(struct host_renderer *renderer, const struct host_frustum *frustum)
 {
@@ -141,10 +151,7 @@ static uint32_t sort_blended(struct host_renderer *renderer, const struct host_f
         if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) ||
             !host_frustum_sees(frustum, &scene->instances[i]))
             continue;
-        double to_center[3];
-        for (int k = 0; k < 3; k++)
-            to_center[k] = scene->instances[i].center[k] - renderer->camera.position[k];
-        const double here = host_dot3(to_center, to_center);
+        const double here = depth_order(&renderer->camera, &scene->instances[i]);
         uint32_t at = count++;
         for (; at > 0 && distance[at - 1] < here; at--) {
             order[at] = order[at - 1];

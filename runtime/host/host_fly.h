@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A camera that flies: WASD moves, Q and E sink and rise, Shift hurries, a held mouse button turns. */
+ * A camera that flies: WASD moves, Q and E sink and rise, Shift hurries, a held mouse button turns. W and S
+ * zoom an orthographic camera, which going ahead would not change. */
 #ifndef HOST_FLY_H
 #define HOST_FLY_H
 
@@ -10,8 +11,8 @@
 
 struct host_fly {
     double position[3];
-    double yaw, pitch; /* radians; yaw 0 looks along -Z */
-    float yfov_rad;
+    double yaw, pitch;       /* radians; yaw 0 looks along -Z */
+    struct host_camera lens; /* what the camera is like, wherever it is */
     double speed_m_s;
     double cursor[2]; /* when it was last asked for */
 };

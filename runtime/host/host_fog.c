@@ -259,7 +259,6 @@ void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data 
     out->fog_slices[0] = (float)first_slice_m;
     out->fog_slices[1] = (float)(log2(f->range_m / first_slice_m) / (HOST_FOG_SLICES - 1));
     out->fog_slices[2] = (float)f->range_m;
-    out->fog_slices[3] = (float)renderer->camera.near_m;
     out->fog_grid[0] = (float)renderer->targets.hdr.width;
     out->fog_grid[1] = (float)renderer->targets.hdr.height;
     out->fog_grid[2] = (float)f->tile_side;

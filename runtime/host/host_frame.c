@@ -124,12 +124,15 @@ static void frame_fill(const struct host_renderer *renderer, struct host_frame_d
     for (int i = 0; i < 3; i++) {
         out->camera_position[i] = (float)(camera->position[i] - camera->origin[i]);
         out->camera_forward[i] = (float)camera->forward[i];
-        out->camera_right[i] = (float)(camera->right[i] * camera->tan_x);
-        out->camera_up[i] = (float)(camera->up[i] * camera->tan_y);
+        out->camera_right[i] = (float)(camera->right[i] * camera->half_x);
+        out->camera_up[i] = (float)(camera->up[i] * camera->half_y);
         out->sky_zenith[i] = sky->zenith[i];
         out->sky_horizon[i] = sky->horizon[i];
         out->sky_ground[i] = sky->ground[i];
     }
+    out->camera_forward[3] = camera->orthographic ? 1.0f : 0.0f;
+    out->camera_range[0] = (float)camera->near_m;
+    out->camera_range[1] = (float)camera->range_m;
     for (uint32_t i = 0; i < renderer->scene->sun_count; i++)
         host_sun_fill(renderer, i, &out->suns[i]);
     host_fog_fill(renderer, out);
@@ -187,7 +190,7 @@ static void pass_begin(struct host_renderer *renderer, VkCommandBuffer cmd, VkRe
 static bool gi_record(struct host_renderer *renderer, VkCommandBuffer cmd)
 {
     struct sdfgi_frame_desc desc = { .seed = renderer->seed, .exposure = renderer->gi_exposure };
-    memcpy(desc.camera_position, renderer->camera.position, sizeof(desc.camera_position));
+    host_camera_center(&renderer->camera, renderer->scene->center, desc.camera_position);
     memcpy(desc.origin, renderer->camera.origin, sizeof(desc.origin));
     return host_gi_update(renderer->gi, cmd, &desc);
 }

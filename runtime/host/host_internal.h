@@ -296,13 +296,20 @@ void host_sun_fill(const struct host_renderer *renderer, uint32_t sun, struct ho
 
 /* A camera resolved for one frame. Everything in float is relative to `origin`. */
 struct host_camera_frame {
-    double origin[3], position[3];
+    double origin[3];
+    double position[3];                 /* orthographic: where the axis meets the near plane */
     double right[3], up[3], forward[3]; /* unit */
-    double tan_x, tan_y, near_m;
-    float clip[4][4]; /* rows */
+    bool orthographic;
+    double half_x, half_y; /* of what is seen: 1 m away; orthographic: anywhere */
+    double near_m;         /* from the camera to the near plane */
+    double range_m;        /* orthographic: from there to the far plane */
+    float clip[4][4];      /* rows */
 };
 
 void host_camera_resolve(const struct host_camera *camera, double aspect, struct host_camera_frame *out);
+/* Where cascades are to be centred. How far an orthographic camera stands off what it shows means nothing:
+ * the point of its axis beside the centre of the scene. */
+void host_camera_center(const struct host_camera_frame *camera, const double scene_center[3], double out[3]);
 
 enum { HOST_SLOTS = 2 };
 

@@ -38,11 +38,13 @@ static double split_m(int cascade, double range_m)
 static double slice_sphere(const struct host_camera_frame *camera, double from_m, double to_m,
                            const double origin[3], double center[3])
 {
-    const double k = camera->tan_x * camera->tan_x + camera->tan_y * camera->tan_y;
-    const double along = fmin(to_m, 0.5 * (from_m + to_m) * (1.0 + k));
+    /* Squared half diagonal of what is seen, 1 m away or anywhere. */
+    const double k = camera->half_x * camera->half_x + camera->half_y * camera->half_y;
+    const double middle = 0.5 * (from_m + to_m);
+    const double along = camera->orthographic ? middle : fmin(to_m, middle * (1.0 + k));
     for (int i = 0; i < 3; i++)
         center[i] = (camera->position[i] - origin[i]) + along * camera->forward[i];
-    return sqrt((to_m - along) * (to_m - along) + to_m * to_m * k);
+    return sqrt((to_m - along) * (to_m - along) + k * (camera->orthographic ? 1.0 : to_m * to_m));
 }
 
 static void cascade_place(const struct host_renderer *renderer, const struct host_scene_light *sun,

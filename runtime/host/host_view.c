@@ -35,46 +35,69 @@ static void resolve_axes(const struct host_camera *camera, struct host_camera_fr
     host_cross3(out->right, out->forward, out->up);
 }
 
-/* Reversed depth without a far plane: z = near, w = distance along the axis. Vulkan's y points down. */
+/* Vulkan's y points down. Depth is reversed. In perspective it has no far plane: z = near, w = distance along
+ * the axis; orthographic it falls evenly: z = 1 - distance from the near plane / range, w = 1. */
 static void fill_clip(struct host_camera_frame *out)
 {
-    const double *const axes[4] = { out->right, out->up, NULL, out->forward };
-    const double scale[4] = { 1.0 / out->tan_x, -1.0 / out->tan_y, 0.0, 1.0 };
+    const bool flat = out->orthographic;
+    const double *const axes[4] = { out->right, out->up, out->forward, out->forward };
+    const double scale[4] = { 1.0 / out->half_x, -1.0 / out->half_y, flat ? -1.0 / out->range_m : 0.0,
+                              flat ? 0.0 : 1.0 };
+    const double constant[4] = { 0.0, 0.0, flat ? 1.0 : out->near_m, flat ? 1.0 : 0.0 };
     double relative[3];
     for (int i = 0; i < 3; i++)
         relative[i] = out->position[i] - out->origin[i];
     for (int row = 0; row < 4; row++) {
-        memset(out->clip[row], 0, sizeof(out->clip[row]));
-        for (int i = 0; i < 3 && axes[row]; i++)
+        for (int i = 0; i < 3; i++)
             out->clip[row][i] = (float)(scale[row] * axes[row][i]);
-        if (axes[row])
-            out->clip[row][3] = (float)(-scale[row] * host_dot3(axes[row], relative));
+        out->clip[row][3] = (float)(constant[row] - scale[row] * host_dot3(axes[row], relative));
     }
-    out->clip[2][3] = (float)out->near_m;
 }
 
 void host_camera_resolve(const struct host_camera *camera, double aspect, struct host_camera_frame *out)
 {
-    *out = (struct host_camera_frame){ .near_m = 0.01 };
-    for (int i = 0; i < 3; i++) {
-        out->position[i] = camera->position[i];
-        out->origin[i] = floor(camera->position[i] + 0.5);
-    }
+    *out = (struct host_camera_frame){ .near_m = 0.01, .orthographic = camera->ymag_m > 0.0f };
     resolve_axes(camera, out);
-    out->tan_y = tan(0.5 * (double)camera->yfov_rad);
-    out->tan_x = out->tan_y * aspect;
+    out->half_y = tan(0.5 * (double)camera->yfov_rad);
+    if (out->orthographic) {
+        out->half_y = (double)camera->ymag_m;
+        out->near_m = (double)camera->znear_m;
+        out->range_m = (double)camera->zfar_m - out->near_m;
+    }
+    out->half_x = out->half_y * aspect;
+    for (int i = 0; i < 3; i++) {
+        out->position[i] = camera->position[i] + (out->orthographic ? out->near_m * out->forward[i] : 0.0);
+        out->origin[i] = floor(out->position[i] + 0.5);
+    }
     fill_clip(out);
 }
 
-/* Columns. A clip position (x, y, z, 1) becomes (z camera + near (x right tan_x - y up tan_y + forward), z).
- */
+void host_camera_center(const struct host_camera_frame *camera, const double scene_center[3], double out[3])
+{
+    double offset[3], along = 0.0;
+    for (int i = 0; i < 3; i++)
+        offset[i] = scene_center[i] - camera->position[i];
+    if (camera->orthographic)
+        along = fmin(fmax(host_dot3(offset, camera->forward), 0.0), camera->range_m);
+    for (int i = 0; i < 3; i++)
+        out[i] = camera->position[i] + along * camera->forward[i];
+}
+
+/* Columns. In perspective a clip position (x, y, z, 1) becomes
+ * (z camera + near (x right half_x - y up half_y + forward), z), orthographic
+ * (camera + x right half_x - y up half_y + (1 - z) range forward, 1). */
 void host_camera_fill_inverse(const struct host_camera_frame *camera, float m[static 16])
 {
+    const bool flat = camera->orthographic;
+    const double aside = flat ? 1.0 : camera->near_m;
+    memset(m, 0, 16 * sizeof(*m));
     for (int i = 0; i < 3; i++) {
-        m[i] = (float)(camera->near_m * camera->tan_x * camera->right[i]);
-        m[4 + i] = (float)(-camera->near_m * camera->tan_y * camera->up[i]);
-        m[8 + i] = (float)(camera->position[i] - camera->origin[i]);
-        m[12 + i] = (float)(camera->near_m * camera->forward[i]);
+        const double relative = camera->position[i] - camera->origin[i];
+        m[i] = (float)(aside * camera->half_x * camera->right[i]);
+        m[4 + i] = (float)(-aside * camera->half_y * camera->up[i]);
+        m[8 + i] = (float)(flat ? -camera->range_m * camera->forward[i] : relative);
+        m[12 + i] = (float)(flat ? relative + camera->range_m * camera->forward[i]
+                                 : camera->near_m * camera->forward[i]);
     }
-    m[11] = 1.0f;
+    m[flat ? 15 : 11] = 1.0f;
 }

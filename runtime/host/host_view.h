@@ -13,8 +13,14 @@ struct host_camera {
     double position[3];
     double look_at[3]; /* differs from position */
     float up[3];       /* need not be unit or orthogonal; not parallel to the view direction */
-    float yfov_rad;    /* (0, pi) */
+    float yfov_rad;    /* of a perspective camera, (0, pi) */
+    /* Above 0: the camera is orthographic, and this is half the height of what it shows. Nothing is shown
+     * that is nearer along its axis than znear_m or farther than zfar_m; 0 <= znear_m < zfar_m. */
+    float ymag_m, znear_m, zfar_m;
 };
+
+/* Where an orthographic camera ends that does not say it. */
+#define HOST_ZFAR_M 10000
 
 /* Radiance L(d) = lerp(horizon, d.y >= 0 ? zenith : ground, |d.y|); all zero is no sky. */
 struct host_sky {

@@ -9,7 +9,7 @@ static bool voxelize(struct host_renderer *renderer, const struct host_camera *c
 {
     host_camera_resolve(camera, (double)renderer->width / renderer->height, &renderer->camera);
     struct sdfgi_frame_desc desc = { .seed = renderer->seed, .exposure = renderer->gi_exposure };
-    memcpy(desc.camera_position, renderer->camera.position, sizeof(desc.camera_position));
+    host_camera_center(&renderer->camera, renderer->scene->center, desc.camera_position);
     memcpy(desc.origin, renderer->camera.origin, sizeof(desc.origin));
     VkCommandBuffer cmd = host_commands_begin(renderer->device);
     if (!cmd)

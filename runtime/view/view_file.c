@@ -17,6 +17,23 @@ enum { LIGHTS_MAX = 4096 };
 
 /* ---- Camera ----------------------------------------------------------------------------------------- */
 
+/* An orthographic camera has a height instead of an angle, and planes that end it. */
+static bool check_projection(const struct json_place *place, const cJSON *json, struct host_camera *camera)
+{
+    static const char *const orthographic[] = { "znear", "zfar" };
+    const bool flat = cJSON_GetObjectItemCaseSensitive(json, "ymag") != NULL;
+    for (int i = 0; i < 2; i++)
+        if (!flat && cJSON_GetObjectItemCaseSensitive(json, orthographic[i]))
+            return json_fail(place, "camera", "%s is for orthographic cameras, which have a ymag",
+                             orthographic[i]);
+    if (flat && cJSON_GetObjectItemCaseSensitive(json, "yfov_deg"))
+        return json_fail(place, "camera", "yfov_deg is for perspective cameras, which have no ymag");
+    if (flat && camera->zfar_m == 0)
+        camera->zfar_m = HOST_ZFAR_M;
+    return !flat || camera->znear_m < camera->zfar_m ||
+           json_fail(place, "camera", "znear must be smaller than zfar, which is %g", (double)camera->zfar_m);
+}
+
 static bool read_camera(const struct json_place *place, const cJSON *json, struct host_camera *camera)
 {
     const struct json_field fields[] = {
@@ -24,8 +41,12 @@ static bool read_camera(const struct json_place *place, const cJSON *json, struc
         { "look_at", JSON_DOUBLE3, camera->look_at, -position_max_m, position_max_m, .required = true },
         { "up", JSON_FLOAT3, camera->up, -1e6, 1e6, .required = false },
         { "yfov_deg", JSON_DEGREES, &camera->yfov_rad, 0.1, 179, .required = false },
+        { "ymag", JSON_FLOAT, &camera->ymag_m, 1e-6, 1e9, .required = false },
+        { "znear", JSON_FLOAT, &camera->znear_m, 0, 1e9, .required = false },
+        { "zfar", JSON_FLOAT, &camera->zfar_m, 1e-6, 1e9, .required = false },
     };
-    if (!json_read_object(place, json, "camera", JSON_FIELDS(fields)))
+    if (!json_read_object(place, json, "camera", JSON_FIELDS(fields)) ||
+        !check_projection(place, json, camera))
         return false;
     double forward[3], side[3], up[3] = { camera->up[0], camera->up[1], camera->up[2] };
     base_vec3d_sub(camera->look_at, camera->position, forward);

@@ -14,7 +14,7 @@ struct gltf_scene;
  * key. Otherwise `view` is to be given to view_file_finish. */
 bool view_file_load(const char *path, struct host_view *view, char *error, size_t error_size);
 
-/* The first perspective camera of the scene; without one, a camera that sees all of it from above a corner.
+/* The first camera of the scene; without one, a camera that sees all of it from above a corner.
  * Where the scene has neither lights nor emission, a sun and a sky are added, since it would be black. Needs
  * no finish. */
 void view_file_from_scene(const struct gltf_scene *scene, struct host_view *view);

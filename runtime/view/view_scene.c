@@ -5,14 +5,6 @@
 #include <base/vec.h>
 #include <modules/gltf/gltf_scene.h>
 
-static const struct gltf_camera *find_perspective_camera(const struct gltf_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->camera_count; i++)
-        if (scene->cameras[i].yfov_rad > 0)
-            return &scene->cameras[i];
-    return NULL;
-}
-
 static void use_camera(const struct gltf_camera *from, struct host_camera *camera)
 {
     const double *m = from->transform;
@@ -24,7 +16,11 @@ static void use_camera(const struct gltf_camera *from, struct host_camera *camer
         camera->look_at[i] = m[12 + i] + forward[i];
         camera->up[i] = (float)m[4 + i];
     }
-    camera->yfov_rad = from->yfov_rad;
+    if (from->yfov_rad > 0)
+        camera->yfov_rad = from->yfov_rad;
+    camera->ymag_m = from->ymag;
+    camera->znear_m = from->znear;
+    camera->zfar_m = from->zfar;
 }
 
 /* Stands where the sphere around the scene just fits the field of view. */
@@ -61,9 +57,8 @@ static void add_daylight(struct host_view *view)
 void view_file_from_scene(const struct gltf_scene *scene, struct host_view *view)
 {
     host_view_default(view);
-    const struct gltf_camera *camera = find_perspective_camera(scene);
-    if (camera)
-        use_camera(camera, &view->camera);
+    if (scene->camera_count > 0)
+        use_camera(&scene->cameras[0], &view->camera);
     else
         frame_bounds(scene, &view->camera);
     if (!has_light(scene))

@@ -50,6 +50,6 @@ void main()
     /* A loop of one round or none: drivers that run both sides of a branch leave loops early. */
     const int rounds = fog_distance(slice - float(HOST_FOG_AIR)) < reach ? 1 : 0;
     for (int i = 0; i < rounds; i++)
-        light = light_at(frame.camera_position.xyz + distance_m * ray, normalize(ray));
+        light = light_at(fog_position(vec2(first) + offset, distance_m), normalize(ray));
     imageStore(air, block, light);
 }

@@ -18,11 +18,10 @@ void main()
     const ivec2 column = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(column, imageSize(volume).xy)))
         return;
-    const vec3 ray = fog_ray(vec2(column)), eye = frame.camera_position.xyz;
-    vec3 seen = vec3(0.0), source = vec3(0.0), from = eye;
+    vec3 seen = vec3(0.0), source = vec3(0.0), from = fog_position(vec2(column), 0.0);
     float through = 1.0;
     for (int slice = 0; slice < HOST_FOG_SLICES; slice++) {
-        const vec3 to = eye + fog_distance(float(slice + 1)) * ray;
+        const vec3 to = fog_position(vec2(column), fog_distance(float(slice + 1)));
         const float left = through * exp(-fog_optical_depth(from, to));
         source = imageLoad(volume, ivec3(column, slice)).rgb;
         seen += (through - left) * source;

@@ -31,7 +31,7 @@ vec3 from_suns(ivec3 froxel, vec4 column, vec3 direction, float reach, int place
         const vec3 place = place_within(i);
         const float distance_m =
             fog_lit_distance(column, place.xy, 1.0, fog_distance(float(froxel.z) + place.z), reach);
-        const vec3 position = frame.camera_position.xyz + distance_m * fog_ray(vec2(froxel.xy) + place.xy);
+        const vec3 position = fog_position(vec2(froxel.xy) + place.xy, distance_m);
         for (int s = 0; s < int(frame.counts.x); s++) {
             const float phase = fog_phase(dot(frame.suns[s].direction.xyz, direction));
             sum += frame.suns[s].irradiance.rgb * (phase * shadow_sun_in_air(s, position));
@@ -43,8 +43,9 @@ vec3 from_suns(ivec3 froxel, vec4 column, vec3 direction, float reach, int place
 /* A lamp's light falls with the square of the distance d, over a slice by a lot. The mean of 1 / d^2 along a
  * ray is the angle under which the lamp sees the slice, over its length and the ray's distance from the lamp.
  * Half of that angle is where shadow and phase are looked up (Kulla and Fajardo 2012, "Importance Sampling
- * Techniques for Path Tracing in Participating Media", section 4). */
-vec3 from_lamps(vec3 eye, vec3 direction, vec2 range_m, float tile_rad, int count)
+ * Techniques for Path Tracing in Participating Media", section 4). `tile`: the width of a tile of the
+ * picture, 1 m away or anywhere. */
+vec3 from_lamps(vec3 eye, vec3 direction, vec2 range_m, float tile, int count)
 {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < count; i++) {
@@ -54,7 +55,8 @@ vec3 from_lamps(vec3 eye, vec3 direction, vec2 range_m, float tile_rad, int coun
         const vec3 off = to_lamp - along * direction;
         /* A froxel is as wide as its tile, a disc of as much area. The mean of 1 / h over it is 2 / radius at
          * the lamp; far off, h^2 is radius^2 / 4 less. Both together keep the sum over a plane. */
-        const float half_radius = 0.2821 * tile_rad * clamp(along, range_m.x, range_m.y);
+        const float wide = frame.camera_forward.w > 0.0 ? 1.0 : clamp(along, range_m.x, range_m.y);
+        const float half_radius = 0.2821 * tile * wide;
         const float floor2 = half_radius * half_radius + 1e-8;
         const float h = sqrt(max(dot(off, off) - floor2, floor2));
         const float near = atan((range_m.x - along) / h), far = atan((range_m.y - along) / h);
@@ -90,10 +92,10 @@ void main()
     /* Fog beyond what is seen scatters nothing that counts. */
     const vec2 range_m = vec2(fog_lit_distance(column, vec2(0.0), 1.0, near, reach),
                               fog_lit_distance(column, vec2(0.0), 1.0, far, reach));
-    const float tile_rad = 2.0 * length(frame.camera_right.xyz) * frame.fog_grid.z / frame.fog_grid.x;
+    const float tile = 2.0 * length(frame.camera_right.xyz) * frame.fog_grid.z / frame.fog_grid.x;
     vec3 radiance = from_suns(froxel, column, direction, reach, near < reach ? SUN_PLACES : 0) +
-                    from_lamps(frame.camera_position.xyz, direction,
-                               length(ray) * vec2(range_m.x, max(range_m.y, 1.001 * range_m.x)), tile_rad,
+                    from_lamps(fog_position(vec2(froxel.xy), 0.0), direction,
+                               length(ray) * vec2(range_m.x, max(range_m.y, 1.001 * range_m.x)), tile,
                                near < reach ? int(frame.counts.y) : 0);
     radiance *= frame.fog_density.w;
     if (frame.fog_grid.w > 0.0)

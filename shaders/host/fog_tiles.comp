@@ -15,8 +15,7 @@ layout(set = HOST_SET_FOG, binding = 4, std430) writeonly buffer seen_block
     vec4 seen[];
 };
 
-/* The near plane over the distance along the axis: linear over planes; 0 for the sky and beyond the picture.
- */
+/* Linear over planes; 0 for the sky and beyond the picture. */
 float depth_at(ivec2 pixel)
 {
     return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frame.fog_grid.xy)))

@@ -37,7 +37,7 @@ layout(location = 0) out vec4 out_radiance;
 vec3 face_normal()
 {
     const vec3 n = cross(dFdx(in_position), dFdy(in_position));
-    const vec3 view = frame.camera_position.xyz - in_position;
+    const vec3 view = -camera_offset(in_position);
     const float n2 = dot(n, n);
     return n2 > 0.0 ? n * (sign(dot(n, view)) * inversesqrt(n2)) : normalize(view);
 }
@@ -76,7 +76,7 @@ brdf_surface surface_here(vec4 base_color, bool front_facing)
     const float metallic = lambert ? 0.0 : metallic_roughness.x;
     brdf_surface s;
     s.normal = material_normal(in_uv, in_normal, in_tangent, front_facing);
-    s.view = normalize(frame.camera_position.xyz - in_position);
+    s.view = -normalize(camera_offset(in_position));
     s.diffuse = base_color.rgb * (1.0 - metallic);
     s.f0 = mix(vec3(0.04), base_color.rgb, metallic);
     /* Smoother lobes than this cannot be hit by point lights and overflow the HDR target. */
@@ -95,7 +95,7 @@ void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
 {
     irradiance = reflection = vec3(0.0);
 #if defined(HOST_GI)
-    const vec3 to_eye = frame.camera_position.xyz - in_position;
+    const vec3 to_eye = -camera_offset(in_position);
     const sdfgi_surface_light light =
         sdfgi_lighting(in_position, s.normal, to_eye, perceptual_roughness(s));
     irradiance = light.irradiance;
@@ -124,7 +124,8 @@ vec3 shown_value(brdf_surface s, vec3 direct, vec3 irradiance, vec3 reflection, 
     case HOST_SHOW_NORMAL:
         return s.normal;
     case HOST_SHOW_DEPTH:
-        return vec3(dot(frame.camera_forward.xyz, in_position - frame.camera_position.xyz));
+        return vec3(dot(frame.camera_forward.xyz, in_position - frame.camera_position.xyz) +
+                    frame.camera_forward.w * frame.camera_range.x);
     case HOST_SHOW_ALBEDO:
         return s.diffuse;
     case HOST_SHOW_ROUGHNESS:
@@ -158,6 +159,6 @@ void main()
     out_radiance = vec4(shown_value(s, direct, irradiance, reflection, emission), alpha);
 #ifdef HOST_FOG
     if (shown == HOST_SHOW_COLOR)
-        out_radiance.rgb = fog_before(out_radiance.rgb, in_position - frame.camera_position.xyz);
+        out_radiance.rgb = fog_before(out_radiance.rgb, camera_offset(in_position));
 #endif
 }

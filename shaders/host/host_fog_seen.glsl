@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What of the froxels somebody sees. Depth is the near plane over the distance along the camera's axis. Needs
- * host_fog_space.glsl. */
+ * What of the froxels somebody sees. Depth is linear over planes. Needs host_fog_space.glsl. */
 
 /* Per column. x: the least depth in the tile between this column and the next ones. y: the depth where the
  * column is; zw: its change per tile along x and y, that of the surface there. */
@@ -14,7 +13,7 @@ const float FOG_INSIDE = 0.99;
 
 float fog_distance_of_depth(float depth)
 {
-    return frame.fog_slices.w / max(depth, frame.fog_slices.w / FOG_SKY_M);
+    return depth > 0.0 ? min(camera_distance_of_depth(depth), FOG_SKY_M) : FOG_SKY_M;
 }
 
 /* Metres to the farthest surface in the tiles from `low` to `high`; `columns` is how many the grid has. */

@@ -22,11 +22,21 @@ float fog_slice(float distance_m)
     return 1.0 + log2(distance_m / frame.fog_slices.x) / frame.fog_slices.y;
 }
 
-/* From the camera through a column, 1 m along the camera's axis. */
+vec2 fog_ndc(vec2 column)
+{
+    return 2.0 * column * frame.fog_grid.z / frame.fog_grid.xy - 1.0;
+}
+
+/* Along a column, 1 m along the camera's axis. */
 vec3 fog_ray(vec2 column)
 {
-    const vec2 ndc = 2.0 * column * frame.fog_grid.z / frame.fog_grid.xy - 1.0;
-    return frame.camera_forward.xyz + ndc.x * frame.camera_right.xyz - ndc.y * frame.camera_up.xyz;
+    return camera_ray(fog_ndc(column));
+}
+
+/* In a column, so many metres along the camera's axis. */
+vec3 fog_position(vec2 column, float distance_m)
+{
+    return camera_ray_start(fog_ndc(column)) + distance_m * fog_ray(column);
 }
 
 /* Optical depth between two places. Density changes exponentially with height: (1 - exp(-x)) / x of its value

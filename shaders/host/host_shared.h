@@ -76,10 +76,13 @@ struct host_sun_data {
 };
 
 struct host_frame_data {
-    HOST_VEC4(camera_position); /* w: 1 if there is a picture of reflections */
-    HOST_VEC4(camera_forward);
-    HOST_VEC4(camera_right); /* times the tangent of half the horizontal angle of view */
-    HOST_VEC4(camera_up);    /* times that of the vertical one */
+    HOST_VEC4(
+        camera_position); /* orthographic: in the near plane; w: 1 if there is a picture of reflections */
+    HOST_VEC4(camera_forward); /* w: 1 if the camera is orthographic, else 0 */
+    HOST_VEC4(camera_right);   /* times half the width of what is seen, 1 m away or anywhere */
+    HOST_VEC4(camera_up);      /* times half its height */
+    HOST_VEC4(camera_range);   /* metres along the axis; x: to the near plane; y: orthographic: from there
+                                  to the far plane */
     HOST_VEC4(sky_zenith);
     HOST_VEC4(sky_horizon);
     HOST_VEC4(sky_ground);
@@ -87,7 +90,7 @@ struct host_frame_data {
     HOST_VEC4(fog_density); /* x: extinction at a height, 1/m, 0: fog is left out; y: that height; z: falloff,
                                1/m; w: what froxels hold over radiance */
     HOST_VEC4(fog_slices);  /* x: metres to the far side of the first slice; y: doublings of the distance per
-                               slice; z: metres to the far side of the last; w: the camera's near plane */
+                               slice; z: metres to the far side of the last */
     HOST_VEC4(fog_grid);    /* xy: pixels of the picture; z: along a froxel's side; w: 1 if GI has light */
     HOST_UVEC4(counts);     /* x: suns, y: punctual lights, z: HOST_SHOW_*, w: samples along a pixel's side */
 #ifdef VULKAN

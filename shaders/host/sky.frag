@@ -12,9 +12,7 @@ layout(location = 0) out vec4 out_radiance;
 
 void main()
 {
-    /* Clip space has y down. */
-    const vec3 direction = normalize(frame.camera_forward.xyz + in_ndc.x * frame.camera_right.xyz -
-                                     in_ndc.y * frame.camera_up.xyz);
+    const vec3 direction = normalize(camera_ray(in_ndc));
     out_radiance = vec4(sky_radiance(direction), 1.0);
 #ifdef HOST_FOG
     out_radiance.rgb = fog_before(out_radiance.rgb, FOG_SKY_M * direction);

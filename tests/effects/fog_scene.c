@@ -40,10 +40,11 @@ static void cube_fill(struct cube *cube)
     }
 }
 
-static struct gltf_material material_of(const struct fog_box *box)
+static struct gltf_material material_of(const struct fog_box *box, bool mirror)
 {
     const struct gltf_texture_ref none = { .texture = -1 };
-    struct gltf_material m = { .roughness = 1,
+    struct gltf_material m = { .roughness = mirror ? 0 : 1,
+                               .metallic = mirror ? 1 : 0,
                                .normal_scale = 1,
                                .emissive = { box->emission, box->emission, box->emission },
                                .alpha_mode = box->color[3] < 1 ? GLTF_ALPHA_BLEND : GLTF_ALPHA_OPAQUE,
@@ -75,7 +76,7 @@ static struct host_scene *scene_create(struct host_device *device, const struct 
     cube_fill(&cube);
     assert_in_range(scene->box_count, 0, MAX_BOXES);
     for (uint32_t i = 0; i < scene->box_count; i++) {
-        materials[i] = material_of(&scene->boxes[i]);
+        materials[i] = material_of(&scene->boxes[i], scene->mirrors >> i & 1);
         instances[i] = instance_of(&scene->boxes[i], i);
         primitives[i] = (struct gltf_primitive){ .vertex_count = VERTICES,
                                                  .index_count = INDICES,
@@ -110,6 +111,7 @@ struct fog_scene fog_scene_empty(float density)
 
 void fog_stage_open(struct fog_stage *stage, struct host_device *device, const struct fog_scene *scene)
 {
+    const enum host_lookup lookup = scene->forward ? HOST_LOOKUP_FORWARD : HOST_LOOKUP_FULL;
     struct sdfgi_settings settings;
     sdfgi_settings_default(&settings);
     settings.enabled = scene->gi;
@@ -118,10 +120,9 @@ void fog_stage_open(struct fog_stage *stage, struct host_device *device, const s
     settings.min_cell_size_m = 0.25f;
     settings.ray_count = 125;
     settings.frames_to_converge = 4;
-    const struct host_renderer_desc desc = { .width = FOG_WIDTH,
-                                             .height = FOG_HEIGHT,
-                                             .settings = &settings,
-                                             .lookups = { HOST_LOOKUP_FULL, HOST_LOOKUP_FULL } };
+    const struct host_renderer_desc desc = {
+        .width = FOG_WIDTH, .height = FOG_HEIGHT, .settings = &settings, .lookups = { lookup, lookup }
+    };
     const struct host_until_desc until = { .max_frames = MAX_FRAMES };
     stage->camera = scene->view.camera;
     stage->scene = scene_create(device, scene);

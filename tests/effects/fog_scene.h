@@ -18,7 +18,10 @@ struct fog_scene {
     struct host_view view;
     const struct fog_box *boxes;
     uint32_t box_count;
+    uint32_t
+        mirrors; /* bits of the boxes that are metals without roughness, unless materials are Lambertian */
     bool gi;
+    bool forward; /* light is looked up where surfaces are shaded, not for the whole picture */
 };
 
 struct fog_stage {

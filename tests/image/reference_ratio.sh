@@ -7,6 +7,7 @@
 #   picture LOW HIGH   against the picture stored with the scene, less its direct light and less what both show alike
 #                      (emitters and sky seen directly); for scenes without reflections
 #   diffuse LOW HIGH   against the diffuse light of our own path tracer, which is right for every material
+#   flat LOW HIGH      the same through an orthographic camera in place of the scene's, and relMSE at most 0.01
 #   leak MOST          the scene's picture is black: mean over 0.571, the lit room's, at most MOST
 #
 # KEY=VALUE are settings of the renderer besides those below.
@@ -69,12 +70,21 @@ picture)
         }')
     judge "$indirect" "$truth"
     ;;
-diffuse)
+diffuse | flat)
+    if [ "$kind" = flat ]; then
+        sed 's/"yfov_deg": *[0-9.]*/"ymag": 2.7/' "$view" >"$work/flat.json"
+        view=$work/flat.json
+    fi
     render 160x90 24
     # The mean of 64 samples differs from seed to seed by 2 %.
     "$sdfgi" reference "$scene" --view "$view" --size 160x90 --spp 256 --aov diffuse_indirect="$work/truth.exr" \
         --out "$work/reference.exr"
     judge "$(mean "$work/indirect.exr" "$work/truth.exr" mean)" "$(mean "$work/indirect.exr" "$work/truth.exr" reference_mean)"
+    if [ "$kind" = flat ]; then
+        error=$(mean "$work/color.exr" "$work/reference.exr" relmse)
+        echo "relMSE $error, allowed 0.01"
+        awk -v error="$error" 'BEGIN { exit !(error <= 0.01) }'
+    fi
     ;;
 leak)
     render 320x180 28

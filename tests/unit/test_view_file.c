@@ -71,6 +71,19 @@ static void every_key_reaches_its_field(void **state)
     view_file_finish(&view);
 }
 
+#define FLAT "\"position\":[0,1,2],\"look_at\":[0,0,0]"
+
+static void a_camera_may_be_orthographic(void **state)
+{
+    (void)state;
+    assert_true(load("{\"camera\":{" FLAT ",\"ymag\":2.5,\"znear\":0.5,\"zfar\":30}}"));
+    assert_true(view.camera.ymag_m == 2.5f && view.camera.znear_m == 0.5f && view.camera.zfar_m == 30);
+    assert_true(load("{\"camera\":{" FLAT ",\"ymag\":2}}"));
+    assert_true(view.camera.znear_m == 0 && view.camera.zfar_m == HOST_ZFAR_M);
+    assert_true(load("{" CAMERA "}"));
+    assert_true(view.camera.ymag_m == 0);
+}
+
 static void a_uniform_sky_has_three_equal_colours(void **state)
 {
     (void)state;
@@ -113,6 +126,12 @@ static void what_is_wrong_is_named_in_one_line(void **state)
         { "{\"camera\":{\"position\":[0,1,0],\"look_at\":[0,0,1],\"up\":[0,0,0]}}", "camera.up: has no" },
         { "{\"camera\":{\"position\":[0,1,0],\"look_at\":[0,0,1],\"yfov_deg\":180}}",
           "camera.yfov_deg: is 180" },
+        { "{\"camera\":{" FLAT ",\"ymag\":0}}", "camera.ymag: is 0" },
+        { "{\"camera\":{" FLAT ",\"ymag\":1,\"znear\":-1}}", "camera.znear: is -1" },
+        { "{\"camera\":{" FLAT ",\"ymag\":1,\"yfov_deg\":60}}", "camera: yfov_deg is for perspective" },
+        { "{\"camera\":{" FLAT ",\"zfar\":10}}", "camera: zfar is for orthographic" },
+        { "{\"camera\":{" FLAT ",\"ymag\":1,\"znear\":5,\"zfar\":5}}", "camera: znear must be smaller" },
+        { "{\"camera\":{" FLAT ",\"ymag\":1,\"znear\":20000}}", "camera: znear must be smaller" },
         { "{" CAMERA ",\"sky\":{\"radiance\":[-1,0,0]}}", "sky.radiance: is -1" },
         { "{" CAMERA ",\"sky\":{\"zenith\":[1,0,0]}}", "sky.horizon: is missing" },
         { "{" CAMERA ",\"sky\":{\"radiance\":[1,0,0],\"zenith\":[1,0,0]}}", "sky.zenith: unknown key" },
@@ -197,10 +216,24 @@ static void the_camera_of_a_scene_looks_along_minus_z(void **state)
     assert_false(view.sun.enabled);
 }
 
+static void an_orthographic_camera_of_a_scene_is_taken(void **state)
+{
+    (void)state;
+    struct gltf_camera camera = {
+        .transform = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1 }, .ymag = 3, .znear = 1, .zfar = 50
+    };
+    const struct gltf_scene scene = { .cameras = &camera, .camera_count = 1 };
+    view_file_from_scene(&scene, &view);
+    assert_true(view.camera.position[1] == 6 && view.camera.look_at[2] == 6);
+    assert_true(view.camera.ymag_m == 3 && view.camera.znear_m == 1 && view.camera.zfar_m == 50);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_camera_is_enough),
+        cmocka_unit_test(a_camera_may_be_orthographic),
+        cmocka_unit_test(an_orthographic_camera_of_a_scene_is_taken),
         cmocka_unit_test(every_key_reaches_its_field),
         cmocka_unit_test(a_uniform_sky_has_three_equal_colours),
         cmocka_unit_test(fog_needs_a_density_alone),

@@ -197,7 +197,9 @@ static void run_tour(struct tour *tour, const struct step *steps, uint32_t count
     char error[512] = "";
     struct host_view view;
     host_view_default(&view);
-    view.camera = (struct host_camera){ { 0.4, 1, 1.6 }, { 0.4, 0.2, 0 }, { 0, 1, 0 }, 1.4f };
+    view.camera = (struct host_camera){
+        .position = { 0.4, 1, 1.6 }, .look_at = { 0.4, 0.2, 0 }, .up = { 0, 1, 0 }, .yfov_rad = 1.4f
+    };
     view.emissive_scale = 0;
     for (int i = 0; i < 3; i++)
         view.sky.zenith[i] = view.sky.horizon[i] = view.sky.ground[i] = 1;

@@ -342,7 +342,8 @@ SDFGI_API enum sdfgi_result sdfgi_invalidate_box(sdfgi *gi, const double box_min
 /* ---- Frame ------------------------------------------------------------------------------------------ */
 
 struct sdfgi_frame_desc {
-    double camera_position[3]; /* cascades are centred on it */
+    double camera_position[3]; /* cascades are centred on it. How far an orthographic camera is from what it
+                                  shows means nothing: give the middle of that */
     double origin[3]; /* world position of (0, 0, 0) in the host's shaders; for worlds of more than a few
                          kilometres use a point near the camera */
     uint32_t seed;  /* of the random sequence. Another one rebuilds everything once two updates in a row give
@@ -416,9 +417,9 @@ struct sdfgi_gather_desc {
     VkImageLayout input_layout;        /* of depth and normal; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
     uint32_t width, height;            /* pixels of all three: 1 to the device's maxImageDimension2D */
     float inverse_view_projection[16]; /* column-major: clip to position relative to sdfgi_frame_desc::origin;
-                                          not 0. Clip space has y = -1 at the first row of the images, as a
-                                          viewport of positive height gives it: with a negative height
-                                          negate elements 4 to 7 */
+                                          not 0. Perspective or orthographic. Clip space has y = -1 at the
+                                          first row of the images, as a viewport of positive height gives it:
+                                          with a negative height negate elements 4 to 7 */
     float background_depth;            /* pixels with exactly this depth get 0: 1, or 0 for reversed depth */
     enum sdfgi_gather_resolution resolution; /* 0: SDFGI_GATHER_FULL */
     float scale;                             /* factor on the output, >= 0 and finite; 0 means 1 */
