@@ -51,8 +51,8 @@
 #define SDFGI_BINDING_MATERIAL_ALBEDO   0
 #define SDFGI_BINDING_MATERIAL_EMISSION 1
 
-/* VIEW: the pictures of a gather or a resolve. Those that passes write have bits in the pass table: see
- * enum view_resource. */
+/* VIEW: the pictures of a gather or a resolve. Those that passes write have bits in the pass table: V(NAME).
+ */
 #define SDFGI_BINDING_VIEW_DEPTH      0
 #define SDFGI_BINDING_VIEW_NORMAL     1
 #define SDFGI_BINDING_VIEW_ROUGHNESS  2

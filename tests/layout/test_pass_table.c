@@ -16,29 +16,48 @@ static bool is_vertex(const struct module *module)
 
 /* ---- Reads and writes */
 
+/* What rows have bits for: resources of volumes, and then what views bind. */
+enum { VIEW_BINDINGS = SDFGI_BINDING_VIEW_FILTERED + 1, TOUCH_COUNT = RESOURCE_COUNT + VIEW_BINDINGS };
+
 struct touches {
-    uint8_t access[RESOURCE_COUNT]; /* ACCESS_* */
+    uint8_t access[TOUCH_COUNT]; /* ACCESS_* */
 };
 
-static enum resource resource_at(uint32_t set, uint32_t binding)
+static const char *touch_name(int touch)
 {
+    static const char *const views[VIEW_BINDINGS] = { "depth",      "normal", "roughness", "diffuse",
+                                                      "reflection", "tiles",  "filtered" };
+    return touch < RESOURCE_COUNT ? sdfgi_resource_row((enum resource)touch)->name
+                                  : views[touch - RESOURCE_COUNT];
+}
+
+/* Pictures that the host has drawn: no pass writes them, so that no row names them. */
+static bool is_of_host(int touch)
+{
+    return touch >= RESOURCE_COUNT && touch - RESOURCE_COUNT < SDFGI_BINDING_VIEW_DIFFUSE;
+}
+
+static int touch_at(uint32_t set, uint32_t binding)
+{
+    if (set == SDFGI_SET_VIEW && binding < VIEW_BINDINGS)
+        return RESOURCE_COUNT + (int)binding;
     for (int i = 0; i < RESOURCE_COUNT; i++) {
         const struct resource_row *row = sdfgi_resource_row((enum resource)i);
         if ((uint32_t)row->set == set && row->binding == binding)
-            return (enum resource)i;
+            return i;
     }
     require_fail(__FILE__, __LINE__, "set %u, binding %u: no resource is bound there", set, binding);
-    return RESOURCE_COUNT;
+    return TOUCH_COUNT;
 }
 
 static void touch(struct touches *touches, const struct module *module,
                   const struct module_resource *resource, uint8_t access)
 {
-    const enum resource id = resource_at(resource->set, resource->binding);
+    const int id = touch_at(resource->set, resource->binding);
     /* Only its length is asked for, or access.c lacks an instruction. */
     if (!access)
         require_fail(__FILE__, __LINE__, "%s: %s: named, but neither read nor written", module->name,
-                     sdfgi_resource_row(id)->name);
+                     touch_name(id));
     touches->access[id] |= access;
 }
 
@@ -47,8 +66,10 @@ static void add_touches(struct touches *touches, const struct module *module)
     struct module_resource resources[MODULE_RESOURCES_MAX];
     const size_t count = module_active_resources(module, resources);
     uint8_t *access = access_by_id(module->code, module->size);
+    const bool has_view = sdfgi_pass_row(module->pass)->set == PASS_SET_VIEW;
     for (size_t i = 0; i < count; i++)
-        if (resources[i].set == SDFGI_SET_LOOKUP || resources[i].set == SDFGI_SET_WORK)
+        if (resources[i].set == SDFGI_SET_LOOKUP || resources[i].set == SDFGI_SET_WORK ||
+            (has_view && resources[i].set == SDFGI_SET_VIEW))
             touch(touches, module, &resources[i], access[resources[i].id]);
     free(access);
 }
@@ -60,8 +81,12 @@ static uint8_t row_access(enum pass pass, int resource)
 }
 
 /* A row need not repeat under reads what it writes; all else is exact. */
-static bool agree(uint8_t row, uint8_t shader)
+static bool agree(int touch, uint8_t row, uint8_t shader)
 {
+    if (is_of_host(touch))
+        return !row && !(shader & ACCESS_WRITE);
+    if (touch == RESOURCE_FRAME && !shader) /* all may read it, and need not */
+        return true;
     return row == shader || (row == ACCESS_WRITE && shader == (ACCESS_READ | ACCESS_WRITE));
 }
 
@@ -71,13 +96,13 @@ static int compare(const struct module *module, const struct touches *touches)
     static const char *const verbs[] = { "does not touch it", "reads it", "writes it",
                                          "reads and writes it" };
     int wrong = 0;
-    for (int i = 0; i < RESOURCE_COUNT; i++) {
+    for (int i = 0; i < TOUCH_COUNT; i++) {
         const uint8_t row = row_access(module->pass, i), shader = touches->access[i];
-        if (agree(row, shader) || (i == RESOURCE_FRAME && !shader)) /* all may read it, and need not */
+        if (agree(i, row, shader))
             continue;
         print_error("%s (%s): %s: by the table the pass %s, the shader %s\n",
-                    sdfgi_pass_row(module->pass)->name, module->name,
-                    sdfgi_resource_row((enum resource)i)->name, verbs[row], verbs[shader]);
+                    sdfgi_pass_row(module->pass)->name, module->name, touch_name(i), verbs[row],
+                    verbs[shader]);
         wrong++;
     }
     return wrong;
