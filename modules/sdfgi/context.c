@@ -221,7 +221,7 @@ static enum sdfgi_result replace_volumes(struct sdfgi *gi, const struct sdfgi_se
 static enum sdfgi_result change_volumes(struct sdfgi *gi, const struct sdfgi_settings *settings)
 {
     const struct resources *r = gi->volume.resources;
-    const bool fit = r && !sdfgi_settings_recreate(settings, &r->settings);
+    const bool fit = r && sdfgi_settings_change(settings, &r->settings) != SETTINGS_ALL;
     if (settings->enabled && !fit) {
         const enum sdfgi_result result = replace_volumes(gi, settings);
         if (result != SDFGI_OK)
@@ -250,7 +250,7 @@ enum sdfgi_result sdfgi_set_settings(sdfgi *gi, const struct sdfgi_settings *set
         return result;
     /* The switch alone changes nothing that light depends on. */
     gi->settings.enabled = settings->enabled;
-    if (!sdfgi_settings_same(settings, &gi->settings))
+    if (sdfgi_settings_change(settings, &gi->settings) >= SETTINGS_LIGHT)
         sdfgi_volume_invalidate(&gi->volume);
     gi->settings = *settings;
     return SDFGI_OK;

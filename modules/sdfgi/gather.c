@@ -123,7 +123,7 @@ static struct sdfgi_gather_desc gather_of(const struct sdfgi_view *view, const s
 /* True if the scene and the host call for reflections. */
 static bool wants_reflections(const struct sdfgi *gi, const struct sdfgi_resolve_desc *desc)
 {
-    return desc->roughness && gi->scene.smooth > 0;
+    return desc->roughness && 1 - gi->scene.smoothest < gi->volume.state.params.rays_end;
 }
 
 /* Pipelines and memory. */

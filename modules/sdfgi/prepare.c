@@ -68,7 +68,8 @@ static VkResult make_pipeline(struct backend *backend, const struct job *job)
 static bool fits(const struct resources *r, const struct job *job)
 {
     const bool emission = job->parts & SDFGI_PREPARE_EMISSION;
-    return !sdfgi_settings_recreate(&r->settings, &job->settings) && (r->extent.emits || !emission);
+    return sdfgi_settings_change(&r->settings, &job->settings) != SETTINGS_ALL &&
+           (r->extent.emits || !emission);
 }
 
 /* True if volumes with the settings are in force, or wait to be. */
@@ -76,8 +77,9 @@ static bool has_volumes(struct sdfgi *gi, const struct job *job)
 {
     struct preparation *p = &gi->preparation;
     pthread_mutex_lock(&gi->backend.lock);
-    const bool has = (p->in_force && !sdfgi_settings_recreate(&p->in_force_settings, &job->settings)) ||
-                     (p->ready && fits(p->ready, job));
+    const bool has =
+        (p->in_force && sdfgi_settings_change(&p->in_force_settings, &job->settings) != SETTINGS_ALL) ||
+        (p->ready && fits(p->ready, job));
     pthread_mutex_unlock(&gi->backend.lock);
     return has;
 }
@@ -235,7 +237,7 @@ struct resources *sdfgi_preparation_take(struct sdfgi *gi, const struct sdfgi_se
     struct preparation *p = &gi->preparation;
     struct resources *taken = NULL;
     pthread_mutex_lock(&gi->backend.lock);
-    if (p->ready && !sdfgi_settings_recreate(&p->ready->settings, settings)) {
+    if (p->ready && sdfgi_settings_change(&p->ready->settings, settings) != SETTINGS_ALL) {
         taken = p->ready;
         p->ready = NULL;
         p->in_force = true;
@@ -259,8 +261,8 @@ bool sdfgi_preparation_keeps(struct sdfgi *gi)
 {
     const struct resources *r = gi->volume.resources;
     pthread_mutex_lock(&gi->backend.lock);
-    const bool keeps =
-        gi->preparation.keeps && r && !sdfgi_settings_recreate(&r->settings, &gi->preparation.wanted);
+    const bool keeps = gi->preparation.keeps && r &&
+                       sdfgi_settings_change(&r->settings, &gi->preparation.wanted) != SETTINGS_ALL;
     pthread_mutex_unlock(&gi->backend.lock);
     return keeps;
 }

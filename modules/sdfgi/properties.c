@@ -11,7 +11,8 @@
 
 struct row {
     struct sdfgi_property_info info;
-    size_t offset; /* in struct sdfgi_settings; not used when derived */
+    size_t offset;               /* in struct sdfgi_settings; not used when derived */
+    enum settings_change change; /* what another value does */
     /* Derived properties: metres per metre of min_cell_size. */
     double (*factor)(const struct sdfgi_settings *settings);
 };
@@ -35,14 +36,16 @@ static double max_distance_factor(const struct sdfgi_settings *settings)
 
 /* clang-format off */
 /* Rows: member or factor, name, type, default, minimum, maximum, unit, choices, what more of it buys, what it
- * costs, description. LIVE takes effect at once, RECREATE rebuilds everything, DERIVED sets min_cell_size. */
+ * costs, description. LIVE takes effect at once, LOOKUPS too and wakes no light, RECREATE rebuilds
+ * everything, DERIVED sets min_cell_size. */
 #define INFO(name_, type_, default_, min_, max_, unit_, choices_, buys_, costs_, text_, again_, derived_) \
     .info = { .name = name_, .type = SDFGI_PROPERTY_##type_, .default_value = default_, .minimum = min_,    \
               .maximum = max_, .unit = unit_, .choices = choices_, .buys = buys_, .costs = costs_,           \
               .recreates = again_, .derived = derived_, .description = text_ }
 #define MEMBER(member)      .offset = offsetof(struct sdfgi_settings, member)
-#define LIVE(member, ...)     { INFO(__VA_ARGS__, false, false), MEMBER(member) }
-#define RECREATE(member, ...) { INFO(__VA_ARGS__, true, false), MEMBER(member) }
+#define LIVE(member, ...)     { INFO(__VA_ARGS__, false, false), MEMBER(member), .change = SETTINGS_LIGHT }
+#define LOOKUPS(member, ...)  { INFO(__VA_ARGS__, false, false), MEMBER(member), .change = SETTINGS_LOOKUPS }
+#define RECREATE(member, ...) { INFO(__VA_ARGS__, true, false), MEMBER(member), .change = SETTINGS_ALL }
 #define DERIVED(factor_, ...) { INFO(__VA_ARGS__, true, true), .factor = factor_ }
 
 static const struct row rows[] = {
@@ -130,6 +133,15 @@ static const struct row rows[] = {
         "light on surfaces that follows changes sooner", "tracing time in proportion",
         "Rays that light cells send in a frame, until light has converged. Near cascades get most of them. "
         "Where sdfgi_gather is used, half go to what pictures show."),
+    LOOKUPS(reflection_blend, "sdfgi_reflection_blend", FLOAT, 0.4, 0, 1, "roughness", "",
+        "rays for rougher surfaces: reflections that follow what is near", "a little noise on these",
+        "Surfaces up to this roughness reflect what rays meet. From here to sdfgi_reflection_end irradiance "
+        "takes over. At or above that there is no blend: rays stop at once."),
+    LOOKUPS(reflection_end, "sdfgi_reflection_end", FLOAT, 0.7, 0, 1, "roughness", "",
+        "rays for rougher surfaces: reflections that follow what is near",
+        "a ray for each pixel that is smoother, and noise on the roughest",
+        "Surfaces of this roughness and above send no rays: they reflect their irradiance. 0 switches rays "
+        "off, and views make no reflections then."),
     RECREATE(sdf_method, "sdfgi_sdf_method", ENUM, SDFGI_SDF_EXACT, 0, 1, "", "exact,flood",
         "nothing: the two differ in kind",
         "flood oversteps by up to 0.14 cell, and its cost does not fall where a cascade is empty",
@@ -372,18 +384,11 @@ static bool row_differs(const struct row *row, const struct sdfgi_settings *a, c
     return !row->info.derived && row_get(row, a) != row_get(row, b);
 }
 
-bool sdfgi_settings_same(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
+enum settings_change sdfgi_settings_change(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
 {
+    enum settings_change change = SETTINGS_SAME;
     for (uint32_t i = 0; i < ROW_COUNT; i++)
-        if (row_differs(&rows[i], a, b))
-            return false;
-    return true;
-}
-
-bool sdfgi_settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
-{
-    for (uint32_t i = 0; i < ROW_COUNT; i++)
-        if (rows[i].info.recreates && row_differs(&rows[i], a, b))
-            return true;
-    return false;
+        if (row_differs(&rows[i], a, b) && rows[i].change > change)
+            change = rows[i].change;
+    return change;
 }

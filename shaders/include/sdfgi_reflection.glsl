@@ -110,7 +110,7 @@ vec3 sdfgi_reflection_direction(vec3 normal, vec3 to_eye, float roughness)
 /* How much rays count at a roughness; the rest of a reflection is irradiance over pi. */
 float sdfgi_reflection_ray_share(float roughness)
 {
-    return 1.0 - smoothstep(SDFGI_RAYS_BLEND, SDFGI_RAYS_END, roughness);
+    return 1.0 - smoothstep(sdfgi_frame.rays_blend, sdfgi_frame.rays_end, roughness);
 }
 
 /* The query for the light that leaves a surface that a ray hit. */

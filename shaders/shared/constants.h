@@ -105,9 +105,6 @@
 #define SDFGI_GROUP_EMITTERS    128 /* threads that list the emitters of a cascade */
 #define SDFGI_GROUP_PIXELS      8   /* 8x8: one thread per pixel */
 
-/* Roughness from which on reflections by rays blend into irradiance, and where rays end. */
-#define SDFGI_RAYS_BLEND 0.4
-#define SDFGI_RAYS_END   0.7
 /* Pixels along a side of the square over which the rays of a rough surface are spread. */
 #define SDFGI_RAYS_SIDE 4
 /* Words before the lists of rays and tiles that a view has. Each list has three words of indirect arguments,

@@ -72,13 +72,14 @@ struct sdfgi_frame_params {
     uint light_cell_room; /* entries of the light list per cascade */
     uint visibility;      /* SDFGI_SHADER_VISIBILITY_* */
     uint seed;
-    uint rays_per_frame; /* rays of a probe in a frame */
-    uint first_sample;   /* this frame's first sample in the sample cycle */
-    uint cycle_samples;  /* samples of a probe in a sample cycle */
-    uint cycle_visits;   /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
-    uint lists_emitters; /* 1: something emits, and emitters are listed */
-    float dark;          /* light times exposure that counts as dark */
-    uint padding_2, padding_3;
+    uint rays_per_frame;   /* rays of a probe in a frame */
+    uint first_sample;     /* this frame's first sample in the sample cycle */
+    uint cycle_samples;    /* samples of a probe in a sample cycle */
+    uint cycle_visits;     /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
+    uint lists_emitters;   /* 1: something emits, and emitters are listed */
+    float dark;            /* light times exposure that counts as dark */
+    float rays_blend;      /* roughness from which on reflections blend into irradiance */
+    float rays_end;        /* roughness from which on they are irradiance; above rays_blend */
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 18 * 16);

@@ -382,6 +382,72 @@ static void without_a_picture_of_roughness_there_are_no_reflections(void **state
     close_stage(&stage);
 }
 
+/* ---- Thresholds */
+
+/* Gives other thresholds to light that has settled: the update that follows does nothing else. */
+static void set_thresholds(float blend, float end)
+{
+    static struct sdfgi_report report;
+    struct sdfgi_settings settings;
+    sdfgi_get_settings(stage.t.gi, &settings);
+    settings.reflection_blend = blend;
+    settings.reflection_end = end;
+    REQUIRE_CMP((int)sdfgi_set_settings(stage.t.gi, &settings), ==, (int)SDFGI_OK);
+    gi_test_update(&stage.t, 1);
+    sdfgi_get_report(stage.t.gi, &report);
+    REQUIRE_TRUE(report.converged);
+    for (uint32_t i = 0; i < report.pass_count; i++)
+        REQUIRE_CMP(report.passes[i].dispatches, ==, 0u);
+}
+
+/* Share of a picture of roughness 0.5 that is not what irradiance makes of it. */
+static double unlike_irradiance(sdfgi_view *view)
+{
+    static float diffuse[PIXELS][4], reflection[PIXELS][4];
+    double unlike = 0, sum = 0;
+    resolve(&stage, view, 0.5f);
+    read_picture(&stage, &view->diffuse, diffuse);
+    read_picture(&stage, &view->reflection, reflection);
+    for (int i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            unlike += fabs((double)reflection[i][k] - (double)diffuse[i][k] / 3.14159265);
+            sum += (double)diffuse[i][k] / 3.14159265;
+        }
+    return unlike / sum;
+}
+
+static void thresholds_of_roughness_are_followed_and_wake_no_light(void **state)
+{
+    (void)state;
+    static struct sdfgi_report report;
+    struct sdfgi_view_images images;
+    open_stage(&stage, 1);
+    for (int i = 0; i < 400 && !report.converged; i++) {
+        gi_test_update(&stage.t, 1);
+        sdfgi_get_report(stage.t.gi, &report);
+    }
+    REQUIRE_TRUE(report.converged);
+    sdfgi_view *view = create_view(&stage);
+    const double blended = unlike_irradiance(view);
+    set_thresholds(1, 1);
+    const double rays = unlike_irradiance(view);
+    set_thresholds(0.6f, 0.5f); /* the blend would begin beyond its end: there is none */
+    const double rough = unlike_irradiance(view);
+    set_thresholds(0.6f, 0.51f);
+    const double sharp = unlike_irradiance(view);
+    printf("unlike irradiance: blended %.4f, rays alone %.4f, rough %.4f\n", blended, rays, rough);
+    REQUIRE_NEAR(sharp, rays, 1e-6);
+    REQUIRE_CMP(rays, >, 1.2 * blended);
+    REQUIRE_CMP(blended, >, 0.01);
+    REQUIRE_CMP(rough, <=, 1e-3);
+    set_thresholds(0.4f, 0);
+    resolve(&stage, view, 0);
+    sdfgi_view_get_images(view, &images);
+    REQUIRE_TRUE(images.reflection == VK_NULL_HANDLE);
+    REQUIRE_CMP(dispatches(&stage, PASS_REFLECT_TILES), ==, 0u);
+    close_stage(&stage);
+}
+
 static void bad_views_are_refused(void **state)
 {
     (void)state;
@@ -434,6 +500,7 @@ int main(void)
         cmocka_unit_test(fewer_rays_show_the_same),
         cmocka_unit_test(eyes_share_an_update_and_see_the_same_light),
         cmocka_unit_test(without_a_picture_of_roughness_there_are_no_reflections),
+        cmocka_unit_test(thresholds_of_roughness_are_followed_and_wake_no_light),
         cmocka_unit_test(bad_views_are_refused),
     };
     return cmocka_run_group_tests_name("view", tests, NULL, finish);

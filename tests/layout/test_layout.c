@@ -68,8 +68,8 @@
     X(sdfgi_frame_params, cycle_visits)                                                                      \
     X(sdfgi_frame_params, lists_emitters)                                                                    \
     X(sdfgi_frame_params, dark)                                                                              \
-    X(sdfgi_frame_params, padding_2)                                                                         \
-    X(sdfgi_frame_params, padding_3)                                                                         \
+    X(sdfgi_frame_params, rays_blend)                                                                        \
+    X(sdfgi_frame_params, rays_end)                                                                          \
     X(sdfgi_frame_params, sky_harmonics)                                                                     \
     X(sdfgi_light_params, position)                                                                          \
     X(sdfgi_light_params, range_m)                                                                           \

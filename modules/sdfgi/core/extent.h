@@ -11,8 +11,8 @@
 
 /* Elements of one cascade, and what else the sizes in the resource table depend on. */
 struct extent {
-    uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, rays_per_frame, scratch,
-        search, occlusion;
+    uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, rays_per_frame, scratch, search,
+        occlusion;
     uint64_t light_cells,
         light_cells_max; /* room in the light list of a cascade, and how much it may become */
     bool gathers;        /* light cells gather with rays of their own */
@@ -39,11 +39,15 @@ uint32_t sdfgi_settings_cycle_visits(const struct sdfgi_settings *settings);
 /* The method by which light cells weigh probes: SDFGI_SHADER_VISIBILITY_*. */
 uint32_t sdfgi_settings_shader_visibility(const struct sdfgi_settings *settings);
 
-/* True if two settings say the same, whatever lies between their fields. */
-bool sdfgi_settings_same(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
-/* True if two settings cannot share device objects: they differ in a property that is marked so
- * (properties.c). */
-bool sdfgi_settings_recreate(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
+/* What becomes of stored light when settings change: the strongest effect of all that differ. */
+enum settings_change {
+    SETTINGS_SAME,
+    SETTINGS_LOOKUPS, /* it stays, and lookups make something else of it */
+    SETTINGS_LIGHT,   /* it settles anew */
+    SETTINGS_ALL,     /* all is made anew */
+};
+
+enum settings_change sdfgi_settings_change(const struct sdfgi_settings *a, const struct sdfgi_settings *b);
 
 uint32_t sdfgi_log2(uint64_t power);
 

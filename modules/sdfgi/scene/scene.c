@@ -113,9 +113,15 @@ static bool emits(const struct sdfgi_material_desc *desc)
     return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
 }
 
-static bool is_smooth(const struct sdfgi_material_desc *desc)
+static float smoothest(const struct scene *scene)
 {
-    return 1 - desc->smoothness < (float)SDFGI_RAYS_END;
+    float most = 0;
+    for (uint32_t i = 0; i < scene->materials.end; i++) {
+        const struct material *material = sdfgi_pool_at(&scene->materials, i);
+        if (material)
+            most = fmaxf(most, material->desc.smoothness);
+    }
+    return most;
 }
 
 /* Sums of emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material
@@ -151,7 +157,7 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
     }
     sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
     scene->emissive += emits(desc);
-    scene->smooth += is_smooth(desc);
+    scene->smoothest = fmaxf(scene->smoothest, desc->smoothness);
     fit_emission_unit(scene, desc);
     out->id = id;
     return SDFGI_OK;
@@ -171,8 +177,10 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
     }
     sdfgi_scene_sets_retire(scene, material->set);
     scene->emissive -= emits(&material->desc);
-    scene->smooth -= is_smooth(&material->desc);
+    const bool was_smoothest = material->desc.smoothness >= scene->smoothest;
     sdfgi_pool_remove(&scene->materials, handle.id);
+    if (was_smoothest)
+        scene->smoothest = smoothest(scene);
     return SDFGI_OK;
 }
 

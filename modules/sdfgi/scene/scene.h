@@ -56,7 +56,7 @@ struct scene {
     struct sdfgi_sky sky;
     struct sdfgi_sky_harmonics harmonics; /* beside it */
     uint32_t emissive;                    /* materials that emit */
-    uint32_t smooth;                      /* materials that reflect more than irradiance */
+    float smoothest;                      /* smoothness of the smoothest material; 0: none */
     float most_emission;                  /* of any material so far */
     float emission_unit;                  /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;

@@ -108,6 +108,9 @@ static void fill_harmonics(struct sdfgi_frame_params *p, const struct scene *sce
                                       limited(factors[i][2] * factor), 0 };
 }
 
+/* Shorter blends than this are none; smoothstep needs one. */
+#define SHORTEST_BLEND 1e-4f
+
 static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_settings *s)
 {
     p->y_scale = (float)sdfgi_settings_y_scale(s);
@@ -115,6 +118,8 @@ static void fill_settings(struct sdfgi_frame_params *p, const struct sdfgi_setti
     p->normal_bias = s->normal_bias_cells;
     p->probe_bias = s->probe_bias_cells;
     p->bounce_feedback = s->bounce_feedback;
+    p->rays_blend = fminf(s->reflection_blend, s->reflection_end - SHORTEST_BLEND);
+    p->rays_end = s->reflection_end;
     p->resolution = s->resolution;
     p->resolution_log2 = sdfgi_log2(s->resolution);
     p->probes_per_side = s->resolution / SDFGI_PROBE_SPACING + 1;

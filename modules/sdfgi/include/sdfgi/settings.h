@@ -43,6 +43,8 @@ struct sdfgi_settings {
     uint32_t cell_rays;           /* sdfgi_cell_rays, rays per surface and gather cycle, [16, 2048] */
     uint32_t cell_rays_per_frame; /* sdfgi_cell_rays_per_frame, [1024, 16777216] */
     uint32_t max_scroll_cells;    /* sdfgi_max_scroll_cells_per_frame, [524288, 134217728] */
+    float reflection_blend;       /* sdfgi_reflection_blend, roughness, [0, 1] */
+    float reflection_end;         /* sdfgi_reflection_end, roughness, [0, 1] */
 };
 
 enum sdfgi_property_type {

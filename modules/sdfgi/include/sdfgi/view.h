@@ -44,8 +44,8 @@ struct sdfgi_resolve_desc {
 
 /* Records the resolve of a picture into `cmd`, after sdfgi_update in the same queue. Synchronisation is that
  * of sdfgi_gather, and so is what it does while GI is not active. Reflections are made only while a material
- * with a `smoothness` above 0 is registered: rays run only in tiles of 8 x 8 pixels that show something
- * smooth. */
+ * with a roughness (1 - `smoothness`) below sdfgi_settings::reflection_end is registered: rays run only in
+ * tiles of 8 x 8 pixels that show something as smooth. Settings are those of the last sdfgi_update. */
 SDFGI_API enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd,
                                                const struct sdfgi_resolve_desc *desc);
 
