@@ -28,6 +28,8 @@ struct options {
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
     struct host_lookups lookups;
+    struct run_eyes eyes;
+    float eye_distance_m;
     enum sdfgi_debug_view debug; /* SDFGI_DEBUG_VIEW_COUNT: none */
 };
 
@@ -103,6 +105,7 @@ static bool resolve_options(struct options *options)
     options->settings.enabled = options->gi;
     if (!run_apply_settings("render", &options->set, &options->settings) ||
         !run_parse_lookups("render", &options->lookup_names, &options->lookups) ||
+        !run_parse_eyes("render", &options->eyes, &options->eye_distance_m) ||
         !run_parse_debug("render", options->debug_name, options->settings.enabled, &options->debug))
         return false;
     if (!parse_frames(options)) {
@@ -131,6 +134,9 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
           .maximum = 1e12 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
+        { "stereo", CLI_FLAG, &o->eyes.stereo, .help = RUN_STEREO_HELP },
+        { "eyes", CLI_FLOAT, &o->eyes.distance_m, "METRES", .help = RUN_EYES_HELP, .minimum = 1e-4,
+          .maximum = 1e6 },
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "one part of the light, as .exr, .hdr or .pfm" },
         { "report", CLI_TEXT, &o->report, "FILE", .help = "times, work, memory and health as JSON" },
         { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
@@ -173,7 +179,8 @@ static bool start(struct run *run, const struct options *options)
                                              .log = { options->quiet ? NULL : run_log, NULL },
                                              .seed = options->seed,
                                              .gi_exposure = (float)options->gi_exposure,
-                                             .lookups = options->lookups };
+                                             .lookups = options->lookups,
+                                             .eye_distance_m = options->eye_distance_m };
     run->renderer = run->scene ? host_renderer_create(run->device, run->scene, &desc) : NULL;
     if (!run->renderer)
         cli_error("%s", host_device_error(run->device));

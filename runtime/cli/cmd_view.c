@@ -21,6 +21,7 @@ struct options {
     struct run_lookup_names lookup_names;
     struct cli_size size;
     struct cli_list set;
+    struct run_eyes eyes;
     bool gi;
     uint32_t frames;
 };
@@ -34,6 +35,9 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "lookup", CLI_TEXT, &o->lookup_names.diffuse, "WHERE", .help = RUN_LOOKUP_HELP },
         { "reflections", CLI_TEXT, &o->lookup_names.reflection, "WHERE", .help = RUN_REFLECTIONS_HELP },
         { "debug", CLI_TEXT, &o->debug_name, "NAME", .help = RUN_DEBUG_HELP },
+        { "stereo", CLI_FLAG, &o->eyes.stereo, .help = RUN_STEREO_HELP },
+        { "eyes", CLI_FLOAT, &o->eyes.distance_m, "METRES", .help = RUN_EYES_HELP, .minimum = 1e-4,
+          .maximum = 1e6 },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "a setting, see sdfgi properties" },
         { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
         { "frames", CLI_UINT, &o->frames, "N", .help = "close after that many; 0, the default: never" },
@@ -75,6 +79,7 @@ int cmd_view(int argc, char **argv)
     struct host_lookups lookups;
     enum sdfgi_debug_view debug;
     struct host_view view;
+    float eye_distance_m;
     char error[CLI_ERROR_BYTES];
     const enum cli_outcome outcome = parse(&options, argc, argv);
     if (outcome != CLI_RUN)
@@ -83,6 +88,7 @@ int cmd_view(int argc, char **argv)
     settings.enabled = options.gi;
     if (!run_apply_settings("view", &options.set, &settings) ||
         !run_parse_lookups("view", &options.lookup_names, &lookups) ||
+        !run_parse_eyes("view", &options.eyes, &eye_distance_m) ||
         !run_parse_debug("view", options.debug_name, settings.enabled, &debug))
         return CLI_EXIT_USAGE;
     struct gltf_scene *gltf = run_load_scene(options.scene, options.view, &view);
@@ -94,6 +100,7 @@ int cmd_view(int argc, char **argv)
                                      .view = &view,
                                      .settings = &settings,
                                      .lookups = lookups,
+                                     .eye_distance_m = eye_distance_m,
                                      .debug = &debug,
                                      .width = options.size.width,
                                      .height = options.size.height,

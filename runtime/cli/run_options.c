@@ -58,6 +58,17 @@ bool run_parse_debug(const char *command, const char *text, bool gi, enum sdfgi_
     return false;
 }
 
+bool run_parse_eyes(const char *command, const struct run_eyes *eyes, float *distance_m)
+{
+    /* Between the pupils of adults, in the mean. */
+    static const double usual_m = 0.064;
+    *distance_m = eyes->stereo ? (float)(eyes->distance_m > 0 ? eyes->distance_m : usual_m) : 0;
+    if (eyes->stereo || eyes->distance_m == 0)
+        return true;
+    cli_error("%s: --eyes needs --stereo", command);
+    return false;
+}
+
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view)
 {
     char error[CLI_ERROR_BYTES];

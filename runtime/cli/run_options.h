@@ -43,6 +43,19 @@ bool run_parse_lookups(const char *command, const struct run_lookup_names *names
  * and returns false. */
 bool run_parse_debug(const char *command, const char *text, bool gi, enum sdfgi_debug_view *view);
 
+#define RUN_STEREO_HELP "two eyes side by side, each in a half of the picture"
+#define RUN_EYES_HELP   "how far apart they are; 0.064"
+
+/* Values of --stereo and --eyes. */
+struct run_eyes {
+    bool stereo;
+    double distance_m; /* 0: a person's */
+};
+
+/* The distance between two eyes; 0: there is one. On failure, when --eyes is given without --stereo, prints
+ * one line and returns false. */
+bool run_parse_eyes(const char *command, const struct run_eyes *eyes, float *distance_m);
+
 /* Loads the scene, and the view from `view_path` or, if that is NULL, from the scene. Prints warnings, and
  * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
 struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);

@@ -126,6 +126,7 @@ struct host_renderer_desc {
     uint32_t seed;
     float gi_exposure; /* sdfgi_frame_desc::exposure */
     struct host_lookups lookups;
+    float eye_distance_m; /* above 0: two eyes so far apart, each in a half of the picture; 0: one */
 };
 
 struct host_renderer *host_renderer_create(struct host_device *device, struct host_scene *scene,
@@ -167,7 +168,7 @@ struct host_times {
     uint64_t frame_ns;  /* all of it */
     uint64_t update_ns; /* of this, what sdfgi_update recorded */
     uint64_t shadow_ns; /* of this, shadow maps: only those that are missing are drawn */
-    uint64_t fog_ns;    /* of this, fog's froxels; 0 without fog */
+    uint64_t fog_ns;    /* of this, fog's froxels, of one eye; 0 without fog */
 };
 
 /* Those of the newest finished frame. */
@@ -294,6 +295,7 @@ struct host_window_desc {
     const struct host_view *view;
     const struct sdfgi_settings *settings; /* GI starts as `enabled` says */
     struct host_lookups lookups;
+    float eye_distance_m;               /* as host_renderer_desc::eye_distance_m */
     const enum sdfgi_debug_view *debug; /* what is shown at first; NULL or SDFGI_DEBUG_VIEW_COUNT: the
                                            picture */
     uint32_t width, height;             /* 0: 1280 x 720 */

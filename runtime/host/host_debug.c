@@ -4,23 +4,23 @@
 
 static bool image_create(struct host_renderer *renderer)
 {
-    struct host_debug *debug = &renderer->debug;
+    struct host_image *image = &host_eye_here(renderer)->debug;
     const struct host_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                           .width = renderer->width * renderer->supersample,
                                           .height = renderer->height * renderer->supersample,
                                           .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT };
-    if (debug->image.image)
+    if (image->image)
         return true;
     /* The set may still be read by frames that showed an image of another size. */
-    if (!host_slots_wait(renderer) || !host_image_create(renderer->device, &desc, &debug->image))
+    if (!host_slots_wait(renderer) || !host_image_create(renderer->device, &desc, image))
         return false;
-    host_post_set_write(renderer, debug->set, &debug->image);
+    host_post_set_write(renderer, renderer->debug_sets[renderer->eye], image);
     return true;
 }
 
 /* What was shown before may go. */
-static void image_change(const struct host_debug *debug, VkCommandBuffer cmd, bool drawn)
+static void image_change(const struct host_image *image, VkCommandBuffer cmd, bool drawn)
 {
     const VkImageLayout layouts[] = { drawn ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_UNDEFINED,
                                       drawn ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
@@ -32,23 +32,34 @@ static void image_change(const struct host_debug *debug, VkCommandBuffer cmd, bo
     const VkAccessFlags reads = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT,
                         writes = VK_ACCESS_SHADER_WRITE_BIT;
     const VkAccessFlags accesses[] = { drawn ? writes : reads, drawn ? reads : writes };
-    host_image_barrier(cmd, debug->image.image, 0, 1, layouts, stages, accesses);
+    host_image_barrier(cmd, image->image, 0, 1, layouts, stages, accesses);
 }
 
-bool host_debug_record(struct host_renderer *renderer, VkCommandBuffer cmd,
+static bool eye_record(struct host_renderer *renderer, VkCommandBuffer cmd,
                        const struct host_debug_desc *desc)
 {
     if (!image_create(renderer))
         return false;
-    const struct host_image *image = &renderer->debug.image;
+    const struct host_image *image = &host_eye_here(renderer)->debug;
     struct sdfgi_debug_desc draw = { .output = image->view,
                                      .width = image->width,
                                      .height = image->height,
                                      .view = desc->view,
                                      .exposure = desc->exposure };
     host_camera_fill_inverse(&renderer->camera, draw.inverse_view_projection);
-    image_change(&renderer->debug, cmd, false);
+    image_change(image, cmd, false);
     const bool drawn = host_gi_debug(renderer->gi, cmd, &draw);
-    image_change(&renderer->debug, cmd, true);
+    image_change(image, cmd, true);
     return drawn;
+}
+
+bool host_debug_record(struct host_renderer *renderer, VkCommandBuffer cmd,
+                       const struct host_debug_desc *desc)
+{
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        host_eye_begin(renderer, eye);
+        if (!eye_record(renderer, cmd, desc))
+            return false;
+    }
+    return true;
 }

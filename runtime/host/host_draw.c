@@ -9,10 +9,10 @@
 
 static const VkShaderStageFlags push_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height)
+void host_viewport_set(VkCommandBuffer cmd, uint32_t x, uint32_t width, uint32_t height)
 {
-    const VkViewport viewport = { 0, 0, (float)width, (float)height, 0, 1 };
-    const VkRect2D scissor = { { 0, 0 }, { width, height } };
+    const VkViewport viewport = { (float)x, 0, (float)width, (float)height, 0, 1 };
+    const VkRect2D scissor = { { (int32_t)x, 0 }, { width, height } };
     vkCmdSetViewport(cmd, 0, 1, &viewport);
     vkCmdSetScissor(cmd, 0, 1, &scissor);
 }
@@ -175,10 +175,10 @@ static void bind_forward(const struct host_renderer *renderer, struct host_draw_
 {
     const VkDescriptorSet gi_sets[HOST_FORWARD_COUNT] = {
         [HOST_FORWARD_GI] = host_gi_set(renderer->gi),
-        [HOST_FORWARD_GATHERED] = slot->light_set,
+        [HOST_FORWARD_GATHERED] = host_slot_here(renderer, slot)->light_set,
     };
     vkCmdBindDescriptorSets(draw->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw->layout, HOST_SET_FRAME, 1,
-                            &slot->set, 0, NULL);
+                            &host_slot_here(renderer, slot)->set, 0, NULL);
     if (kind != HOST_FORWARD_PLAIN)
         vkCmdBindDescriptorSets(draw->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, draw->layout, HOST_SET_GI, 1,
                                 &gi_sets[kind], 0, NULL);
@@ -196,7 +196,8 @@ void host_draw_forward(struct host_renderer *renderer, const struct host_slot *s
 
     /* The sky first: its pipeline has the plain layout, which disturbs the GI set. */
     vkCmdBindDescriptorSets(slot->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                            pipelines->layouts[HOST_FORWARD_PLAIN], HOST_SET_FRAME, 1, &slot->set, 0, NULL);
+                            pipelines->layouts[HOST_FORWARD_PLAIN], HOST_SET_FRAME, 1,
+                            &host_slot_here(renderer, slot)->set, 0, NULL);
     if (renderer->shown == HOST_AOV_COLOR)
         draw_sky(renderer, slot->cmd);
     bind_forward(renderer, &draw, kind, slot);

@@ -154,7 +154,7 @@ static uint32_t divide_up(uint32_t value, uint32_t divisor)
 /* Pixels of the target along a froxel's side. */
 static uint32_t tile_side(const struct host_renderer *renderer)
 {
-    const struct host_image *target = &renderer->targets.hdr;
+    const struct host_image *target = &renderer->targets.eyes[0].hdr;
     const uint32_t longest = target->width > target->height ? target->width : target->height;
     const uint32_t least = divide_up(longest, renderer->device->limits.maxImageDimension3D - 1);
     const uint32_t wanted = HOST_FOG_TILE * renderer->supersample;
@@ -182,9 +182,10 @@ static void sets_write(struct host_renderer *renderer)
                                             .pBufferInfo = &seen };
     vkUpdateDescriptorSets(renderer->device->device, BINDINGS, writes, 0, NULL);
     const VkDescriptorImageInfo froxels = { f->sampler, f->volume.view, VK_IMAGE_LAYOUT_GENERAL };
-    for (int i = 0; i < HOST_SLOTS; i++) {
+    for (uint32_t i = 0; i < HOST_SLOTS * renderer->eye_count; i++) {
+        const struct host_slot *slot = &renderer->slots[i % HOST_SLOTS];
         const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                             .dstSet = renderer->slots[i].set,
+                                             .dstSet = slot->eyes[i / HOST_SLOTS].set,
                                              .dstBinding = HOST_FOG_BINDING,
                                              .descriptorCount = 1,
                                              .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
@@ -197,7 +198,7 @@ static void sets_write(struct host_renderer *renderer)
 static bool volume_create(struct host_renderer *renderer, uint32_t columns, uint32_t depth,
                           struct host_image *out)
 {
-    const struct host_image *target = &renderer->targets.hdr;
+    const struct host_image *target = &renderer->targets.eyes[0].hdr;
     const uint32_t side = renderer->fog.tile_side;
     const struct host_image_desc desc = { .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                           .width = divide_up(divide_up(target->width, side) + 1, columns),
@@ -259,8 +260,8 @@ void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data 
     out->fog_slices[0] = (float)first_slice_m;
     out->fog_slices[1] = (float)(log2(f->range_m / first_slice_m) / (HOST_FOG_SLICES - 1));
     out->fog_slices[2] = (float)f->range_m;
-    out->fog_grid[0] = (float)renderer->targets.hdr.width;
-    out->fog_grid[1] = (float)renderer->targets.hdr.height;
+    out->fog_grid[0] = (float)renderer->targets.eyes[0].hdr.width;
+    out->fog_grid[1] = (float)renderer->targets.eyes[0].hdr.height;
     out->fog_grid[2] = (float)f->tile_side;
     out->fog_grid[3] = is_lit_by_gi(renderer) ? 1.0f : 0.0f;
 }

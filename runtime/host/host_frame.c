@@ -156,12 +156,17 @@ static void light_fill(const struct host_renderer *renderer, uint32_t index, str
     }
 }
 
-static void slot_fill(struct host_renderer *renderer, struct host_slot *slot)
+static void eye_fill(struct host_renderer *renderer, const struct host_slot *slot)
 {
     struct host_frame_data frame;
-    struct host_light_data *lights = slot->lights.mapped;
     frame_fill(renderer, &frame);
-    memcpy(slot->frame.mapped, &frame, sizeof(frame));
+    memcpy(host_slot_here(renderer, slot)->frame.mapped, &frame, sizeof(frame));
+}
+
+/* Lights are relative to an origin that both eyes have. */
+static void slot_fill(struct host_renderer *renderer, const struct host_slot *slot)
+{
+    struct host_light_data *lights = slot->lights.mapped;
     for (uint32_t i = 0; i < renderer->scene->light_count; i++)
         light_fill(renderer, i, &lights[i]);
     memcpy(slot->layers.mapped, renderer->shadows.layers,
@@ -184,7 +189,7 @@ static void pass_begin(struct host_renderer *renderer, VkCommandBuffer cmd, VkRe
         .pClearValues = clears,
     };
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_viewport_set(cmd, size->width, size->height);
+    host_viewport_set(cmd, 0, size->width, size->height);
 }
 
 static bool gi_record(struct host_renderer *renderer, VkCommandBuffer cmd)
@@ -195,10 +200,42 @@ static bool gi_record(struct host_renderer *renderer, VkCommandBuffer cmd)
     return host_gi_update(renderer->gi, cmd, &desc);
 }
 
+/* The picture of the eye that has begun. Times of fog are those of the first one. */
+static bool eye_record(struct host_renderer *renderer, struct host_slot *slot)
+{
+    const struct host_eye *eye = host_eye_here(renderer);
+    const bool is_timed = renderer->eye == 0;
+    VkCommandBuffer cmd = slot->cmd;
+
+    /* Find what is visible. */
+    pass_begin(renderer, cmd, renderer->passes.prepass, renderer->targets.prepass, &eye->hdr);
+    host_draw_prepass(renderer, cmd);
+    vkCmdEndRenderPass(cmd);
+
+    /* Look up its light. */
+    if (!host_lookup_record(renderer, slot))
+        return false;
+
+    /* Light the fog in front of it. */
+    if (host_fog_exists(renderer->scene)) {
+        if (is_timed)
+            stamp(renderer, slot, HOST_STAMP_SEEN);
+        host_fog_record(renderer, cmd, host_slot_here(renderer, slot)->set);
+        if (is_timed)
+            stamp(renderer, slot, HOST_STAMP_FOGGED);
+    }
+
+    /* Shade it, and nothing else. */
+    pass_begin(renderer, cmd, renderer->passes.forward, eye->forward, &eye->hdr);
+    host_draw_forward(renderer, slot);
+    vkCmdEndRenderPass(cmd);
+    return true;
+}
+
 bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, bool update_gi)
 {
-    const struct host_targets *targets = &renderer->targets;
     VkCommandBuffer cmd = slot->cmd;
+    renderer->camera = renderer->head;
 
     /* Let the library do its share. GI may have been switched since the last frame. */
     if ((update_gi && !gi_record(renderer, cmd)) || !host_forward_prepare(renderer) ||
@@ -214,35 +251,22 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
     slot_fill(renderer, slot);
     stamp(renderer, slot, HOST_STAMP_SHADOWED);
 
-    /* Find what is visible. */
-    pass_begin(renderer, cmd, renderer->passes.prepass, targets->prepass, &targets->hdr);
-    host_draw_prepass(renderer, cmd);
-    vkCmdEndRenderPass(cmd);
-
-    /* Look up its light. */
-    if (!host_lookup_record(renderer, slot)) {
-        vkEndCommandBuffer(cmd);
-        return false;
+    /* Draw what each eye sees. */
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        host_eye_begin(renderer, eye);
+        eye_fill(renderer, slot);
+        if (!eye_record(renderer, slot)) {
+            vkEndCommandBuffer(cmd);
+            return false;
+        }
     }
-
-    /* Light the fog in front of it. */
-    if (host_fog_exists(renderer->scene)) {
-        stamp(renderer, slot, HOST_STAMP_SEEN);
-        host_fog_record(renderer, cmd, slot->set);
-        stamp(renderer, slot, HOST_STAMP_FOGGED);
-    }
-
-    /* Shade it, and nothing else. */
-    pass_begin(renderer, cmd, renderer->passes.forward, targets->forward, &targets->hdr);
-    host_draw_forward(renderer, slot);
-    vkCmdEndRenderPass(cmd);
     return true;
 }
 
 static void post_bind(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipelineBindPoint point,
-                      VkDescriptorSet set, float exposure)
+                      VkDescriptorSet set, float exposure, uint32_t first_column)
 {
-    const struct host_tone_push push = { exposure, (int32_t)renderer->supersample };
+    const struct host_tone_push push = { exposure, (int32_t)renderer->supersample, (int32_t)first_column };
     vkCmdBindDescriptorSets(cmd, point, renderer->pipelines.post_pipeline_layout, 0, 1, &set, 0, NULL);
     vkCmdPushConstants(cmd, renderer->pipelines.post_pipeline_layout,
                        VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(push), &push);
@@ -259,36 +283,40 @@ void host_exposure_record(struct host_renderer *renderer, VkCommandBuffer cmd)
                                     .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_HOST_READ_BIT };
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &before, 0, NULL, 0, NULL);
-    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, renderer->post_set, 0.0f);
+    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_COMPUTE, renderer->post_sets[0], 0.0f, 0);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, renderer->pipelines.exposure);
     vkCmdDispatch(cmd, 1, 1, 1);
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, readers, 0, 1, &after, 0, NULL, 0, NULL);
 }
 
+/* Each eye's into its part of the picture. */
 static void tonemap(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
-                    VkDescriptorSet set, float exposure)
+                    const VkDescriptorSet *sets, float exposure)
 {
-    post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, set, exposure);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    host_viewport_set(cmd, renderer->width, renderer->height);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        const uint32_t first = host_eye_column(renderer, eye);
+        post_bind(renderer, cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, sets[eye], exposure, first);
+        host_viewport_set(cmd, first, renderer->width, renderer->height);
+        vkCmdDraw(cmd, 3, 1, 0, 0);
+    }
 }
 
 void host_tonemap_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
                          float exposure)
 {
-    tonemap(renderer, cmd, pipeline, renderer->post_set, exposure);
+    tonemap(renderer, cmd, pipeline, renderer->post_sets, exposure);
 }
 
 void host_debug_show(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline)
 {
-    tonemap(renderer, cmd, pipeline, renderer->debug.set, HOST_TONE_NONE);
+    tonemap(renderer, cmd, pipeline, renderer->debug_sets, HOST_TONE_NONE);
 }
 
 struct host_slot *host_renderer_frame_begin(struct host_renderer *renderer, const struct host_camera *camera,
                                             enum host_aov shown)
 {
-    host_camera_resolve(camera, (double)renderer->width / renderer->height, &renderer->camera);
+    host_eye_look(renderer, camera);
     renderer->shown = shown;
     struct host_slot *slot = host_slot_begin(renderer);
     if (!slot || !host_frame_record(renderer, slot, true))
@@ -308,7 +336,7 @@ bool host_renderer_frame(struct host_renderer *renderer, const struct host_camer
 /* No view of the last frame is left then: whoever asks for one draws it again. */
 bool host_renderer_frame_without_gi(struct host_renderer *renderer, const struct host_camera *camera)
 {
-    host_camera_resolve(camera, (double)renderer->width / renderer->height, &renderer->camera);
+    host_eye_look(renderer, camera);
     renderer->shown = HOST_AOV_COLOR;
     renderer->without_gi = true;
     struct host_slot *slot = host_slot_begin(renderer);

@@ -232,6 +232,7 @@ struct host_pipelines {
 struct host_tone_push {
     float exposure;
     int32_t supersample;
+    int32_t first_column; /* of the picture that is filled */
 };
 
 bool host_passes_init(struct host_device *device, struct host_passes *passes);
@@ -254,6 +255,10 @@ bool host_pipeline_compute_create(struct host_device *device, const uint32_t *wo
                                   VkPipelineLayout layout, VkPipeline *out);
 bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
                                   VkRenderPass pass, VkPipeline *out);
+
+/* ---- Eyes (host_eye.c) ------------------------------------------------------------------------------ */
+
+#include "host_eye.h"
 
 /* ---- Shadow maps (host_shadow.c, host_shadow_sun.c) ------------------------------------------------- */
 
@@ -306,6 +311,8 @@ struct host_camera_frame {
     float clip[4][4];      /* rows */
 };
 
+/* Along its right axis. */
+void host_camera_move_aside(struct host_camera_frame *camera, double distance_m);
 void host_camera_resolve(const struct host_camera *camera, double aspect, struct host_camera_frame *out);
 /* Where cascades are to be centred. How far an orthographic camera stands off what it shows means nothing:
  * the point of its axis beside the centre of the scene. */
@@ -329,27 +336,14 @@ struct host_slot {
     VkCommandBuffer cmd;
     VkFence fence;
     bool in_flight;
-    struct host_buffer frame, lights, layers;
-    VkDescriptorSet set;
-    VkDescriptorSet light_set; /* pictures of the view; none if there is no view */
-};
-
-struct host_targets {
-    struct host_image hdr, depth, normal, picture;
-    VkImageView roughness; /* the alpha of `normal`, as red */
-    sdfgi_view *view;      /* NULL if lookups are made where surfaces are shaded */
-    VkFramebuffer prepass, forward, picture_framebuffer;
+    struct host_buffer lights, layers;
+    struct host_slot_eye eyes[HOST_EYES];
 };
 
 /* Debug views (host_debug.c). */
 struct host_debug_desc {
     enum sdfgi_debug_view view;
     float exposure; /* factor on light; 0: the library's hint */
-};
-
-struct host_debug {
-    struct host_image image; /* none until a view is shown */
-    VkDescriptorSet set;     /* of the passes that follow, as host_renderer::post_set */
 };
 
 /* Light at single points (host_sample.c). */
@@ -384,7 +378,10 @@ struct host_renderer {
     struct host_device *device;
     struct host_scene *scene;
     struct host_gi *gi;
-    uint32_t width, height, supersample; /* of the picture, in pixels */
+    uint32_t width, height, supersample; /* of an eye's picture, in pixels */
+    uint32_t picture_width;              /* of the whole one */
+    uint32_t eye_count, eye;             /* eye: the one that is being recorded */
+    float eye_distance_m;
     uint32_t seed;
     float gi_exposure;
     struct host_lookups lookups;
@@ -396,17 +393,17 @@ struct host_renderer {
     struct host_targets targets;
     struct host_slot slots[HOST_SLOTS];
     VkDescriptorPool pool;
-    VkDescriptorSet post_set;
+    VkDescriptorSet post_sets[HOST_EYES], debug_sets[HOST_EYES]; /* of the passes that follow */
     VkSampler nearest;
     struct host_buffer exposure;
     struct host_sampler sampler;
     struct host_fog_passes fog;
-    struct host_debug debug;
     VkQueryPool queries;     /* HOST_STAMP_COUNT per slot */
     struct host_times times; /* of the newest finished frame */
     uint64_t submit_count;
     bool has_frame;
-    struct host_camera_frame camera; /* of the last frame */
+    struct host_camera_frame head;   /* of the last frame */
+    struct host_camera_frame camera; /* of what is being recorded: an eye's, or the head's */
     enum host_aov shown;
     uint32_t *blend_order; /* scratch, one per instance */
     double *blend_distance;
@@ -442,7 +439,7 @@ void host_draw_shadow(struct host_renderer *renderer, VkCommandBuffer cmd, const
                       const double origin[3], const float *clip);
 void host_draw_prepass(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_draw_forward(struct host_renderer *renderer, const struct host_slot *slot);
-void host_viewport_set(VkCommandBuffer cmd, uint32_t width, uint32_t height);
+void host_viewport_set(VkCommandBuffer cmd, uint32_t x, uint32_t width, uint32_t height);
 
 /* Resolves the view, if there is one, from what the prepass has drawn. */
 bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot);
@@ -465,7 +462,7 @@ void host_fog_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkDesc
 /* A camera's clip positions to positions relative to its origin: 16 floats, columns. */
 void host_camera_fill_inverse(const struct host_camera_frame *camera, float m[static 16]);
 
-/* Fills the image of debug views, which is made when it is missing. */
+/* Fills the images of debug views, which are made when they are missing. */
 bool host_debug_record(struct host_renderer *renderer, VkCommandBuffer cmd,
                        const struct host_debug_desc *desc);
 
@@ -488,7 +485,7 @@ bool host_frame_record(struct host_renderer *renderer, struct host_slot *slot, b
 void host_exposure_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 void host_tonemap_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline,
                          float exposure);
-/* Shows the image of debug views instead. */
+/* Shows the images of debug views instead. */
 void host_debug_show(struct host_renderer *renderer, VkCommandBuffer cmd, VkPipeline pipeline);
 /* Writes the set that shows an image, which is in SHADER_READ_ONLY_OPTIMAL then. */
 void host_post_set_write(struct host_renderer *renderer, VkDescriptorSet set, const struct host_image *image);

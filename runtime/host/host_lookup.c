@@ -37,28 +37,30 @@ bool host_lookup_init(struct host_renderer *renderer, uint32_t width, uint32_t h
                                           .height = height,
                                           .diffuse = resolutions[lookups->diffuse],
                                           .reflection = resolutions[lookups->reflection] };
-    if (lookups->diffuse == HOST_LOOKUP_FORWARD)
-        return true;
-    renderer->targets.view = host_gi_view_create(renderer->gi, &desc);
-    return renderer->targets.view != NULL;
+    for (uint32_t eye = 0; eye < renderer->eye_count && lookups->diffuse != HOST_LOOKUP_FORWARD; eye++) {
+        renderer->targets.eyes[eye].view = host_gi_view_create(renderer->gi, &desc);
+        if (!renderer->targets.eyes[eye].view)
+            return false;
+    }
+    return true;
 }
 
 /* Gives the forward pass the view's pictures. One that there is not is never read. */
-static void pictures_bind(const struct host_renderer *renderer, struct host_slot *slot)
+static void pictures_bind(struct host_renderer *renderer, const struct host_slot *slot)
 {
     struct sdfgi_view_images images;
-    sdfgi_view_get_images(renderer->targets.view, &images);
+    sdfgi_view_get_images(host_eye_here(renderer)->view, &images);
     const VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
     const VkDescriptorImageInfo infos[] = {
         { renderer->nearest, images.diffuse, layout },
         { renderer->nearest, images.reflection ? images.reflection : images.diffuse, layout },
     };
     const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                         .dstSet = slot->light_set,
+                                         .dstSet = host_slot_here(renderer, slot)->light_set,
                                          .descriptorCount = HOST_COUNT(infos),
                                          .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                          .pImageInfo = infos };
-    struct host_frame_data *frame = slot->frame.mapped;
+    struct host_frame_data *frame = host_slot_here(renderer, slot)->frame.mapped;
     vkUpdateDescriptorSets(renderer->device->device, 1, &write, 0, NULL);
     frame->camera_position[3] = images.reflection ? 1.0f : 0.0f;
 }
@@ -73,7 +75,7 @@ bool host_lookup_record(struct host_renderer *renderer, struct host_slot *slot)
                                        .roughness = renderer->left_out.reflections ? VK_NULL_HANDLE
                                                                                    : targets->roughness };
     host_camera_fill_inverse(&renderer->camera, desc.inverse_view_projection);
-    if (!host_gi_resolve(renderer->gi, targets->view, slot->cmd, &desc))
+    if (!host_gi_resolve(renderer->gi, host_eye_here(renderer)->view, slot->cmd, &desc))
         return false;
     pictures_bind(renderer, slot);
     return true;

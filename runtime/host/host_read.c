@@ -52,8 +52,10 @@ static float *samples_read(struct host_renderer *renderer, const struct host_ima
     return samples;
 }
 
-static void box_filter(const struct host_renderer *renderer, const float *samples, float *rgba)
+/* Into an eye's part of a picture. */
+static void box_filter(const struct host_renderer *renderer, const float *samples, uint32_t eye, float *rgba)
 {
+    float *part = rgba + 4 * host_eye_column(renderer, eye);
     const uint32_t s = renderer->supersample, stride = renderer->width * s;
     const float weight = 1.0f / (float)(s * s);
     for (uint32_t y = 0; y < renderer->height; y++) {
@@ -63,24 +65,28 @@ static void box_filter(const struct host_renderer *renderer, const float *sample
                 const size_t row = (size_t)y * s + i / s, column = (size_t)(x / 4) * s + i % s;
                 sum += samples[4 * (row * stride + column) + x % 4];
             }
-            rgba[(size_t)4 * y * renderer->width + x] = sum * weight;
+            part[(size_t)4 * y * renderer->picture_width + x] = sum * weight;
         }
     }
 }
 
-static bool image_read(struct host_renderer *renderer, const struct host_image *image, float *rgba)
+/* What all eyes saw, or debug views of it. */
+static bool eyes_read(struct host_renderer *renderer, bool debug, float *rgba)
 {
-    float *samples = samples_read(renderer, image);
-    if (!samples)
-        return false;
-    box_filter(renderer, samples, rgba);
-    free(samples);
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        const struct host_eye *from = &renderer->targets.eyes[eye];
+        float *samples = samples_read(renderer, debug ? &from->debug : &from->hdr);
+        if (!samples)
+            return false;
+        box_filter(renderer, samples, eye, rgba);
+        free(samples);
+    }
     return true;
 }
 
 bool host_renderer_read_aov(struct host_renderer *renderer, enum host_aov aov, float *rgba)
 {
-    return ensure_shown(renderer, aov) && image_read(renderer, &renderer->targets.hdr, rgba);
+    return ensure_shown(renderer, aov) && eyes_read(renderer, false, rgba);
 }
 
 /* Fills the picture: with the debug view that has been drawn, or with the colour of the last frame. */
@@ -94,7 +100,7 @@ static bool picture_draw(struct host_renderer *renderer, bool debug, float expos
         .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
         .renderPass = renderer->passes.picture,
         .framebuffer = targets->picture_framebuffer,
-        .renderArea = { { 0, 0 }, { renderer->width, renderer->height } },
+        .renderArea = { { 0, 0 }, { renderer->picture_width, renderer->height } },
     };
     host_exposure_record(renderer, cmd);
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
@@ -147,5 +153,5 @@ bool host_renderer_read_debug(struct host_renderer *renderer, enum sdfgi_debug_v
                               float *rgba)
 {
     return expose(renderer, exposure, &exposure) && debug_draw(renderer, view, exposure) &&
-           image_read(renderer, &renderer->debug.image, rgba);
+           eyes_read(renderer, true, rgba);
 }

@@ -50,11 +50,11 @@ static bool framebuffer_create(struct host_renderer *renderer, VkRenderPass pass
 }
 
 static bool target_image(struct host_renderer *renderer, VkFormat format, VkImageUsageFlags usage,
-                         uint32_t scale, struct host_image *out)
+                         struct host_image *out)
 {
     const struct host_image_desc desc = { .format = format,
-                                          .width = renderer->width * scale,
-                                          .height = renderer->height * scale,
+                                          .width = renderer->width * renderer->supersample,
+                                          .height = renderer->height * renderer->supersample,
                                           .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT };
     return host_image_create(renderer->device, &desc, out);
 }
@@ -63,11 +63,17 @@ static bool target_images(struct host_renderer *r)
 {
     const VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     struct host_targets *t = &r->targets;
-    return target_image(r, r->device->hdr_format, color, r->supersample, &t->hdr) &&
-           target_image(r, VK_FORMAT_R16G16B16A16_SFLOAT, color, r->supersample, &t->normal) &&
-           target_image(r, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, r->supersample,
-                        &t->depth) &&
-           target_image(r, VK_FORMAT_R8G8B8A8_UNORM, color, 1, &t->picture);
+    const struct host_image_desc picture = { .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                             .width = r->picture_width,
+                                             .height = r->height,
+                                             .usage = color | VK_IMAGE_USAGE_SAMPLED_BIT };
+    for (uint32_t eye = 0; eye < r->eye_count; eye++) {
+        if (!target_image(r, r->device->hdr_format, color, &t->eyes[eye].hdr))
+            return false;
+    }
+    return target_image(r, VK_FORMAT_R16G16B16A16_SFLOAT, color, &t->normal) &&
+           target_image(r, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, &t->depth) &&
+           host_image_create(r->device, &picture, &t->picture);
 }
 
 void host_post_set_write(struct host_renderer *renderer, VkDescriptorSet set, const struct host_image *shown)
@@ -105,21 +111,39 @@ static bool roughness_view(struct host_renderer *renderer)
                       "creating an image view");
 }
 
+static bool eye_init(struct host_renderer *renderer, uint32_t index)
+{
+    struct host_eye *eye = &renderer->targets.eyes[index];
+    const VkImageView forward[] = { eye->hdr.view, renderer->targets.depth.view };
+    host_post_set_write(renderer, renderer->post_sets[index], &eye->hdr);
+    return framebuffer_create(renderer, renderer->passes.forward, forward, 2, &eye->hdr, &eye->forward);
+}
+
 bool host_targets_init(struct host_renderer *renderer)
 {
     struct host_targets *t = &renderer->targets;
     if (!target_images(renderer) || !roughness_view(renderer) ||
-        !host_lookup_init(renderer, t->hdr.width, t->hdr.height))
+        !host_lookup_init(renderer, t->depth.width, t->depth.height))
         return false;
-    const VkImageView prepass[] = { t->normal.view, t->depth.view },
-                      forward[] = { t->hdr.view, t->depth.view };
-    if (!framebuffer_create(renderer, renderer->passes.prepass, prepass, 2, &t->hdr, &t->prepass) ||
-        !framebuffer_create(renderer, renderer->passes.forward, forward, 2, &t->hdr, &t->forward) ||
+    const VkImageView prepass[] = { t->normal.view, t->depth.view };
+    if (!framebuffer_create(renderer, renderer->passes.prepass, prepass, 2, &t->depth, &t->prepass) ||
         !framebuffer_create(renderer, renderer->passes.picture, &t->picture.view, 1, &t->picture,
                             &t->picture_framebuffer))
         return false;
-    host_post_set_write(renderer, renderer->post_set, &t->hdr);
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        if (!eye_init(renderer, eye))
+            return false;
+    }
     return host_fog_targets_init(renderer);
+}
+
+static void eye_finish(struct host_renderer *renderer, struct host_eye *eye)
+{
+    vkDestroyFramebuffer(renderer->device->device, eye->forward, NULL);
+    host_image_destroy(renderer->device, &eye->hdr);
+    host_image_destroy(renderer->device, &eye->debug);
+    if (eye->view)
+        host_gi_view_destroy(renderer->gi, eye->view);
 }
 
 void host_targets_finish(struct host_renderer *renderer)
@@ -127,17 +151,14 @@ void host_targets_finish(struct host_renderer *renderer)
     struct host_targets *t = &renderer->targets;
     VkDevice device = renderer->device->device;
     vkDestroyFramebuffer(device, t->prepass, NULL);
-    vkDestroyFramebuffer(device, t->forward, NULL);
     vkDestroyFramebuffer(device, t->picture_framebuffer, NULL);
-    host_image_destroy(renderer->device, &t->hdr);
     host_image_destroy(renderer->device, &t->normal);
     host_image_destroy(renderer->device, &t->depth);
     host_image_destroy(renderer->device, &t->picture);
     vkDestroyImageView(device, t->roughness, NULL);
-    if (t->view)
-        host_gi_view_destroy(renderer->gi, t->view);
+    for (int eye = 0; eye < HOST_EYES; eye++)
+        eye_finish(renderer, &t->eyes[eye]);
     host_fog_targets_finish(renderer);
-    host_image_destroy(renderer->device, &renderer->debug.image);
     *t = (struct host_targets){ 0 };
     renderer->has_frame = false;
 }
@@ -147,12 +168,12 @@ void host_targets_finish(struct host_renderer *renderer)
 static bool pool_create(struct host_renderer *renderer)
 {
     const VkDescriptorPoolSize sizes[] = {
-        { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS },
-        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * HOST_SLOTS + 2 },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5 * HOST_SLOTS + 2 },
+        { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS * HOST_EYES },
+        { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, (2 * HOST_SLOTS + 2) * HOST_EYES },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (5 * HOST_SLOTS + 2) * HOST_EYES },
     };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                              .maxSets = 2 * HOST_SLOTS + 2,
+                                              .maxSets = (2 * HOST_SLOTS + 2) * HOST_EYES,
                                               .poolSizeCount = HOST_COUNT(sizes),
                                               .pPoolSizes = sizes };
     return host_check(renderer->device,
@@ -170,9 +191,10 @@ static bool set_allocate(struct host_renderer *renderer, VkDescriptorSetLayout l
                       "allocating a descriptor set");
 }
 
-static void frame_set_write(struct host_renderer *renderer, const struct host_slot *slot)
+static void frame_set_write(struct host_renderer *renderer, const struct host_slot *slot,
+                            const struct host_slot_eye *eye)
 {
-    const VkDescriptorBufferInfo buffers[] = { { slot->frame.buffer, 0, VK_WHOLE_SIZE },
+    const VkDescriptorBufferInfo buffers[] = { { eye->frame.buffer, 0, VK_WHOLE_SIZE },
                                                { slot->lights.buffer, 0, VK_WHOLE_SIZE },
                                                { slot->layers.buffer, 0, VK_WHOLE_SIZE } };
     const VkDescriptorImageInfo images[] = {
@@ -183,25 +205,38 @@ static void frame_set_write(struct host_renderer *renderer, const struct host_sl
     };
     const VkWriteDescriptorSet writes[] = {
         { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = slot->set,
+          .dstSet = eye->set,
           .dstBinding = 0,
           .descriptorCount = 1,
           .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
           .pBufferInfo = &buffers[0] },
         { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = slot->set,
+          .dstSet = eye->set,
           .dstBinding = 1,
           .descriptorCount = 2,
           .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
           .pBufferInfo = &buffers[1] },
         { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = slot->set,
+          .dstSet = eye->set,
           .dstBinding = 3,
           .descriptorCount = 2,
           .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
           .pImageInfo = images },
     };
     vkUpdateDescriptorSets(renderer->device->device, HOST_COUNT(writes), writes, 0, NULL);
+}
+
+static bool slot_eye_init(struct host_renderer *renderer, const struct host_slot *slot,
+                          struct host_slot_eye *eye)
+{
+    if (!host_buffer_create(renderer->device, sizeof(struct host_frame_data),
+                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true, &eye->frame) ||
+        !set_allocate(renderer, renderer->pipelines.frame_layout, &eye->set) ||
+        (renderer->lookups.diffuse != HOST_LOOKUP_FORWARD &&
+         !set_allocate(renderer, renderer->pipelines.light_layout, &eye->light_set)))
+        return false;
+    frame_set_write(renderer, slot, eye);
+    return true;
 }
 
 static bool slot_init(struct host_renderer *renderer, struct host_slot *slot)
@@ -219,15 +254,13 @@ static bool slot_init(struct host_renderer *renderer, struct host_slot *slot)
     if (!host_check(device, vkCreateFence(device->device, &fence, NULL, &slot->fence), "creating a fence") ||
         !host_check(device, vkAllocateCommandBuffers(device->device, &commands, &slot->cmd),
                     "allocating a command buffer") ||
-        !host_buffer_create(device, sizeof(struct host_frame_data), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, true,
-                            &slot->frame) ||
         !host_buffer_create(device, light_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->lights) ||
-        !host_buffer_create(device, layer_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->layers) ||
-        !set_allocate(renderer, renderer->pipelines.frame_layout, &slot->set) ||
-        (renderer->lookups.diffuse != HOST_LOOKUP_FORWARD &&
-         !set_allocate(renderer, renderer->pipelines.light_layout, &slot->light_set)))
+        !host_buffer_create(device, layer_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &slot->layers))
         return false;
-    frame_set_write(renderer, slot);
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        if (!slot_eye_init(renderer, slot, &slot->eyes[eye]))
+            return false;
+    }
     return true;
 }
 
@@ -237,7 +270,8 @@ static void slot_finish(struct host_renderer *renderer, struct host_slot *slot)
     vkDestroyFence(device->device, slot->fence, NULL);
     if (slot->cmd)
         vkFreeCommandBuffers(device->device, device->pool, 1, &slot->cmd);
-    host_buffer_destroy(device, &slot->frame);
+    for (int eye = 0; eye < HOST_EYES; eye++)
+        host_buffer_destroy(device, &slot->eyes[eye].frame);
     host_buffer_destroy(device, &slot->lights);
     host_buffer_destroy(device, &slot->layers);
 }
@@ -263,15 +297,24 @@ static bool exposure_init(struct host_renderer *renderer)
     return true;
 }
 
+static bool post_sets_allocate(struct host_renderer *renderer)
+{
+    const VkDescriptorSetLayout layout = renderer->pipelines.post_layout;
+    for (uint32_t eye = 0; eye < renderer->eye_count; eye++) {
+        if (!set_allocate(renderer, layout, &renderer->post_sets[eye]) ||
+            !set_allocate(renderer, layout, &renderer->debug_sets[eye]))
+            return false;
+    }
+    return true;
+}
+
 static bool post_init(struct host_renderer *renderer)
 {
     const VkSamplerCreateInfo nearest = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO };
     return host_check(renderer->device,
                       vkCreateSampler(renderer->device->device, &nearest, NULL, &renderer->nearest),
                       "creating a sampler") &&
-           exposure_init(renderer) &&
-           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->post_set) &&
-           set_allocate(renderer, renderer->pipelines.post_layout, &renderer->debug.set);
+           exposure_init(renderer) && post_sets_allocate(renderer);
 }
 
 static bool scratch_init(struct host_renderer *renderer)
@@ -294,6 +337,13 @@ static bool desc_valid(struct host_device *device, const struct host_renderer_de
         return host_fail(device, "a picture of %ux%u: 1 to %u along each side is possible", desc->width,
                          desc->height, limit);
     return true;
+}
+
+static void set_size(struct host_renderer *renderer, uint32_t width, uint32_t height)
+{
+    renderer->picture_width = width;
+    renderer->width = (width + renderer->eye_count - 1) / renderer->eye_count;
+    renderer->height = height;
 }
 
 static bool renderer_init(struct host_renderer *r, const struct host_renderer_desc *desc)
@@ -323,8 +373,9 @@ struct host_renderer *host_renderer_create(struct host_device *device, struct ho
         return NULL;
     renderer->device = device;
     renderer->scene = scene;
-    renderer->width = desc->width;
-    renderer->height = desc->height;
+    renderer->eye_count = desc->eye_distance_m > 0.0f ? HOST_EYES : 1;
+    renderer->eye_distance_m = desc->eye_distance_m;
+    set_size(renderer, desc->width, desc->height);
     renderer->supersample = supersample;
     renderer->seed = desc->seed;
     renderer->gi_exposure = desc->gi_exposure;
@@ -366,8 +417,7 @@ bool host_renderer_resize(struct host_renderer *renderer, uint32_t width, uint32
     if (!desc_valid(renderer->device, &desc, renderer->supersample) || !host_slots_wait(renderer))
         return false;
     host_targets_finish(renderer);
-    renderer->width = width;
-    renderer->height = height;
+    set_size(renderer, width, height);
     return host_targets_init(renderer);
 }
 

@@ -222,7 +222,7 @@ static void face_draw(struct host_renderer *renderer, VkCommandBuffer cmd,
     struct host_frustum frustum;
     face_frustum(light, axes, &frustum);
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_viewport_set(cmd, size, size);
+    host_viewport_set(cmd, 0, size, size);
     host_draw_shadow(renderer, cmd, &frustum, light->position, &clip[0][0]);
     vkCmdEndRenderPass(cmd);
 }

@@ -121,7 +121,7 @@ static void cascade_draw(struct host_renderer *renderer, VkCommandBuffer cmd, ui
     rows[3][3] = 1.0f;
     cascade_frustum(cascade, sun, renderer->scene->center, &frustum);
     vkCmdBeginRenderPass(cmd, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    host_viewport_set(cmd, HOST_SUN_MAP_SIZE, HOST_SUN_MAP_SIZE);
+    host_viewport_set(cmd, 0, HOST_SUN_MAP_SIZE, HOST_SUN_MAP_SIZE);
     host_draw_shadow(renderer, cmd, &frustum, renderer->scene->center, &rows[0][0]);
     vkCmdEndRenderPass(cmd);
 }

@@ -72,6 +72,13 @@ void host_camera_resolve(const struct host_camera *camera, double aspect, struct
     fill_clip(out);
 }
 
+void host_camera_move_aside(struct host_camera_frame *camera, double distance_m)
+{
+    for (int i = 0; i < 3; i++)
+        camera->position[i] += distance_m * camera->right[i];
+    fill_clip(camera);
+}
+
 void host_camera_center(const struct host_camera_frame *camera, const double scene_center[3], double out[3])
 {
     double offset[3], along = 0.0;

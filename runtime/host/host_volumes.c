@@ -7,7 +7,7 @@
 
 static bool voxelize(struct host_renderer *renderer, const struct host_camera *camera)
 {
-    host_camera_resolve(camera, (double)renderer->width / renderer->height, &renderer->camera);
+    host_eye_look(renderer, camera);
     struct sdfgi_frame_desc desc = { .seed = renderer->seed, .exposure = renderer->gi_exposure };
     host_camera_center(&renderer->camera, renderer->scene->center, desc.camera_position);
     memcpy(desc.origin, renderer->camera.origin, sizeof(desc.origin));

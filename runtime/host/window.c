@@ -320,6 +320,7 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
                                                  .height = height > 0 ? (uint32_t)height : 1,
                                                  .settings = desc->settings,
                                                  .lookups = desc->lookups,
+                                                 .eye_distance_m = desc->eye_distance_m,
                                                  .log = desc->log };
     window->scene = host_scene_create(window->device, desc->gltf, desc->view);
     window->renderer = window->scene ? host_renderer_create(window->device, window->scene, &renderer) : NULL;

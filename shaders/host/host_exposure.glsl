@@ -11,6 +11,7 @@ layout(push_constant) uniform host_tone_block
 {
     float exposure; /* 0: automatic; below 0: colours are shown as they are */
     int supersample;
+    int first_column; /* of the picture that is filled */
 };
 
 float luminance(vec3 rgb)

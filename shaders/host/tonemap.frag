@@ -32,7 +32,7 @@ vec3 srgb_encode(vec3 linear)
 void main()
 {
     const float factor = exposure > 0.0 ? exposure : auto_exposure;
-    const ivec2 base = ivec2(gl_FragCoord.xy) * supersample;
+    const ivec2 base = (ivec2(gl_FragCoord.xy) - ivec2(first_column, 0)) * supersample;
     vec3 sum = vec3(0.0);
     for (int y = 0; y < supersample; y++) {
         for (int x = 0; x < supersample; x++) {

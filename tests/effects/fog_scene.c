@@ -121,7 +121,11 @@ void fog_stage_open(struct fog_stage *stage, struct host_device *device, const s
     settings.ray_count = 125;
     settings.frames_to_converge = 4;
     const struct host_renderer_desc desc = {
-        .width = FOG_WIDTH, .height = FOG_HEIGHT, .settings = &settings, .lookups = { lookup, lookup }
+        .width = scene->eye_distance_m > 0 ? 2 * FOG_WIDTH : FOG_WIDTH,
+        .height = FOG_HEIGHT,
+        .settings = &settings,
+        .lookups = { lookup, lookup },
+        .eye_distance_m = scene->eye_distance_m,
     };
     const struct host_until_desc until = { .max_frames = MAX_FRAMES };
     stage->camera = scene->view.camera;
