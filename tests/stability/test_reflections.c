@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT
+ * Reflections of views where things end: rays that cascades hand over while the camera moves, and pictures of
+ * one row (HARD_CASES rows 55 and 69). */
+#include "hard_case.h"
+#include "light_scene.h"
+#include "require.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Pictures of a mirror */
+
+struct mirror {
+    struct gi_test *t;
+    struct gpu_test_image depth, normal, roughness;
+    sdfgi_view *view;
+    struct sdfgi_resolve_desc desc;
+    uint32_t width, height;
+};
+
+/* A level mirror in the plane y = -1, whose pixels cover x and z in [-`half_m`, `half_m`]. All are seen along
+ * (1, -1, 0). */
+static void mirror_open(struct mirror *m, struct gi_test *t, uint32_t width, uint32_t height, float half_m)
+{
+    const uint32_t pixels = width * height;
+    float *depth = calloc(pixels, sizeof *depth), (*normal)[4] = calloc(pixels, sizeof *normal),
+          *roughness = calloc(pixels, sizeof *roughness);
+    const struct sdfgi_view_desc view = { .width = width, .height = height };
+    const struct sdfgi_material_desc smooth = { .smoothness = 1 };
+    sdfgi_material material;
+    REQUIRE_TRUE(depth && normal && roughness);
+    for (uint32_t i = 0; i < pixels; i++) {
+        depth[i] = 0.5f;
+        normal[i][1] = 1;
+    }
+    *m = (struct mirror){ .t = t, .width = width, .height = height };
+    m->depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, width, height, depth);
+    m->normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, width, height, normal);
+    m->roughness = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, width, height, roughness);
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &smooth, &material), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &view, &m->view), ==, (int)SDFGI_OK);
+    /* A depth of 0 is a metre before the mirror, one of 1 a metre behind it. */
+    m->desc = (struct sdfgi_resolve_desc){
+        .depth = m->depth.view,
+        .normal = m->normal.view,
+        .roughness = m->roughness.view,
+        .background_depth = 1,
+        .inverse_view_projection = { half_m, 0, 0, 0, 0, 0, half_m, 0, 2, -2, 0, 0, -1, 0, 0, 1 },
+    };
+    free(depth);
+    free(normal);
+    free(roughness);
+}
+
+static void mirror_close(struct mirror *m)
+{
+    sdfgi_view_destroy(m->t->gi, m->view);
+    gpu_test_image_destroy(&m->t->gpu, &m->depth);
+    gpu_test_image_destroy(&m->t->gpu, &m->normal);
+    gpu_test_image_destroy(&m->t->gpu, &m->roughness);
+}
+
+static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct mirror *m = user;
+    REQUIRE_CMP((int)sdfgi_view_resolve(m->t->gi, m->view, cmd, &m->desc), ==, (int)SDFGI_OK);
+}
+
+/* Radiance in channel 1, metres in channel 3. */
+static void mirror_read(struct mirror *m, uint16_t (*texels)[4])
+{
+    gpu_test_submit(&m->t->gpu, record_resolve, m);
+    gpu_test_image_read(&m->t->gpu, m->view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL,
+                        VK_IMAGE_ASPECT_COLOR_BIT, (VkExtent3D){ m->width, m->height, 1 }, 8, texels);
+}
+
+/* ---- Cascades */
+
+enum { SIDE = 8, PIXELS = SIDE * SIDE, STEPS = 61 };
+
+#define WALL_M        5.1
+#define COARSE_CELL_M 1.0
+#define HALF_M        0.5f
+
+/* A mirror, and a wall that glows in what it shows. */
+static void build_wall(struct gi_test *t)
+{
+    struct sdfgi_settings settings = light_settings(32, 0.25f);
+    settings.cascades = 4;
+    gi_test_restart(t, &settings);
+    light_add_box(t, (double[]){ -2, -1.5, -2 }, (double[]){ 2, -1, 2 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    light_add_box(t, (double[]){ WALL_M, -2, -8 }, (double[]){ WALL_M + 1, 14, 8 },
+                  (float[]){ 0.5f, 0.5f, 0.5f }, 1);
+}
+
+/* The farthest that distances are off, in coarse cells. */
+static double distance_error(uint16_t (*texels)[4])
+{
+    double worst = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const double x = (double)HALF_M * ((i % SIDE + 0.5) / SIDE * 2 - 1), exact = (WALL_M - x) * sqrt(2);
+        worst = fmax(worst, fabs((double)gi_test_half(texels[i][3]) - exact) / COARSE_CELL_M);
+    }
+    return worst;
+}
+
+/* The camera walks from where the coarsest cascade alone has the wall to where the finest has it, and on
+ * until the mirror is in coarser ones. */
+static void hard_55_reflected_rays_cross_cascades(void **state)
+{
+    struct gi_test *t = *state;
+    static uint16_t texels[PIXELS][4], before[PIXELS][4];
+    struct mirror mirror;
+    double off = 0, pop = 0, darkest = INFINITY;
+    build_wall(t);
+    t->frame.camera_position[0] = -3;
+    gi_test_converge(t, 400);
+    mirror_open(&mirror, t, SIDE, SIDE, HALF_M);
+    for (int step = 0; step < STEPS; step++) {
+        t->frame.camera_position[0] = -3 + 0.15 * step;
+        gi_test_update(t, 1);
+        mirror_read(&mirror, texels);
+        off = fmax(off, distance_error(texels));
+        for (int i = 0; i < PIXELS; i++) {
+            const double now = (double)gi_test_half(texels[i][1]), last = (double)gi_test_half(before[i][1]);
+            pop = fmax(pop, step > 0 ? fabs(now - last) / fmax(now, last) : 0);
+            darkest = fmin(darkest, now);
+        }
+        memcpy(before, texels, sizeof texels);
+    }
+    printf("rays over cascades: off by %.3f coarse cells, pops of %.4f, at least %.4f\n", off, pop, darkest);
+    mirror_close(&mirror);
+    t->frame.camera_position[0] = 0;
+    HARD_CASE_AT_MOST(55, "distance to what a ray hits, off by coarse cells", off, 1);
+    HARD_CASE_AT_MOST(55, "change of a pixel from frame to frame in a walk", pop, 0.02);
+    REQUIRE_CMP(darkest, >, 1.0);
+}
+
+/* ---- Extremes */
+
+/* Nothing but a sky: all that a mirror shows is as bright. */
+static void hard_69_views_of_one_row_reflect(void **state)
+{
+    struct gi_test *t = *state;
+    const uint32_t most = t->gpu.properties.limits.maxImageDimension2D, longest = most < 16384 ? most : 16384;
+    const uint32_t sizes[][2] = { { 1, 1 }, { longest, 1 }, { 1, longest } };
+    uint16_t(*texels)[4] = calloc(longest, sizeof *texels);
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    double worst = 0;
+    REQUIRE_TRUE(texels != NULL);
+    gi_test_restart(t, &settings);
+    light_set_uniform_sky(t, 1);
+    gi_test_converge(t, 400);
+    for (int i = 0; i < 3; i++) {
+        struct mirror mirror;
+        mirror_open(&mirror, t, sizes[i][0], sizes[i][1], 1);
+        mirror_read(&mirror, texels);
+        for (uint32_t k = 0; k < sizes[i][0] * sizes[i][1]; k++)
+            worst = fmax(worst, fabs((double)gi_test_half(texels[k][1]) - 1));
+        mirror_close(&mirror);
+    }
+    free(texels);
+    HARD_CASE_AT_MOST(69, "reflections in pictures of one row or pixel, off by", worst, 0.002);
+}
+
+int main(void)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    static struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_open(&t, &settings);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate(hard_55_reflected_rays_cross_cascades, &t),
+        cmocka_unit_test_prestate(hard_69_views_of_one_row_reflect, &t),
+    };
+    const int failed = cmocka_run_group_tests_name("reflections", tests, NULL, NULL);
+    gi_test_close(&t);
+    return failed;
+}
