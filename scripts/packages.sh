@@ -5,7 +5,7 @@
 packages=(meson ninja-build python3 pkg-config gcc g++ libvulkan-dev glslang-tools spirv-tools
     mesa-vulkan-drivers vulkan-validationlayers libglfw3-dev libtinygltf-dev libstb-dev libpng-dev
     libcglm-dev libopenexr-dev libembree-dev libcmocka-dev libspirv-cross-c-shared-dev spirv-cross libcjson-dev
-    libimgui-dev libx11-dev zlib1g-dev gnuplot-nox xvfb xauth cmake)
+    libimgui-dev libx11-dev zlib1g-dev libdraco-dev libmeshoptimizer-dev libwebp-dev gnuplot-nox xvfb xauth cmake)
 
 # What tests/fuzz/run.sh needs besides.
 fuzz_packages=(clang libclang-rt-dev)

@@ -199,8 +199,10 @@ int accessor_components(const tinygltf::Accessor &accessor)
         return 3;
     case TINYGLTF_TYPE_VEC4:
         return 4;
+    case TINYGLTF_TYPE_MAT4:
+        return 16;
     default:
-        return 0; // matrices: nothing that is drawn has them
+        return 0; // smaller matrices: nothing has them
     }
 }
 

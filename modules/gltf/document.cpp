@@ -29,17 +29,6 @@ struct json_deleter {
 };
 using json_ptr = std::unique_ptr<cJSON, json_deleter>;
 
-const char *const supported_extensions[] = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_mesh_quantization", "KHR_texture_transform",
-};
-
-bool extension_is_supported(const char *name)
-{
-    return std::any_of(std::begin(supported_extensions), std::end(supported_extensions),
-                       [name](const char *known) { return strcmp(name, known) == 0; });
-}
-
 json_ptr json_parse(const container &box)
 {
     const char *end = nullptr;
@@ -84,12 +73,12 @@ void extensions_check(importer &in, const cJSON *document)
     const cJSON *item = nullptr;
     cJSON_ArrayForEach(item, member_get(document, "extensionsRequired"))
     {
-        if (!extension_is_supported(item->valuestring))
-            fail("the file requires %s, which is not supported", item->valuestring);
+        if (!extension_is_built(item->valuestring))
+            extension_refuse(item->valuestring);
     }
     cJSON_ArrayForEach(item, member_get(document, "extensionsUsed"))
     {
-        if (!extension_is_supported(item->valuestring))
+        if (!extension_is_built(item->valuestring))
             in.omitted.extensions.insert(item->valuestring);
     }
 }
@@ -100,6 +89,22 @@ constexpr const char *buffer_prefix = "buffer-";
 std::string buffer_name(size_t index)
 {
     return buffer_prefix + std::to_string(index);
+}
+
+// A buffer without data, which stands where decoders know nothing of meshoptimizer's compression.
+bool is_fallback(const cJSON *buffer)
+{
+    const cJSON *const compression = member_get(member_get(buffer, "extensions"), meshopt_extension);
+    return member_get(buffer, "uri") == nullptr && cJSON_IsTrue(member_get(compression, "fallback"));
+}
+
+// Whoever refers to it after its views were unpacked is refused: one byte is too short for anything.
+bytes fallback_replace(cJSON *buffer)
+{
+    if (!with_meshopt)
+        extension_refuse(meshopt_extension);
+    cJSON_SetNumberValue(member_get(buffer, "byteLength"), 1);
+    return bytes(1);
 }
 
 bytes buffer_read(importer &in, const container &box, const cJSON *buffer, size_t index)
@@ -129,7 +134,8 @@ std::vector<bytes> buffers_take(importer &in, const container &box, cJSON *docum
     cJSON *item = nullptr;
     cJSON_ArrayForEach(item, member_get(document, "buffers"))
     {
-        buffers.push_back(buffer_read(in, box, item, buffers.size()));
+        buffers.push_back(is_fallback(item) ? fallback_replace(item)
+                                            : buffer_read(in, box, item, buffers.size()));
         cJSON_DeleteItemFromObjectCaseSensitive(item, "uri");
         if (cJSON_AddStringToObject(item, "uri", buffer_name(buffers.size() - 1).c_str()) == nullptr)
             throw std::bad_alloc();
@@ -153,9 +159,49 @@ void images_take(importer &in, cJSON *document)
     }
 }
 
-void unused_remove(importer &in, cJSON *document)
+// Without the decoder, a file may bring the same vertices uncompressed.
+void fallback_expect(const cJSON *primitive, const std::vector<bool> &has_data)
 {
-    in.omitted.animations = cJSON_GetArraySize(member_get(document, "animations")) != 0;
+    const cJSON *attribute = nullptr;
+    cJSON_ArrayForEach(attribute, member_get(primitive, "attributes"))
+    {
+        const size_t accessor = static_cast<size_t>(attribute->valuedouble);
+        if (accessor < has_data.size() && !has_data[accessor])
+            extension_refuse(draco_extension);
+    }
+}
+
+std::vector<bool> accessors_with_data(const cJSON *document)
+{
+    std::vector<bool> out;
+    const cJSON *accessor = nullptr;
+    cJSON_ArrayForEach(accessor, member_get(document, "accessors"))
+        out.push_back(member_get(accessor, "bufferView") != nullptr);
+    return out;
+}
+
+// Draco's data has its own indices, and tinygltf would refuse the accessor that stands for them without data.
+void draco_prepare(cJSON *document)
+{
+    const std::vector<bool> has_data = accessors_with_data(document);
+    cJSON *mesh = nullptr, *primitive = nullptr;
+    cJSON_ArrayForEach(mesh, member_get(document, "meshes"))
+        cJSON_ArrayForEach(primitive, member_get(mesh, "primitives"))
+    {
+        if (member_get(member_get(primitive, "extensions"), draco_extension) == nullptr)
+            continue;
+        if (with_draco)
+            cJSON_DeleteItemFromObjectCaseSensitive(primitive, "indices");
+        else
+            fallback_expect(primitive, has_data);
+    }
+}
+
+// What moves is read here, since tinygltf refuses channels that aim at no node.
+void motion_take(importer &in, cJSON *document)
+{
+    animations_take(in, document);
+    skins_take(in, document);
     for (const char *name : { "animations", "skins" })
         cJSON_DeleteItemFromObjectCaseSensitive(document, name);
 }
@@ -219,8 +265,11 @@ void document_parse(importer &in, const container &box)
     extensions_check(in, document.get());
     std::vector<bytes> buffers = buffers_take(in, box, document.get());
     images_take(in, document.get());
-    unused_remove(in, document.get());
+    motion_take(in, document.get());
+    draco_prepare(document.get());
     model_parse(in, buffers, document.get());
+    if constexpr (with_meshopt)
+        meshopt_unpack(in);
 }
 
 } // namespace gltf

@@ -47,6 +47,17 @@ std::string label(const char *array, size_t index)
     return std::string(array) + '[' + std::to_string(index) + ']';
 }
 
+void primitive_free(gltf_primitive &p)
+{
+    free(p.positions);
+    free(p.normals);
+    free(p.tangents);
+    free(p.uv0);
+    free(p.uv1);
+    free(p.colors);
+    free(p.indices);
+}
+
 // Adds `more` to `sum`, or refuses the file.
 void bound_take(const importer &in, uint64_t &sum, uint64_t more, const bound &limits,
                 const std::string &what)
@@ -83,12 +94,6 @@ char *warning_make(const std::string &path, const omissions &left_out)
     std::string list;
     for (const std::string &name : left_out.extensions)
         list_append(list, name);
-    if (left_out.skins)
-        list_append(list, "skins (drawn at rest)");
-    if (left_out.morph_targets)
-        list_append(list, "morph targets");
-    if (left_out.animations)
-        list_append(list, "animations");
     if (left_out.high_uv_sets)
         list_append(list, "texture coordinate sets above 1 (set 0 is used)");
     if (left_out.point_and_line_primitives != 0)
@@ -106,15 +111,17 @@ struct scene_deleter {
     }
 };
 
-gltf_scene *scene_import(const std::string &path)
+gltf_scene *scene_import(const std::string &path, const gltf_pose *pose)
 {
     std::unique_ptr<gltf_scene, scene_deleter> scene(array_allocate<gltf_scene>(1));
     importer in;
     in.scene = scene.get();
+    in.pose = pose;
     in.folder = path.substr(0, path.find_last_of('/') + 1);
     const container box = container_read(path);
     in.input_bytes = box.file.size();
     document_parse(in, box);
+    animations_apply(in);
     materials_import(in);
     meshes_import(in);
     nodes_import(in);
@@ -139,6 +146,12 @@ void error_write(char *error, size_t size, const char *path, const char *text)
 
 extern "C" struct gltf_scene *gltf_scene_load(const char *path, char *error, size_t error_size)
 {
+    return gltf_scene_load_posed(path, nullptr, error, error_size);
+}
+
+extern "C" struct gltf_scene *gltf_scene_load_posed(const char *path, const struct gltf_pose *pose,
+                                                    char *error, size_t error_size)
+{
     if (error != nullptr && error_size != 0)
         error[0] = '\0';
     if (path == nullptr) {
@@ -146,7 +159,7 @@ extern "C" struct gltf_scene *gltf_scene_load(const char *path, char *error, siz
         return nullptr;
     }
     try {
-        return gltf::scene_import(path);
+        return gltf::scene_import(path, pose);
     } catch (const std::bad_alloc &) {
         gltf::error_write(error, error_size, path, "out of memory");
     } catch (const std::exception &problem) {
@@ -155,17 +168,6 @@ extern "C" struct gltf_scene *gltf_scene_load(const char *path, char *error, siz
         gltf::error_write(error, error_size, path, "cannot be read");
     }
     return nullptr;
-}
-
-static void primitive_finish(struct gltf_primitive *p)
-{
-    free(p->positions);
-    free(p->normals);
-    free(p->tangents);
-    free(p->uv0);
-    free(p->uv1);
-    free(p->colors);
-    free(p->indices);
 }
 
 // Arrays of a half-built scene are null with any count, or complete.
@@ -178,7 +180,7 @@ extern "C" void gltf_scene_destroy(struct gltf_scene *scene)
     for (uint32_t i = 0; scene->materials != nullptr && i < scene->material_count; i++)
         free(scene->materials[i].name);
     for (uint32_t i = 0; scene->primitives != nullptr && i < scene->primitive_count; i++)
-        primitive_finish(&scene->primitives[i]);
+        gltf::primitive_free(scene->primitives[i]);
     for (uint32_t i = 0; scene->instances != nullptr && i < scene->instance_count; i++)
         free(scene->instances[i].node_name);
     for (uint32_t i = 0; scene->lights != nullptr && i < scene->light_count; i++)

@@ -116,11 +116,22 @@ struct gltf_scene {
     char *warning;                       /* one line naming what the file uses and we do not, or NULL */
 };
 
-/* Read `path` (.glb or .gltf). Returns NULL on failure, with one line in `error` that names the file and what
- * is wrong with it; `error` holds `error_size` bytes and is always terminated. Never crashes on broken input:
- * every offset, count and index is checked again after the parser. Files that it names must lie below its
- * folder: neither their names nor links may lead outside. */
+/* A moment of the file's animations. They play together, but where two move the same property of a node, the
+ * first does. Before its first key and after its last a property keeps their values. */
+struct gltf_pose {
+    double time_s;
+};
+
+/* Read `path` (.glb or .gltf), with nodes, skins and morph targets at rest. Returns NULL on failure, with one
+ * line in `error` that names the file and what is wrong with it; `error` holds `error_size` bytes and is
+ * always terminated. Never crashes on broken input: every offset, count and index is checked again after the
+ * parser. Files that it names must lie below its folder: neither their names nor links may lead outside. */
 struct gltf_scene *gltf_scene_load(const char *path, char *error, size_t error_size);
+
+/* The same at a moment of the animations; a `pose` of NULL is at rest. Skinned vertices are then where their
+ * joints take them, and their instances are not turned. */
+struct gltf_scene *gltf_scene_load_posed(const char *path, const struct gltf_pose *pose, char *error,
+                                         size_t error_size);
 
 /* Frees the scene; NULL is accepted. */
 void gltf_scene_destroy(struct gltf_scene *scene);

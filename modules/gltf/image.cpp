@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Images: PNG through libpng and JPEG through stb_image, to 8-bit RGBA (16-bit files keep their upper byte).
+// Images: PNG through libpng, JPEG through stb_image and WebP through libwebp, to 8-bit RGBA (16-bit files
+// keep their upper byte).
 // stb_image's other formats are not compiled in: glTF does not have them, and they are where its known
 // defects are.
 #include "import.h"
@@ -37,23 +38,32 @@ namespace
 // The shortest code of a JPEG is one bit, and stands for a block of 8 x 8 texels.
 constexpr uint64_t max_jpeg_texels_per_byte = 8 * 64;
 
+enum class codec { png, jpeg, webp };
+
 struct dimensions {
-    bool is_png = false;
+    codec type = codec::jpeg;
     uint32_t width = 0, height = 0;
 };
 
 dimensions dimensions_read(const byte_range &file, const std::string &what)
 {
     dimensions size;
-    size.is_png = picture_png_size(file.data, file.size, &size.width, &size.height);
-    if (size.is_png)
+    if (picture_png_size(file.data, file.size, &size.width, &size.height)) {
+        size.type = codec::png;
         return size;
+    }
+    if constexpr (with_webp)
+        if (webp_size(file, &size.width, &size.height)) {
+            size.type = codec::webp;
+            return size;
+        }
     int width = 0, height = 0, channels = 0;
     if (file.size > INT32_MAX)
         fail("%s is larger than 2 GiB", what.c_str());
     jpeg_check(file, what);
     if (stbi_info_from_memory(file.data, static_cast<int>(file.size), &width, &height, &channels) == 0)
-        fail("%s is not a PNG or JPEG image: %s", what.c_str(), stbi_failure_reason());
+        fail("%s is not a PNG or JPEG image%s: %s", what.c_str(), with_webp ? ", nor WebP" : "",
+             stbi_failure_reason());
     size.width = static_cast<uint32_t>(width);
     size.height = static_cast<uint32_t>(height);
     return size;
@@ -65,7 +75,7 @@ void dimensions_check(importer &in, const dimensions &size, const byte_range &fi
         fail("%s: %u x %u texels, the limits are 1 and %u", what.c_str(), size.width, size.height,
              max_image_size);
     const uint64_t count = static_cast<uint64_t>(size.width) * size.height;
-    if (!size.is_png && count > max_jpeg_texels_per_byte * file.size)
+    if (size.type == codec::jpeg && count > max_jpeg_texels_per_byte * file.size)
         fail("%s: the JPEG is too short for %u x %u texels", what.c_str(), size.width, size.height);
     bound_take(in, in.texels, count, texel_bound, what);
 }
@@ -97,10 +107,12 @@ void image_decode(importer &in, gltf_image &image, const byte_range &file, const
 {
     const dimensions size = dimensions_read(file, what);
     dimensions_check(in, size, file, what);
-    if (size.is_png)
+    if (size.type == codec::png)
         png_decode(image, file, what);
-    else
+    else if (size.type == codec::jpeg)
         jpeg_decode(image, file, what);
+    else if constexpr (with_webp)
+        webp_decode(image, file, what);
 }
 
 void image_import(importer &in, size_t index, gltf_image &image)
@@ -120,6 +132,13 @@ void image_import(importer &in, size_t index, gltf_image &image)
 
 } // namespace
 
+int texture_source(const tinygltf::Texture &texture)
+{
+    const auto webp = texture.extensions.find(webp_extension);
+    return with_webp && webp != texture.extensions.end() ? webp->second.Get("source").GetNumberAsInt()
+                                                         : texture.source;
+}
+
 // Only images that a texture uses are read: a file may carry others in formats that an extension is needed
 // for. Those that name the same bytes are read once.
 std::vector<int32_t> images_import(importer &in)
@@ -128,7 +147,7 @@ std::vector<int32_t> images_import(importer &in)
     std::vector<size_t> used;
     std::map<std::pair<int, std::string_view>, int32_t> known;
     for (size_t t = 0; t < in.model.textures.size(); t++) {
-        const int source = in.model.textures[t].source;
+        const int source = texture_source(in.model.textures[t]);
         if (source < 0)
             continue;
         if (static_cast<size_t>(source) >= in.images.size())

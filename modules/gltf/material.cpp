@@ -58,7 +58,8 @@ void textures_import(importer &in, const std::vector<int32_t> &image_slots)
                  model.samplers.size());
         const tinygltf::Sampler sampler =
             from.sampler < 0 ? tinygltf::Sampler() : model.samplers[static_cast<size_t>(from.sampler)];
-        to.image = from.source < 0 ? -1 : image_slots[static_cast<size_t>(from.source)];
+        const int source = texture_source(from);
+        to.image = source < 0 ? -1 : image_slots[static_cast<size_t>(source)];
         to.wrap_u = wrap_from(sampler.wrapS);
         to.wrap_v = wrap_from(sampler.wrapT);
         to.min_filter = filter_from(sampler.minFilter);

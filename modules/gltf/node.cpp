@@ -13,54 +13,6 @@ namespace gltf
 namespace
 {
 
-const matrix4 identity = { { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
-
-matrix4 multiply(const matrix4 &a, const matrix4 &b)
-{
-    matrix4 out;
-    for (size_t column = 0; column < 4; column++)
-        for (size_t row = 0; row < 4; row++) {
-            double sum = 0;
-            for (size_t k = 0; k < 4; k++)
-                sum += a.m[4 * k + row] * b.m[4 * column + k];
-            out.m[4 * column + row] = sum;
-        }
-    return out;
-}
-
-// Rotation of a quaternion (x, y, z, w) of any length but zero; files store them rounded.
-matrix4 rotation_matrix(const std::vector<double> &q)
-{
-    const double largest = std::max({ std::fabs(q[0]), std::fabs(q[1]), std::fabs(q[2]), std::fabs(q[3]) });
-    if (!(largest > 0))
-        return identity;
-    double x = q[0] / largest, y = q[1] / largest, z = q[2] / largest, w = q[3] / largest;
-    const double length = std::sqrt(x * x + y * y + z * z + w * w);
-    x /= length;
-    y /= length;
-    z /= length;
-    w /= length;
-    return { { 1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0, 2 * (x * y - z * w),
-               1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0, 2 * (x * z + y * w), 2 * (y * z - x * w),
-               1 - 2 * (x * x + y * y), 0, 0, 0, 0, 1 } };
-}
-
-matrix4 matrix_from_list(const std::vector<double> &list, const std::string &what)
-{
-    matrix4 out;
-    std::copy_n(list.begin(), 16, out.m);
-    // Exporters leave rounding in the last row; anything more would not be affine.
-    constexpr double rounding = 1e-5;
-    for (size_t column = 0; column < 4; column++) {
-        double &bottom = out.m[4 * column + 3];
-        const double exact = column == 3 ? 1 : 0;
-        if (std::fabs(bottom - exact) > rounding)
-            fail("%s.matrix is not affine", what.c_str());
-        bottom = exact;
-    }
-    return out;
-}
-
 matrix4 local_matrix(const tinygltf::Node &node, const std::string &what)
 {
     if (node.matrix.size() == 16)
@@ -128,6 +80,8 @@ struct collection {
     std::vector<gltf_light> lights;
     std::vector<gltf_camera> cameras;
     std::vector<bool> visited;
+    std::vector<int> order;      // of the nodes that the scene shows
+    std::vector<matrix4> worlds; // of all nodes; the identity for those that it does not show
 
     ~collection()
     {
@@ -140,6 +94,26 @@ struct collection {
     }
 };
 
+// What moves the vertices of a node's mesh.
+struct motion {
+    std::vector<double> weights;
+    std::vector<matrix4> joints; // empty: none
+};
+
+motion motion_read(importer &in, const collection &out, const tinygltf::Node &node, matrix4 &world,
+                   const std::string &what)
+{
+    motion m;
+    m.weights = node.weights.empty() ? in.model.meshes[static_cast<size_t>(node.mesh)].weights : node.weights;
+    if (node.skin < 0)
+        return m;
+    double origin[3];
+    m.joints = joint_matrices(in, node.skin, out.worlds, origin, what);
+    world = identity; // that of the node is of no account where joints are
+    std::copy_n(origin, 3, &world.m[12]);
+    return m;
+}
+
 void instances_add(importer &in, collection &out, const tinygltf::Node &node, const matrix4 &world,
                    const std::string &what)
 {
@@ -149,22 +123,28 @@ void instances_add(importer &in, collection &out, const tinygltf::Node &node, co
     const std::vector<uint32_t> &primitives = in.mesh_primitives[static_cast<size_t>(node.mesh)];
     uint64_t count = out.instances.size();
     bound_take(in, count, primitives.size(), instance_bound, what);
+    matrix4 posed = world;
+    const motion moved = motion_read(in, out, node, posed, what);
     for (const uint32_t primitive : primitives) {
+        const auto rigged = in.rigs.find(primitive);
+        const bool is_skinned =
+            rigged != in.rigs.end() && !moved.joints.empty() && !rigged->second.rest.influences.empty();
         gltf_instance instance = {};
-        instance.primitive = primitive;
-        std::copy_n(world.m, 16, instance.transform);
+        instance.primitive =
+            rigged == in.rigs.end() ? primitive : rig_pose(in, primitive, moved.weights, moved.joints, what);
+        std::copy_n((is_skinned ? posed : world).m, 16, instance.transform);
         out.instances.push_back(instance);
         out.instances.back().node_name = name_copy(node.name);
     }
 }
 
-void node_import(importer &in, collection &out, int index, const matrix4 &world)
+void node_import(importer &in, collection &out, int index)
 {
     const tinygltf::Node &node = in.model.nodes[static_cast<size_t>(index)];
+    const matrix4 &world = out.worlds[static_cast<size_t>(index)];
     const std::string what = label("nodes", static_cast<size_t>(index));
     if (!std::all_of(std::begin(world.m), std::end(world.m), [](double v) { return std::isfinite(v); }))
         fail("%s: the transform is not finite", what.c_str());
-    in.omitted.skins |= node.skin >= 0;
     if (node.mesh >= 0)
         instances_add(in, out, node, world, what);
     if (node.camera >= 0)
@@ -179,8 +159,9 @@ struct pending_node {
     matrix4 parent;
 };
 
-// A stack of its own: a chain of nodes may be deeper than the thread's.
-void subtree_walk(importer &in, collection &out, int root)
+// The transforms of a node and all below it, and in which order they come. A stack of its own: a chain of
+// nodes may be deeper than the thread's.
+void subtree_walk(const importer &in, collection &out, int root)
 {
     std::vector<pending_node> pending = { { root, identity } };
     while (!pending.empty()) {
@@ -192,11 +173,11 @@ void subtree_walk(importer &in, collection &out, int root)
         if (out.visited[i])
             fail("%s is in the scene twice", label("nodes", i).c_str());
         out.visited[i] = true;
-        const matrix4 world = multiply(next.parent, local_matrix(in.model.nodes[i], label("nodes", i)));
-        node_import(in, out, next.index, world);
+        out.order.push_back(next.index);
+        out.worlds[i] = multiply(next.parent, local_matrix(in.model.nodes[i], label("nodes", i)));
         const std::vector<int> &children = in.model.nodes[i].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            pending.push_back({ *child, world });
+            pending.push_back({ *child, out.worlds[i] });
     }
 }
 
@@ -245,8 +226,11 @@ void nodes_import(importer &in)
     cycles_refuse(parents);
     collection out;
     out.visited.assign(in.model.nodes.size(), false);
+    out.worlds.assign(in.model.nodes.size(), identity);
     for (const int root : roots_find(in.model, parents))
         subtree_walk(in, out, root);
+    for (const int node : out.order)
+        node_import(in, out, node);
     gltf_scene &scene = *in.scene;
     array_hand_over(out.instances, scene.instances, scene.instance_count);
     array_hand_over(out.lights, scene.lights, scene.light_count);

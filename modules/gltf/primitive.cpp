@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gltf
 {
@@ -12,21 +13,23 @@ namespace gltf
 namespace
 {
 
+using attribute_map = std::map<std::string, int>;
+
 // The accessor of an attribute, or -1.
-int attribute_find(const tinygltf::Primitive &from, const char *name)
+int attribute_find(const attribute_map &from, const std::string &name)
 {
-    const auto found = from.attributes.find(name);
-    return found == from.attributes.end() ? -1 : found->second;
+    const auto found = from.find(name);
+    return found == from.end() ? -1 : found->second;
 }
 
 struct attribute_request {
-    const char *name;
+    std::string name;
     int least_components, most_components;
     bool integers_are_normalized;
 };
 
 // Values of one attribute, widened to `most_components` with ones; empty where the primitive has none.
-std::vector<float> attribute_read(const importer &in, const tinygltf::Primitive &from, size_t vertex_count,
+std::vector<float> attribute_read(const importer &in, const attribute_map &from, size_t vertex_count,
                                   const attribute_request &want, const std::string &what)
 {
     const int index = attribute_find(from, want.name);
@@ -71,8 +74,7 @@ void positions_check(const geometry &g, const std::string &what)
             fail("%s: the position of vertex %zu is not finite", what.c_str(), i / 3);
 }
 
-void attributes_read(const importer &in, const tinygltf::Primitive &from, geometry &g,
-                     const std::string &what)
+void attributes_read(const importer &in, const attribute_map &from, geometry &g, const std::string &what)
 {
     const size_t n = g.vertex_count;
     g.positions = attribute_read(in, from, n, { "POSITION", 3, 3, false }, what);
@@ -87,6 +89,47 @@ void attributes_read(const importer &in, const tinygltf::Primitive &from, geomet
     zero_where_not_finite(g.uv0);
     zero_where_not_finite(g.uv1);
     colors_clamp(g.colors);
+}
+
+// Joints and weights by fours, of all their sets. Weights that are not finite, or negative, count for
+// nothing.
+void joints_read(const importer &in, const attribute_map &from, geometry &g, const std::string &what)
+{
+    constexpr int max_sets = 8;
+    const size_t n = g.vertex_count;
+    for (int set = 0; set < max_sets; set++) {
+        const std::string joints_name = "JOINTS_" + std::to_string(set);
+        const std::string weights_name = "WEIGHTS_" + std::to_string(set);
+        if (attribute_find(from, joints_name) < 0)
+            break;
+        influence_set s;
+        s.joints = attribute_read(in, from, n, { joints_name, 4, 4, false }, what);
+        s.weights = attribute_read(in, from, n, { weights_name, 4, 4, true }, what);
+        if (s.weights.empty())
+            fail("%s has %s and no %s", what.c_str(), joints_name.c_str(), weights_name.c_str());
+        for (float &weight : s.weights)
+            weight = weight > 0 && std::isfinite(weight) ? weight : 0;
+        g.influences.push_back(std::move(s));
+    }
+}
+
+// Normals that are made flat are made again, so that their differences mean nothing.
+void targets_read(const importer &in, const tinygltf::Primitive &from, geometry &g, const std::string &what)
+{
+    const size_t n = g.vertex_count;
+    for (size_t i = 0; i < from.targets.size(); i++) {
+        const std::string user = what + "." + label("targets", i);
+        morph_target target;
+        target.positions = attribute_read(in, from.targets[i], n, { "POSITION", 3, 3, false }, user);
+        if (!g.normals.empty())
+            target.normals = attribute_read(in, from.targets[i], n, { "NORMAL", 3, 3, true }, user);
+        if (!g.tangents.empty())
+            target.tangents = attribute_read(in, from.targets[i], n, { "TANGENT", 3, 3, true }, user);
+        zero_where_not_finite(target.positions);
+        zero_where_not_finite(target.normals);
+        zero_where_not_finite(target.tangents);
+        g.targets.push_back(std::move(target));
+    }
 }
 
 // The vertices in drawing order: the indices, or all of them in turn.
@@ -128,6 +171,7 @@ bool second_uv_is_used(const gltf_material &m)
 void geometry_complete(geometry &g, const gltf_material &material)
 {
     if (g.normals.empty()) {
+        g.is_flat = true;
         vertices_unshare(g);
         normals_make_flat(g);
     } else {
@@ -137,8 +181,7 @@ void geometry_complete(geometry &g, const gltf_material &material)
         g.uv0.assign(2 * static_cast<size_t>(g.vertex_count), 0.0f);
     if (g.uv1.empty() && second_uv_is_used(material))
         g.uv1.assign(2 * static_cast<size_t>(g.vertex_count), 0.0f);
-    const bool second = material.normal_texture.texture >= 0 && material.normal_texture.uv_set == 1;
-    tangents_complete(g, second ? g.uv1 : g.uv0);
+    tangents_make(g, material);
 }
 
 void bounds_compute(const geometry &g, gltf_primitive &to)
@@ -152,38 +195,35 @@ void bounds_compute(const geometry &g, gltf_primitive &to)
     }
 }
 
-void primitive_store(const geometry &g, gltf_primitive &to)
-{
-    to.positions = array_copy(g.positions);
-    to.normals = array_copy(g.normals);
-    to.tangents = array_copy(g.tangents);
-    to.uv0 = array_copy(g.uv0);
-    to.uv1 = array_copy(g.uv1);
-    to.colors = array_copy(g.colors);
-    to.indices = array_copy(g.indices);
-    to.vertex_count = g.vertex_count;
-    to.index_count = static_cast<uint32_t>(g.indices.size());
-    bounds_compute(g, to);
-}
-
 uint64_t vertices_of(const importer &in, const tinygltf::Primitive &from, const std::string &what)
 {
-    const int position = attribute_find(from, "POSITION");
+    const int position = attribute_find(from.attributes, "POSITION");
     return position < 0 ? 0 : accessor_get(in.model, position, what + ".POSITION").count;
+}
+
+bool is_packed(const tinygltf::Primitive &from)
+{
+    return with_draco && from.extensions.count(draco_extension) != 0;
 }
 
 void primitive_count(importer &in, const tinygltf::Primitive &from, const std::string &what)
 {
+    const bool packed = is_packed(from);
+    const bound &vertex_limit = packed ? packed_vertex_bound : vertex_bound;
+    const bound &index_limit = packed ? packed_index_bound : index_bound;
     const uint64_t vertices = vertices_of(in, from, what);
     const uint64_t corners =
         from.indices < 0 ? vertices : accessor_get(in.model, from.indices, what + ".indices").count;
     // A strip or fan has as many triangles as corners, but for two.
     const uint64_t unpacked = from.mode == TINYGLTF_MODE_TRIANGLES ? corners : 3 * corners;
-    bound_take(in, in.vertices, vertices, vertex_bound, what);
-    bound_take(in, in.indices, unpacked, index_bound, what);
+    bound_take(in, in.vertices, vertices, vertex_limit, what);
+    bound_take(in, in.indices, unpacked, index_limit, what);
     // Flat triangles share no vertices.
-    if (attribute_find(from, "NORMAL") < 0)
-        bound_take(in, in.vertices, unpacked, vertex_bound, what);
+    const bool is_flat = attribute_find(from.attributes, "NORMAL") < 0;
+    if (is_flat)
+        bound_take(in, in.vertices, unpacked, vertex_limit, what);
+    for (size_t i = 0; i < from.targets.size(); i++)
+        bound_take(in, in.vertices, is_flat ? vertices + unpacked : vertices, vertex_limit, what);
 }
 
 // Points, lines and primitives without anything to draw are counted and left out.
@@ -201,14 +241,14 @@ bool primitive_is_drawn(importer &in, const tinygltf::Primitive &from, const std
 bool primitive_import(importer &in, const tinygltf::Primitive &from, gltf_primitive &to,
                       const std::string &what)
 {
-    if (!primitive_is_drawn(in, from, what))
-        return false;
-    in.omitted.morph_targets |= !from.targets.empty();
     to.material = material_of(in, from, what);
     geometry g;
     g.vertex_count = static_cast<uint32_t>(vertices_of(in, from, what));
     if (g.vertex_count != 0) {
-        attributes_read(in, from, g, what);
+        attributes_read(in, from.attributes, g, what);
+        targets_read(in, from, g, what);
+        if (in.has_skins)
+            joints_read(in, from.attributes, g, what);
         g.indices = triangles_from(from.mode, order_read(in, from, g.vertex_count, what));
     }
     if (g.indices.empty()) {
@@ -216,9 +256,33 @@ bool primitive_import(importer &in, const tinygltf::Primitive &from, gltf_primit
         return false;
     }
     geometry_complete(g, in.scene->materials[to.material]);
-    in.scene->primitive_count++; // before its arrays are made: the scene frees what there is of them
+    const uint32_t index = in.scene->primitive_count++; // before its arrays are made: the scene frees them
     primitive_store(g, to);
+    if (!g.targets.empty() || !g.influences.empty())
+        in.rigs[index].rest = std::move(g);
     return true;
+}
+
+// What Draco compressed is there, uncompressed, for as long as it takes to import it.
+bool primitive_unpack_and_import(importer &in, const tinygltf::Primitive &from, gltf_primitive &to,
+                                 const std::string &what)
+{
+    if (!primitive_is_drawn(in, from, what))
+        return false;
+    if (!is_packed(from))
+        return primitive_import(in, from, to, what);
+    tinygltf::Model &model = in.model;
+    const size_t buffers = model.buffers.size(), views = model.bufferViews.size();
+    const size_t accessors = model.accessors.size();
+    tinygltf::Primitive unpacked = from;
+    if constexpr (with_draco)
+        draco_unpack(in, unpacked, what);
+    primitive_count(in, unpacked, what);
+    const bool imported = primitive_import(in, unpacked, to, what);
+    model.buffers.resize(buffers);
+    model.bufferViews.resize(views);
+    model.accessors.resize(accessors);
+    return imported;
 }
 
 std::string primitive_label(size_t mesh, size_t primitive)
@@ -226,14 +290,15 @@ std::string primitive_label(size_t mesh, size_t primitive)
     return label("meshes", mesh) + "." + label("primitives", primitive);
 }
 
-// All of them, before the first is unpacked.
+// All of them, before the first is read, but for what Draco compressed: its streams know better how much they
+// hold.
 size_t primitives_count(importer &in)
 {
     size_t total = 0;
     for (size_t m = 0; m < in.model.meshes.size(); m++) {
         const std::vector<tinygltf::Primitive> &primitives = in.model.meshes[m].primitives;
         for (size_t p = 0; p < primitives.size(); p++)
-            if (primitives[p].mode >= TINYGLTF_MODE_TRIANGLES)
+            if (primitives[p].mode >= TINYGLTF_MODE_TRIANGLES && !is_packed(primitives[p]))
                 primitive_count(in, primitives[p], primitive_label(m, p));
         total += primitives.size();
     }
@@ -242,16 +307,38 @@ size_t primitives_count(importer &in)
 
 } // namespace
 
+// Along the coordinates of the normal map.
+void tangents_make(geometry &g, const gltf_material &material)
+{
+    const bool second = material.normal_texture.texture >= 0 && material.normal_texture.uv_set == 1;
+    tangents_complete(g, second ? g.uv1 : g.uv0);
+}
+
+void primitive_store(const geometry &g, gltf_primitive &to)
+{
+    to.positions = array_copy(g.positions);
+    to.normals = array_copy(g.normals);
+    to.tangents = array_copy(g.tangents);
+    to.uv0 = array_copy(g.uv0);
+    to.uv1 = array_copy(g.uv1);
+    to.colors = array_copy(g.colors);
+    to.indices = array_copy(g.indices);
+    to.vertex_count = g.vertex_count;
+    to.index_count = static_cast<uint32_t>(g.indices.size());
+    bounds_compute(g, to);
+}
+
 void meshes_import(importer &in)
 {
-    in.scene->primitives = array_allocate<gltf_primitive>(primitives_count(in));
+    in.primitive_capacity = primitives_count(in);
+    in.scene->primitives = array_allocate<gltf_primitive>(in.primitive_capacity);
     for (size_t m = 0; m < in.model.meshes.size(); m++) {
         const tinygltf::Mesh &mesh = in.model.meshes[m];
         in.mesh_primitives.emplace_back();
         for (size_t p = 0; p < mesh.primitives.size(); p++) {
             const uint32_t next = in.scene->primitive_count;
             const std::string what = primitive_label(m, p);
-            if (primitive_import(in, mesh.primitives[p], in.scene->primitives[next], what))
+            if (primitive_unpack_and_import(in, mesh.primitives[p], in.scene->primitives[next], what))
                 in.mesh_primitives.back().push_back(next);
         }
     }

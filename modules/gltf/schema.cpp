@@ -58,9 +58,15 @@ const member node_members[] = {
     { "translation", kind::numbers, false, 3 }, { "weights", kind::numbers },
     { "extensions", kind::object, false, 0, node_extensions }, end_row };
 
+const member draco_members[] = {
+    { "bufferView", kind::index, true }, { "attributes", kind::index_map, true }, end_row };
+
+const member primitive_extensions[] = {
+    { "KHR_draco_mesh_compression", kind::object, false, 0, draco_members }, end_row };
+
 const member primitive_members[] = {
     { "attributes", kind::index_map, true }, { "indices", kind::index }, { "material", kind::index },
-    { "mode", kind::integer }, { "extensions", kind::object }, end_row };
+    { "mode", kind::integer }, { "extensions", kind::object, false, 0, primitive_extensions }, end_row };
 
 const member mesh_members[] = {
     { "name", kind::text }, { "weights", kind::numbers },
@@ -84,20 +90,42 @@ const member accessor_members[] = {
     { "type", kind::text, true }, { "min", kind::numbers }, { "max", kind::numbers },
     { "sparse", kind::object, false, 0, sparse_members }, end_row };
 
+const member packed_view_members[] = {
+    { "buffer", kind::index, true }, { "byteOffset", kind::size }, { "byteLength", kind::size, true },
+    { "byteStride", kind::size, true }, { "count", kind::size, true }, { "mode", kind::text, true },
+    { "filter", kind::text }, end_row };
+
+const member view_extensions[] = {
+    { "EXT_meshopt_compression", kind::object, false, 0, packed_view_members }, end_row };
+
 const member view_members[] = {
     { "name", kind::text }, { "buffer", kind::index, true }, { "byteOffset", kind::size },
-    { "byteLength", kind::size, true }, { "byteStride", kind::size }, { "target", kind::integer }, end_row };
+    { "byteLength", kind::size, true }, { "byteStride", kind::size }, { "target", kind::integer },
+    { "extensions", kind::object, false, 0, view_extensions }, end_row };
+
+const member fallback_members[] = {
+    { "fallback", kind::boolean }, end_row };
+
+const member buffer_extensions[] = {
+    { "EXT_meshopt_compression", kind::object, false, 0, fallback_members }, end_row };
 
 const member buffer_members[] = {
-    { "name", kind::text }, { "uri", kind::text }, { "byteLength", kind::size, true }, end_row };
+    { "name", kind::text }, { "uri", kind::text }, { "byteLength", kind::size, true },
+    { "extensions", kind::object, false, 0, buffer_extensions }, end_row };
 
 const member image_members[] = {
     { "name", kind::text }, { "uri", kind::text }, { "mimeType", kind::text },
     { "bufferView", kind::index }, end_row };
 
+const member webp_members[] = {
+    { "source", kind::index, true }, end_row };
+
+const member texture_extensions[] = {
+    { "EXT_texture_webp", kind::object, false, 0, webp_members }, end_row };
+
 const member texture_members[] = {
     { "name", kind::text }, { "sampler", kind::index }, { "source", kind::index },
-    { "extensions", kind::object }, end_row };
+    { "extensions", kind::object, false, 0, texture_extensions }, end_row };
 
 const member sampler_members[] = {
     { "name", kind::text }, { "minFilter", kind::integer }, { "magFilter", kind::integer },
@@ -160,6 +188,24 @@ const member light_members[] = {
 const member lights_members[] = {
     { "lights", kind::objects, true, 0, light_members }, end_row };
 
+const member channel_target_members[] = {
+    { "node", kind::index }, { "path", kind::text, true }, end_row };
+
+const member channel_members[] = {
+    { "sampler", kind::index, true }, { "target", kind::object, true, 0, channel_target_members }, end_row };
+
+const member animation_sampler_members[] = {
+    { "input", kind::index, true }, { "output", kind::index, true }, { "interpolation", kind::text },
+    end_row };
+
+const member animation_members[] = {
+    { "name", kind::text }, { "channels", kind::objects, true, 0, channel_members },
+    { "samplers", kind::objects, true, 0, animation_sampler_members }, end_row };
+
+const member skin_members[] = {
+    { "name", kind::text }, { "joints", kind::indices, true }, { "inverseBindMatrices", kind::index },
+    { "skeleton", kind::index }, end_row };
+
 const member document_extensions[] = {
     { "KHR_lights_punctual", kind::object, false, 0, lights_members }, end_row };
 
@@ -176,7 +222,8 @@ const member document_members[] = {
     { "samplers", kind::objects, false, 0, sampler_members },
     { "materials", kind::objects, false, 0, material_members },
     { "cameras", kind::objects, false, 0, camera_members },
-    { "animations", kind::objects }, { "skins", kind::objects },
+    { "animations", kind::objects, false, 0, animation_members },
+    { "skins", kind::objects, false, 0, skin_members },
     { "extensions", kind::object, false, 0, document_extensions }, end_row };
 // clang-format on
 

@@ -57,6 +57,12 @@ void vertices_unshare(geometry &g)
     gather(g.uv0, 2, g.indices);
     gather(g.uv1, 2, g.indices);
     gather(g.colors, 4, g.indices);
+    for (influence_set &set : g.influences) {
+        gather(set.joints, 4, g.indices);
+        gather(set.weights, 4, g.indices);
+    }
+    for (morph_target &target : g.targets)
+        gather(target.positions, 3, g.indices);
     g.vertex_count = static_cast<uint32_t>(g.indices.size());
     for (uint32_t i = 0; i < g.vertex_count; i++)
         g.indices[i] = i;

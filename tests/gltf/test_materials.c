@@ -294,13 +294,13 @@ static void images_that_name_the_same_bytes_are_read_once(void **state)
 static void images_that_no_texture_uses_are_not_read(void **state)
 {
     (void)state;
-    struct gltf_scene *const s =
-        materials_load(",\"extensionsUsed\":[\"EXT_texture_webp\"],\"images\":[{\"uri\":\"not_there.webp\"}],"
-                       "\"textures\":[{\"extensions\":{\"EXT_texture_webp\":{\"source\":0}}}],"
-                       "\"materials\":[{\"emissiveTexture\":{\"index\":0}}]");
+    struct gltf_scene *const s = materials_load(
+        ",\"extensionsUsed\":[\"KHR_texture_basisu\"],\"images\":[{\"uri\":\"not_there.ktx2\"}],"
+        "\"textures\":[{\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}}}],"
+        "\"materials\":[{\"emissiveTexture\":{\"index\":0}}]");
     assert_int_equal(s->image_count, 0);
     assert_int_equal(s->materials[0].emissive_texture.texture, -1);
-    assert_non_null(strstr(s->warning, "EXT_texture_webp"));
+    assert_non_null(strstr(s->warning, "KHR_texture_basisu"));
     gltf_scene_destroy(s);
 }
 
