@@ -256,6 +256,74 @@ def scene_of_everything():
                {"extensions": {"KHR_lights_punctual": {"light": 1}}}])
 
 
+# A pyramid without a floor, from draco_encoder -qp 8, -cl 7 and -method sequential, and from meshoptimizer; and
+# a picture of 2 x 2 texels from cwebp, with -lossless and without.
+PACKED = {name: base64.b64decode(text) for name, text in {
+    "edgebreaker": "RFJBQ08CAgEBAAAABQQABAAAAm8B/wERAf8AAAEACQMAAAIBAQEBA4ACERFFBBUR////680MzQwHTrN8ByRPgAAAAAD/AAAAAAAA"
+                   "AAAAAAAAAAAAAACAPwg=",
+    "sequential": "RFJBQ08CAgEAAAAEBQEAAQIBAwIDBAIEAAIBAQAJAwAAAgABAQAJA5kZzQwTnRkDV6GxSP9/gL+/gAAAAAAA/wAAAAAAAAAAAAAA"
+                  "AAAAAAAAgD8I",
+    "vertices": "oAAAATMAAAD//wEzwAAAfn1+AAABDMAAAP//AQwAAAB+AAABAMAAAP8BAMAAAH4AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+                "AAAAAA==",
+    "triangles": "4P4QAAQPCAB2h1ZneKmGZYlomAFpAAA=",
+    "indices": "0AAEDAoECAYEBAIKEAAAAAA=",
+    "lossless": "UklGRh4AAABXRUJQVlA4TBEAAAAvAUAAAA+w//Mf8x8VMqL/AQA=",
+    "lossy": "UklGRjoAAABXRUJQVlA4IC4AAACwAQCdASoCAAIAAgA0JaACdAEO/gLsAM4+b/zhItX/zYH/t5/4I96RV6u8gAAA",
+}.items()}
+
+
+def packed_seeds():
+    for name in ("edgebreaker", "sequential"):
+        s = Scene()
+        packed = {"bufferView": s.view(PACKED[name]), "attributes": {"POSITION": 0}}
+        s.accessor(b"", 5126, "VEC3", 5)
+        s.accessor(b"", 5125, "SCALAR", 12)
+        add("gltf", "packed_draco_" + name, s.glb(nodes=[{"mesh": 0}], meshes=[{"primitives": [{
+            "attributes": {"POSITION": 0}, "indices": 1,
+            "extensions": {"KHR_draco_mesh_compression": packed}}]}]))
+    for name, mode in (("triangles", "TRIANGLES"), ("indices", "INDICES")):
+        s = Scene()
+        for data, count, stride, kind in ((PACKED["vertices"], 5, 12, "ATTRIBUTES"), (PACKED[name], 12, 4, mode)):
+            s.views[s.view(data)]["extensions"] = {"EXT_meshopt_compression": {
+                "buffer": 0, "byteOffset": len(s.binary) - len(data), "byteLength": len(data),
+                "byteStride": stride, "count": count, "mode": kind, "filter": "NONE"}}
+        s.accessors = [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 5},
+                       {"bufferView": 1, "componentType": 5125, "type": "SCALAR", "count": 12}]
+        add("gltf", "packed_meshopt_" + name, s.glb(nodes=[{"mesh": 0}], meshes=[{"primitives": [{
+            "attributes": {"POSITION": 0}, "indices": 1}]}]))
+    for name in ("lossless", "lossy"):
+        s = Scene()
+        s.view(PACKED[name])
+        add("gltf", "packed_webp_" + name, s.glb(
+            images=[{"bufferView": 0}], textures=[{"extensions": {"EXT_texture_webp": {"source": 0}}}]))
+
+
+def pose_seeds():
+    s = Scene()
+    triangle = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    position = s.accessor(triangle, 5126, "VEC3", 3)
+    joints = s.accessor(bytes([0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]), 5121, "VEC4", 3)
+    weights = s.accessor(struct.pack("<12f", 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0), 5126, "VEC4", 3)
+    bind = s.accessor(struct.pack("<32f", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] * 2), 5126, "MAT4", 2)
+    times = s.accessor(struct.pack("<2f", 0, 2), 5126, "SCALAR", 2)
+    turns = s.accessor(struct.pack("<8f", 0, 0, 0, 1, 0, 0, 1, 0), 5126, "VEC4", 2)
+    moves = s.accessor(struct.pack("<18f", *range(18)), 5126, "VEC3", 6)
+    mixes = s.accessor(struct.pack("<2f", 0, 1), 5126, "SCALAR", 2)
+    add("gltf", "valid_pose", s.glb(
+        meshes=[{"weights": [0.5], "primitives": [{
+            "attributes": {"POSITION": position, "NORMAL": position, "JOINTS_0": joints, "WEIGHTS_0": weights},
+            "targets": [{"POSITION": position, "NORMAL": position}]}]}],
+        skins=[{"joints": [1, 2], "inverseBindMatrices": bind}],
+        nodes=[{"mesh": 0, "skin": 0}, {"children": [2]}, {"translation": [1, 0, 0]}, {"mesh": 0}],
+        animations=[{
+            "samplers": [{"input": times, "output": turns}, {"input": times, "output": mixes,
+                                                              "interpolation": "STEP"},
+                         {"input": times, "output": moves, "interpolation": "CUBICSPLINE"}],
+            "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}},
+                         {"sampler": 1, "target": {"node": 3, "path": "weights"}},
+                         {"sampler": 2, "target": {"node": 2, "path": "translation"}}]}]))
+
+
 def gltf_seeds():
     a, tri = '"asset":{"version":"2.0"}', struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
     add("gltf", "valid_everything", scene_of_everything())
@@ -369,8 +437,8 @@ def text_seeds():
     add("cli", "broken_size", "scene.glb\n--size\n0x1e9")
 
 
-for write in (png_seeds, jpeg_seeds, hdr_seeds, pfm_seeds, exr_seeds, gltf_seeds, view_seeds, path_seeds,
-              state_seeds, cache_seeds, text_seeds):
+for write in (png_seeds, jpeg_seeds, hdr_seeds, pfm_seeds, exr_seeds, gltf_seeds, packed_seeds, pose_seeds,
+              view_seeds, path_seeds, state_seeds, cache_seeds, text_seeds):
     write()
 # Whatever can be imported can be traced.
 files.update({f"trace/{path[5:]}": data for path, data in files.items() if path.startswith("gltf/")})
