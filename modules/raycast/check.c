@@ -8,6 +8,7 @@
 #include "internal.h"
 
 #define MAX_SIZE_PIXELS 16384
+#define MAX_MAP_SIDE    32768
 #define MAX_BOUNCES     65536
 #define MAX_THREADS     256
 
@@ -39,9 +40,9 @@ static bool are_finite_d(const double *v, int count)
 }
 
 /* Finite and not negative: light and albedo. */
-static bool are_amounts(const float *v, int count)
+static bool are_amounts(const float *v, size_t count)
 {
-    for (int k = 0; k < count; k++) {
+    for (size_t k = 0; k < count; k++) {
         if (!isfinite(v[k]) || v[k] < 0.0f)
             return false;
     }
@@ -120,6 +121,13 @@ bool raycast_view_check(const struct raycast_view *view, char *error, size_t siz
     if (!are_amounts(view->sky.zenith, 3) || !are_amounts(view->sky.horizon, 3) ||
         !are_amounts(view->sky.ground, 3))
         return raycast_fail(error, size, "sky: radiance must be finite and not negative");
+    const struct raycast_environment *const map = &view->environment;
+    if (map->rgb &&
+        (map->width < 1 || map->height < 1 || map->width > MAX_MAP_SIDE || map->height > MAX_MAP_SIDE))
+        return raycast_fail(error, size, "environment: %ux%u texels, the limits are 1 and %d", map->width,
+                            map->height, MAX_MAP_SIDE);
+    if (map->rgb && !are_amounts(map->rgb, 3 * (size_t)map->width * map->height))
+        return raycast_fail(error, size, "environment: radiance must be finite and not negative");
     for (uint32_t i = 0; i < view->light_count; i++) {
         if (!light_check(&view->lights[i], i, error, size))
             return false;

@@ -136,6 +136,11 @@ static uint64_t hash_view(uint64_t h, const struct raycast_view *v)
         h = HASH(h, v->camera.zfar_m);
     }
     h = HASH(h, v->sky);
+    if (v->environment.rgb) {
+        h = HASH(h, v->environment.width);
+        h = raycast_hash_bytes(h, v->environment.rgb,
+                               3 * sizeof(float) * v->environment.width * v->environment.height);
+    }
     h = HASH(h, v->sun);
     for (uint32_t i = 0; i < v->light_count; i++)
         h = hash_view_light(h, &v->lights[i]);

@@ -83,12 +83,14 @@ bool raycast_lights_init(struct lights *l, const struct gltf_scene *scene, const
     l->sky.zenith = vec3_load(view->sky.zenith);
     l->sky.horizon = vec3_load(view->sky.horizon);
     l->sky.ground = vec3_load(view->sky.ground);
+    const bool built = environment_init(&l->sky.map, &view->environment);
     sky_bands_build(&l->sky);
-    return true;
+    return built;
 }
 
 void raycast_lights_finish(struct lights *l)
 {
+    environment_finish(&l->sky.map);
     free(l->lamps);
     l->lamps = NULL;
     l->lamp_count = 0;

@@ -5,6 +5,7 @@
 #ifndef RAYCAST_LIGHTS_H
 #define RAYCAST_LIGHTS_H
 
+#include "environment.h"
 #include "geometry.h"
 #include "raycast.h"
 
@@ -28,7 +29,8 @@ struct lamp {
 
 struct sky {
     struct vec3 zenith, horizon, ground;
-    float cdf[SKY_BANDS]; /* upper ends */
+    struct environment map; /* where there is one, in place of the colours */
+    float cdf[SKY_BANDS];   /* upper ends */
     float mean_luminance;
 };
 
@@ -61,7 +63,7 @@ bool lights_sample(const struct lights *l, struct vec3 position, struct vec3 nor
  * point with this `total`, for a direction chosen with density `pdf`. */
 struct vec3 lights_sun_radiance(const struct lights *l, struct vec3 direction, float total, float pdf);
 
-/* Fill in the cdf from the three colours. */
+/* Fill in the cdf from the three colours, or the mean from the map. */
 void sky_bands_build(struct sky *s);
 
 struct vec3 sky_radiance(const struct sky *s, struct vec3 direction);

@@ -52,6 +52,13 @@ struct raycast_sky {
     float zenith[3], horizon[3], ground[3];
 };
 
+/* Radiance from all directions, in place of the sky: rows from +Y down to -Y, columns from +Z around by -X,
+ * -Z, in the middle, and +X. Texels are not mixed. */
+struct raycast_environment {
+    const float *rgb; /* 3 * width * height, finite and not negative; outlives the tracer. NULL: none */
+    uint32_t width, height;
+};
+
 struct raycast_sun {
     float direction[3];  /* the way the light travels; any length but zero */
     float irradiance[3]; /* on a plane facing the sun; all zero: no sun */
@@ -76,6 +83,7 @@ enum raycast_materials { RAYCAST_MATERIALS_GLTF, RAYCAST_MATERIALS_LAMBERT };
 struct raycast_view {
     struct raycast_camera camera;
     struct raycast_sky sky;
+    struct raycast_environment environment;
     struct raycast_sun sun;
     const struct raycast_light *lights; /* beside those of the scene; copied */
     uint32_t light_count;

@@ -2,6 +2,7 @@
  * sdfgi compare: how far a picture is from its reference. */
 #include "cli.h"
 #include "commands.h"
+#include "run_options.h"
 #include "compare/compare.h"
 #include "file/json_write.h"
 #include "file/output_names.h"
@@ -17,6 +18,7 @@
 struct options {
     const char *picture, *reference, *mask, *error_map, *strip;
     bool json;
+    struct run_common common;
 };
 
 struct images {
@@ -90,7 +92,7 @@ static void print_text(const struct compare_result *r)
 }
 
 /* NaN and infinity have no place in JSON: they become null. */
-static bool print_json(const struct compare_result *r)
+static cJSON *result_to_json(const struct compare_result *r)
 {
     cJSON *json = cJSON_CreateObject();
     const bool complete =
@@ -105,7 +107,16 @@ static bool print_json(const struct compare_result *r)
         json_add_number(json, "pixels_per_degree", FLIP_PIXELS_PER_DEGREE) &&
         json_add_number(json, "exposure", r->exposure) &&
         cJSON_AddStringToObject(json, "tone_curve", tone_description);
-    char *text = complete ? cJSON_Print(json) : NULL;
+    if (complete)
+        return json;
+    cJSON_Delete(json);
+    return NULL;
+}
+
+static bool print_json(const struct compare_result *r)
+{
+    cJSON *json = result_to_json(r);
+    char *text = json ? cJSON_Print(json) : NULL;
     if (text)
         puts(text);
     cJSON_free(text);
@@ -126,6 +137,11 @@ static int compare(const struct options *options, struct images *images)
                         sizeof error) ||
         !write_maps(options, images, result.exposure, error, sizeof error))
         return cli_error("%s", error);
+    if (options->common.report &&
+        !json_write_file(result_to_json(&result), options->common.report, error, sizeof error))
+        return cli_error("%s", error);
+    if (options->common.quiet)
+        return CLI_EXIT_OK;
     if (!options->json)
         print_text(&result);
     else if (!print_json(&result))
@@ -142,6 +158,7 @@ int cmd_compare(int argc, char **argv)
         { "error-map", CLI_TEXT, &o.error_map, "FILE.png", .help = "write FLIP's error of each pixel" },
         { "strip", CLI_TEXT, &o.strip, "FILE.png",
           .help = "write PICTURE, REFERENCE and the error map side by side" },
+        RUN_COMMON_OPTIONS(&o.common, RUN_NO_DEVICE, "what is printed, as JSON"),
     };
     const struct cli_positional positionals[] = { { "PICTURE", &o.picture, true },
                                                   { "REFERENCE", &o.reference, true } };
@@ -157,8 +174,9 @@ int cmd_compare(int argc, char **argv)
         return cli_exit_code(outcome);
     char error[CLI_ERROR_BYTES];
     const struct output_name outputs[] = { { o.error_map, "--error-map", NULL },
-                                           { o.strip, "--strip", NULL } };
-    if (!output_names_check(outputs, 2, error, sizeof error))
+                                           { o.strip, "--strip", NULL },
+                                           { o.common.report, "--report", NULL } };
+    if (!output_names_check(outputs, 3, error, sizeof error))
         return cli_error("%s", error);
     struct images images = { 0 };
     const int code = compare(&o, &images);

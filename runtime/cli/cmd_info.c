@@ -4,7 +4,9 @@
 #include "cli.h"
 #include "commands.h"
 #include "run_options.h"
+#include "file/json_write.h"
 #include "host/host.h"
+#include "report/report.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -33,22 +35,19 @@ static void print_device(const struct host_device_info *info)
            info->reason);
 }
 
-static int print_memory(const struct sdfgi_settings *settings, uint32_t frames_in_flight)
+static void print_memory(const struct sdfgi_settings *settings, const struct sdfgi_memory *memory,
+                         uint32_t frames_in_flight)
 {
-    struct sdfgi_memory memory;
-    if (sdfgi_estimate_memory(settings, frames_in_flight, &memory) != SDFGI_OK)
-        return cli_error("info: the memory of these settings cannot be estimated");
     char cascades[32], resolution[32];
     sdfgi_settings_format(settings, "sdfgi_cascades", cascades, sizeof cascades);
     sdfgi_settings_format(settings, "sdfgi_resolution", resolution, sizeof resolution);
     printf("memory, %s cascades of %s cells, %u frames in flight\n", cascades, resolution, frames_in_flight);
     for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
         printf("  %-10s %12" PRIu64 " bytes  %8.2f MiB\n",
-               sdfgi_memory_category_name((enum sdfgi_memory_category)i), memory.bytes[i],
-               (double)memory.bytes[i] / bytes_per_mib);
-    printf("  %-10s %12" PRIu64 " bytes  %8.2f MiB\n", "total", memory.total_bytes,
-           (double)memory.total_bytes / bytes_per_mib);
-    return CLI_EXIT_OK;
+               sdfgi_memory_category_name((enum sdfgi_memory_category)i), memory->bytes[i],
+               (double)memory->bytes[i] / bytes_per_mib);
+    printf("  %-10s %12" PRIu64 " bytes  %8.2f MiB\n", "total", memory->total_bytes,
+           (double)memory->total_bytes / bytes_per_mib);
 }
 
 static void print_debug_views(void)
@@ -66,32 +65,75 @@ static bool is_selected(const struct host_device_info *info, const char *select)
     return !select || strcmp(index, select) == 0;
 }
 
-static int print_devices(const char *select)
+/* All that is known without rendering. */
+struct inventory {
+    const struct sdfgi_settings *settings;
+    const struct sdfgi_memory *memory;
+    uint32_t frames_in_flight;
+    struct host_device_info *infos;
+};
+
+static bool add_device(cJSON *list, const struct host_device_info *info)
 {
-    char error[CLI_ERROR_BYTES];
-    struct host_device_info *infos = calloc(DEVICES_MAX, sizeof *infos);
-    if (!infos)
-        return cli_error("info: out of memory");
-    const uint32_t count = host_device_list(infos, DEVICES_MAX, error, sizeof error);
-    uint32_t printed = 0;
-    for (uint32_t i = 0; i < count && i < DEVICES_MAX; i++)
-        if (is_selected(&infos[i], select)) {
-            print_device(&infos[i]);
-            printed++;
+    cJSON *device = json_add_element(list);
+    return json_add_number(device, "index", info->index) && json_add_text(device, "name", info->name) &&
+           json_add_text(device, "driver", info->driver) && json_add_text(device, "type", info->type) &&
+           json_add_number(device, "local_bytes", (double)info->local_bytes) &&
+           cJSON_AddBoolToObject(device, "supported", info->requirements.supported) &&
+           cJSON_AddBoolToObject(device, "usable", info->usable) &&
+           json_add_text(device, "reason", info->reason[0] ? info->reason : NULL);
+}
+
+static cJSON *inventory_to_json(const struct inventory *inventory, const char *select, uint32_t count)
+{
+    cJSON *json = cJSON_CreateObject(), *memory = json_add_object(json, "memory");
+    bool complete = json_add_number(memory, "total_bytes", (double)inventory->memory->total_bytes) &&
+                    json_add_item(json, "settings", report_settings_to_json(inventory->settings));
+    cJSON *bytes = json_add_object(memory, "by_category"), *list = cJSON_AddArrayToObject(json, "devices");
+    for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
+        complete =
+            complete && json_add_number(bytes, sdfgi_memory_category_name((enum sdfgi_memory_category)i),
+                                        (double)inventory->memory->bytes[i]);
+    for (uint32_t i = 0; i < count; i++)
+        if (is_selected(&inventory->infos[i], select))
+            complete = complete && add_device(list, &inventory->infos[i]);
+    if (complete)
+        return json;
+    cJSON_Delete(json);
+    return NULL;
+}
+
+static int show(const struct inventory *inventory, const struct run_common *common)
+{
+    char error[CLI_ERROR_BYTES], list_error[CLI_ERROR_BYTES];
+    uint32_t found = 0;
+    if (!common->quiet) {
+        print_memory(inventory->settings, inventory->memory, inventory->frames_in_flight);
+        print_debug_views();
+    }
+    const uint32_t all = host_device_list(inventory->infos, DEVICES_MAX, list_error, sizeof list_error);
+    const uint32_t count = all < DEVICES_MAX ? all : DEVICES_MAX;
+    for (uint32_t i = 0; i < count; i++)
+        if (is_selected(&inventory->infos[i], common->device)) {
+            found++;
+            if (!common->quiet)
+                print_device(&inventory->infos[i]);
         }
-    free(infos);
-    if (count == 0)
+    if (common->report && !json_write_file(inventory_to_json(inventory, common->device, count),
+                                           common->report, error, sizeof error))
         return cli_error("%s", error);
-    return printed ? CLI_EXIT_OK : cli_error("info: --device is %s, there are %u devices", select, count);
+    if (all == 0)
+        return cli_error("%s", list_error);
+    return found ? CLI_EXIT_OK : cli_error("info: --device is %s, there are %u devices", common->device, all);
 }
 
 int cmd_info(int argc, char **argv)
 {
-    const char *device = NULL;
+    struct run_common common = { .quiet = false };
     uint32_t frames_in_flight = 2;
     struct cli_list set = { .count = 0 };
     const struct cli_option options[] = {
-        { "device", CLI_TEXT, &device, "N", .help = "only the device of this index" },
+        RUN_COMMON_OPTIONS(&common, "only the device of this index", "devices and memory, as JSON"),
         { "set", CLI_LIST, &set, "KEY=VALUE", .help = "a setting, for the memory estimate" },
         { "frames-in-flight", CLI_UINT, &frames_in_flight, "N", .help = "1 to 8, for the memory estimate; 2",
           .minimum = 1, .maximum = 8 },
@@ -108,9 +150,17 @@ int cmd_info(int argc, char **argv)
     sdfgi_settings_default(&settings);
     if (!run_apply_settings("info", &set, &settings))
         return CLI_EXIT_USAGE;
-    /* These need no device, so they are printed even where there is none. */
-    const int estimated = print_memory(&settings, frames_in_flight);
-    print_debug_views();
-    const int listed = print_devices(device);
-    return estimated != CLI_EXIT_OK ? estimated : listed;
+    /* Memory and views need no device: they are printed even where there is none. */
+    struct host_device_info *infos = calloc(DEVICES_MAX, sizeof *infos);
+    struct sdfgi_memory memory;
+    const bool estimated = sdfgi_estimate_memory(&settings, frames_in_flight, &memory) == SDFGI_OK;
+    if (!infos || !estimated) {
+        free(infos);
+        return cli_error("info: %s",
+                         infos ? "the memory of these settings cannot be estimated" : "out of memory");
+    }
+    const struct inventory inventory = { &settings, &memory, frames_in_flight, infos };
+    const int code = show(&inventory, &common);
+    free(infos);
+    return code;
 }

@@ -4,12 +4,14 @@
 #include "commands.h"
 #include "reference_voxels.h"
 #include "run_options.h"
+#include "file/json_write.h"
 #include "file/output_file.h"
 #include "file/stop.h"
 #include "image/image.h"
 #include "view/view_file.h"
 
 #include <modules/gltf/gltf_scene.h>
+#include <math.h>
 #include <modules/raycast/raycast.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +24,9 @@ static const double state_interval_s = 30;
 static const double degrees_per_radian = 57.29577951308232;
 
 struct options {
-    const char *scene, *view, *out, *geometry, *device;
+    struct run_scene from;
+    struct run_common common;
+    const char *out, *geometry;
     struct cli_size size;
     struct cli_list aov, set;
     uint32_t spp, bounces, threads;
@@ -85,9 +89,8 @@ static bool parse_geometry(struct options *options)
         cli_error("reference: --geometry is \"%s\", expected triangles or voxels", options->geometry);
         return false;
     }
-    if (!options->voxels && (options->set.count > 0 || options->device)) {
-        cli_error("reference: %s is of use with --geometry voxels alone",
-                  options->device ? "--device" : "--set");
+    if (!options->voxels && options->set.count > 0) {
+        cli_error("reference: --set is of use with --geometry voxels alone");
         return false;
     }
     sdfgi_settings_default(&options->settings);
@@ -96,16 +99,17 @@ static bool parse_geometry(struct options *options)
 
 static bool check_outputs(struct options *options)
 {
-    struct output_name names[CLI_LIST_MAX + 1] = { { options->out, "--out", NULL } };
+    struct output_name names[CLI_LIST_MAX + 2] = { { options->out, "--out", NULL },
+                                                   { options->common.report, "--report", NULL } };
     if (!check_format(options->out))
         return false;
     for (uint32_t i = 0; i < options->aov.count; i++) {
         const char *pair = options->aov.values[i];
         if (!parse_aov(options, pair))
             return false;
-        names[1 + i] = (struct output_name){ strchr(pair, '=') + 1, "--aov", pair };
+        names[2 + i] = (struct output_name){ strchr(pair, '=') + 1, "--aov", pair };
     }
-    return run_check_outputs(names, 1 + options->aov.count);
+    return run_check_outputs(names, 2 + options->aov.count);
 }
 
 /* What the parser cannot know. */
@@ -125,7 +129,7 @@ static bool options_finish(struct options *options)
     return true;
 }
 
-static const char notes[] =
+static const char notes[] = RUN_SCENE_NOTES
     "AOVs: radiance, emission, direct, diffuse_indirect, reflection, irradiance, normal, depth, albedo, and\n"
     "variance (of the mean, per channel). --spp counts from the start of the picture, --time from the start "
     "of\n"
@@ -146,8 +150,10 @@ static const char notes[] =
 static enum cli_outcome parse(struct options *o, int argc, char **argv)
 {
     const struct cli_option rows[] = {
-        { "view", CLI_TEXT, &o->view, "FILE",
+        { "view", CLI_TEXT, &o->from.view, "FILE",
           .help = "VIEW.json; without it a view is made up from the scene" },
+        RUN_CAMERA_OPTION(&o->from),
+        RUN_SCENE_OPTIONS(&o->from, "pose-time"),
         { "out", CLI_TEXT, &o->out, "FILE", .help = "the picture: .exr, .hdr or .pfm", .required = true },
         { "spp", CLI_UINT, &o->spp, "N", .help = "samples per pixel (64 if there is no other limit)",
           .minimum = 1, .maximum = 1e8, .given = &o->spp_given },
@@ -165,13 +171,12 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "another picture, see below" },
         { "geometry", CLI_TEXT, &o->geometry, "KIND", .help = "triangles, the default, or voxels" },
         { "set", CLI_LIST, &o->set, "KEY=VALUE", .help = "with voxels: a setting, see sdfgi properties" },
-        { "device", CLI_TEXT, &o->device, "N",
-          .help = "with voxels: index or part of the name of the device" },
         { "cull-back-faces", CLI_FLAG, &o->cull_back_faces,
           .help = "the camera sees through the backs of single-sided faces, as a rasteriser does" },
+        RUN_COMMON_OPTIONS(&o->common, "with voxels: " RUN_DEVICE_HELP, "samples, rays and error as JSON"),
         { "resume", CLI_FLAG, &o->resume, .help = "go on from OUT.state where there is one, and keep it" },
     };
-    const struct cli_positional positionals[] = { { "SCENE", &o->scene, .required = true } };
+    const struct cli_positional positionals[] = { { "SCENE", &o->from.scene, .required = true } };
     const struct cli_spec spec = { "reference",
                                    "Traces paths through a glTF scene: ground truth for the renderer.",
                                    CLI_ARRAY(rows), CLI_ARRAY(positionals), notes };
@@ -214,6 +219,7 @@ static struct raycast_view view_convert(const struct host_view *from, struct ray
                     .zfar_m = from->camera.zfar_m },
         .lights = lights,
         .light_count = from->light_count,
+        .environment = { from->environment.rgb, from->environment.width, from->environment.height },
         .punctual_scale = from->punctual_scale,
         .emissive_scale = from->emissive_scale,
         .materials =
@@ -234,25 +240,12 @@ static struct raycast_view view_convert(const struct host_view *from, struct ray
 
 static bool load_inputs(struct run *run)
 {
-    char error[CLI_ERROR_BYTES];
-    run->gltf = gltf_scene_load(run->options->scene, error, sizeof error);
-    if (!run->gltf) {
-        cli_error("%s", error);
-        return false;
-    }
-    if (run->gltf->warning)
-        fprintf(stderr, "sdfgi: %s\n", run->gltf->warning);
-    if (!run->options->view) {
-        view_file_from_scene(run->gltf, &run->view);
-        return true;
-    }
-    if (!view_file_load(run->options->view, &run->view, error, sizeof error)) {
-        cli_error("%s", error);
-        return false;
-    }
-    if (run->view.fog.density > 0)
-        fprintf(stderr, "sdfgi: warning: %s: the reference leaves out fog\n", run->options->view);
-    return true;
+    const struct options *const o = run->options;
+    run->gltf = run_load_scene("reference", &o->from, (double)o->size.width / o->size.height, o->common.quiet,
+                               &run->view);
+    if (run->gltf && run->view.fog.density > 0 && !o->common.quiet)
+        fprintf(stderr, "sdfgi: warning: %s: the reference leaves out fog\n", o->from.view);
+    return run->gltf != NULL;
 }
 
 static uint32_t aov_bits(const struct options *options)
@@ -293,7 +286,8 @@ static bool create_tracer(struct run *run)
 static bool voxelize(struct run *run)
 {
     const struct options *o = run->options;
-    return !o->voxels || reference_voxels_read(run->gltf, &run->view, &o->settings, o->device, &run->voxels);
+    return !o->voxels ||
+           reference_voxels_read(run->gltf, &run->view, &o->settings, o->common.device, &run->voxels);
 }
 
 /* ---- The run ---------------------------------------------------------------------------------------- */
@@ -389,6 +383,29 @@ static bool write_images(const struct run *run)
     return ok;
 }
 
+static bool write_report(const struct run *run, const struct raycast_progress *p)
+{
+    const struct raycast_settings *const s = raycast_settings_get(run->raycast);
+    char error[CLI_ERROR_BYTES];
+    cJSON *json = cJSON_CreateObject(), *size = cJSON_AddArrayToObject(json, "size");
+    const bool complete = cJSON_AddItemToArray(size, cJSON_CreateNumber(s->width)) &&
+                          cJSON_AddItemToArray(size, cJSON_CreateNumber(s->height)) &&
+                          json_add_text(json, "scene", run->options->from.scene) &&
+                          json_add_number(json, "samples_per_pixel", p->mean_samples) &&
+                          json_add_number(json, "seconds", p->seconds) &&
+                          json_add_number(json, "rays", (double)p->rays) &&
+                          json_add_number(json, "relative_error", p->samples >= 16 ? p->error : NAN) &&
+                          json_add_number(json, "samples_not_finite", (double)p->not_finite);
+    if (!complete) {
+        cJSON_Delete(json);
+        json = NULL;
+    }
+    if (json_write_file(json, run->options->common.report, error, sizeof error))
+        return true;
+    cli_error("%s", error);
+    return false;
+}
+
 static void print_summary(const struct run *run, const struct raycast_progress *p)
 {
     const struct raycast_settings *const s = raycast_settings_get(run->raycast);
@@ -437,8 +454,9 @@ static int keep(struct run *run, const struct raycast_progress *last, bool finis
     }
     if (run->saved && !o->resume)
         remove(o->state_path);
-    print_summary(run, last);
-    return CLI_EXIT_OK;
+    if (!o->common.quiet)
+        print_summary(run, last);
+    return !o->common.report || write_report(run, last) ? CLI_EXIT_OK : CLI_EXIT_FAILURE;
 }
 
 static int trace(struct run *run)

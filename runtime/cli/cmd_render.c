@@ -17,10 +17,12 @@
 enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2, FRAMES_OFF = 5 };
 
 struct options {
-    const char *scene, *view, *frames, *report, *device, *out, *debug_name;
+    struct run_scene from;
+    struct run_common common;
+    const char *frames, *out, *debug_name;
     struct run_lookup_names lookup_names;
     struct cli_size size;
-    bool gi, quiet;
+    bool gi;
     struct cli_list set, aov;
     uint32_t supersample, seed;
     double exposure, gi_exposure;
@@ -88,7 +90,7 @@ static bool check_outputs(const struct options *options)
         return false;
     }
     struct output_name names[CLI_LIST_MAX + 2] = { { options->out, "--out", NULL },
-                                                   { options->report, "--report", NULL } };
+                                                   { options->common.report, "--report", NULL } };
     for (uint32_t i = 0; i < options->aov.count; i++) {
         enum host_aov aov;
         const char *pair = options->aov.values[i], *path = split_aov(pair, &aov);
@@ -124,7 +126,10 @@ static bool resolve_options(struct options *options)
 static enum cli_outcome parse(struct options *o, int argc, char **argv)
 {
     const struct cli_option table[] = {
-        { "view", CLI_TEXT, &o->view, "VIEW.json", .help = "camera, sky and lights; else from the scene" },
+        { "view", CLI_TEXT, &o->from.view, "VIEW.json",
+          .help = "camera, sky and lights; else from the scene" },
+        RUN_CAMERA_OPTION(&o->from),
+        RUN_SCENE_OPTIONS(&o->from, "time"),
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
@@ -138,25 +143,23 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "eyes", CLI_FLOAT, &o->eyes.distance_m, "METRES", .help = RUN_EYES_HELP, .minimum = 1e-4,
           .maximum = 1e6 },
         { "aov", CLI_LIST, &o->aov, "NAME=FILE", .help = "one part of the light, as .exr, .hdr or .pfm" },
-        { "report", CLI_TEXT, &o->report, "FILE", .help = "times, work, memory and health as JSON" },
-        { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
+        RUN_COMMON_OPTIONS(&o->common, RUN_DEVICE_HELP, "times, work, memory and health as JSON"),
         { "ssaa", CLI_UINT, &o->supersample, "N", .help = "samples along a side of a pixel; 1", .minimum = 1,
           .maximum = 4 },
         { "exposure", CLI_FLOAT, &o->exposure, "X", .help = "factor for PNG; 0, the default: automatic",
           .minimum = 0, .maximum = 1e12 },
         { "seed", CLI_UINT, &o->seed, "N", .help = "of the random sequence; 0" },
-        { "quiet", CLI_FLAG, &o->quiet, .help = "print nothing but errors" },
         { "out", CLI_TEXT, &o->out, "FILE", .help = "picture: .png, .exr, .hdr or .pfm", .required = true },
     };
-    const struct cli_positional positionals[] = { { "SCENE", &o->scene, true } };
+    const struct cli_positional positionals[] = { { "SCENE", &o->from.scene, true } };
     const struct cli_spec spec = {
         "render", "Renders a glTF scene offscreen.", CLI_ARRAY(table), CLI_ARRAY(positionals),
-        "Float pictures are linear radiance without exposure. Parts of the light: "
-        "color, direct, diffuse_indirect,\n"
-        "irradiance, reflection, normal, depth, albedo, roughness. Debug views are linear from 0 to 1.\n"
-        "SIGINT and SIGTERM end it after the frame in flight. The files are written "
-        "as they are then, and the exit\n"
-        "code is 128 + the signal's number."
+        RUN_SCENE_NOTES "Float pictures are linear radiance without exposure. Parts of the light: "
+                        "color, direct, diffuse_indirect,\n"
+                        "irradiance, reflection, normal, depth, albedo, roughness. Debug views are linear from 0 to 1.\n"
+                        "SIGINT and SIGTERM end it after the frame in flight. The files are written "
+                        "as they are then, and the exit\n"
+                        "code is 128 + the signal's number."
     };
     return cli_parse(&spec, argc, argv);
 }
@@ -165,10 +168,11 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
 
 static bool start(struct run *run, const struct options *options)
 {
-    run->gltf = run_load_scene(options->scene, options->view, &run->view);
+    const double aspect = (double)options->size.width / options->size.height;
+    run->gltf = run_load_scene("render", &options->from, aspect, options->common.quiet, &run->view);
     if (!run->gltf)
         return false;
-    run->device = run_open_device(options->device);
+    run->device = run_open_device(options->common.device);
     if (!run->device)
         return false;
     run->scene = host_scene_create(run->device, run->gltf, &run->view);
@@ -176,7 +180,7 @@ static bool start(struct run *run, const struct options *options)
                                              .height = options->size.height,
                                              .supersample = options->supersample,
                                              .settings = &options->settings,
-                                             .log = { options->quiet ? NULL : run_log, NULL },
+                                             .log = { options->common.quiet ? NULL : run_log, NULL },
                                              .seed = options->seed,
                                              .gi_exposure = (float)options->gi_exposure,
                                              .lookups = options->lookups,
@@ -313,7 +317,7 @@ static bool write_run_report(struct run *run, const struct options *options)
     summary.device_name = info.name;
     summary.device_driver = info.driver;
     summary.device_type = info.type;
-    if (report_write(&run->report, &summary, options->report, error, sizeof error))
+    if (report_write(&run->report, &summary, options->common.report, error, sizeof error))
         return true;
     cli_error("%s", error);
     return false;
@@ -324,7 +328,7 @@ static bool measure_cost(struct run *run, const struct options *options)
 {
     struct report_cost_pair pairs[FRAMES_OFF];
     struct host_times times;
-    if (!options->settings.enabled || (options->quiet && !options->report) || run->stopped)
+    if (!options->settings.enabled || (options->common.quiet && !options->common.report) || run->stopped)
         return true;
     for (int i = 0; i < FRAMES_OFF; i++) {
         if (!host_renderer_frame_without_gi(run->renderer, &run->view.camera)) {
@@ -350,7 +354,8 @@ static bool write_outputs(struct run *run, const struct options *options)
         const char *path = split_aov(options->aov.values[i], &aov);
         written = path && write_float(run, options, aov, path);
     }
-    return written && measure_cost(run, options) && (!options->report || write_run_report(run, options));
+    return written && measure_cost(run, options) &&
+           (!options->common.report || write_run_report(run, options));
 }
 
 static void print_summary(struct run *run, const struct options *options)
@@ -392,7 +397,7 @@ int cmd_render(int argc, char **argv)
     const bool stopped = done && run->stopped;
     if (stopped)
         print_stop(run, &options);
-    else if (done && !options.quiet)
+    else if (done && !options.common.quiet)
         print_summary(run, &options);
     finish(run);
     free(run);

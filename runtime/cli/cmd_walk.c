@@ -19,21 +19,24 @@
 static const char default_scene[] = "out/world.glb";
 
 struct options {
-    const char *scene, *path, *view, *device, *report, *out, *debug_name;
+    struct run_scene from;
+    struct run_common common;
+    const char *path, *out, *debug_name;
     struct run_lookup_names lookup_names;
     struct cli_size size;
     struct cli_list set, samples;
     double speed_m_s, fps, start_m, exposure, gi_exposure;
     uint32_t frames, hold, every, seed;
-    bool hold_given, window, quiet;
+    bool hold_given, window;
 };
 
 static enum cli_outcome parse(struct options *o, int argc, char **argv)
 {
     const struct cli_option table[] = {
         { "path", CLI_TEXT, &o->path, "PATH.json", .help = "the way; views/walk.json beside the scene" },
-        { "view", CLI_TEXT, &o->view, "VIEW.json",
+        { "view", CLI_TEXT, &o->from.view, "VIEW.json",
           .help = "sky and lights; else the path's, or the scene's" },
+        RUN_SCENE_OPTIONS(&o->from, "time"),
         { "frames", CLI_UINT, &o->frames, "N", .help = "frames to walk; else to the end of the way",
           .minimum = 1, .maximum = WALK_FRAMES_MAX },
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 640x360", .minimum = 1, .maximum = 16384 },
@@ -58,15 +61,14 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "exposure", CLI_FLOAT, &o->exposure, "X", .help = "factor for PNG; 0, the default: automatic",
           .minimum = 0, .maximum = 1e12 },
         { "seed", CLI_UINT, &o->seed, "N", .help = "of the random sequence; 0" },
-        { "device", CLI_TEXT, &o->device, "N", .help = "index of the device or a part of its name" },
-        { "report", CLI_TEXT, &o->report, "FILE", .help = "every frame as JSON; DIR/report.json" },
-        { "quiet", CLI_FLAG, &o->quiet, .help = "print nothing but errors" },
+        RUN_COMMON_OPTIONS(&o->common, RUN_DEVICE_HELP, "every frame as JSON; DIR/report.json"),
         { "out", CLI_TEXT, &o->out, "DIR", .help = "folder for what is written", .required = true },
     };
-    const struct cli_positional positionals[] = { { "SCENE", &o->scene, false } };
+    const struct cli_positional positionals[] = { { "SCENE", &o->from.scene, false } };
     const struct cli_spec spec = {
         "walk", "Drives a camera along a path through a glTF scene.", CLI_ARRAY(table),
         CLI_ARRAY(positionals),
+        RUN_SCENE_NOTES
         "Without SCENE, walks through out/world.glb, which ./run.sh makes. Writes\n"
         "  DIR/contact_sheet.png  12 moments, without GI above with GI\n"
         "  DIR/report.json        every frame: passes, why they ran, work, times\n"
@@ -99,12 +101,14 @@ static char *default_path(const char *scene)
 static bool load_path(const struct options *o, struct walk_order *order, char **path_name)
 {
     char error[CLI_ERROR_BYTES];
-    order->scene = o->scene ? o->scene : default_scene;
-    if (!o->scene && access(default_scene, F_OK) != 0) {
+    order->from = o->from;
+    if (!order->from.scene)
+        order->from.scene = default_scene;
+    if (!o->from.scene && access(default_scene, F_OK) != 0) {
         cli_error("walk: no SCENE is given, and %s is not there: ./run.sh makes it", default_scene);
         return false;
     }
-    *path_name = o->path ? NULL : default_path(order->scene);
+    *path_name = o->path ? NULL : default_path(order->from.scene);
     order->path_name = o->path ? o->path : *path_name;
     if (!order->path_name) {
         cli_error("walk: out of memory");
@@ -206,14 +210,14 @@ static bool resolve_outputs(const struct options *o, const struct walk_order *or
 {
     const bool fits = walk_output_path(order, "contact_sheet.png", outputs->sheet) &&
                       walk_output_path(order, "walk.svg", outputs->plot) &&
-                      (o->report ? strlen(o->report) < WALK_PATH_BYTES
-                                 : walk_output_path(order, "report.json", outputs->report));
+                      (o->common.report ? strlen(o->common.report) < WALK_PATH_BYTES
+                                        : walk_output_path(order, "report.json", outputs->report));
     if (!fits) {
         cli_error("walk: --out or --report is longer than %d bytes", WALK_PATH_BYTES - 32);
         return false;
     }
-    if (o->report)
-        strcpy(outputs->report, o->report);
+    if (o->common.report)
+        strcpy(outputs->report, o->common.report);
     outputs->made_folder = mkdir(order->out, 0777) == 0;
     if (!outputs->made_folder && errno != EEXIST) {
         cli_error("%s: cannot be made: %s", order->out, strerror(errno));
@@ -280,19 +284,19 @@ static bool resolve(const struct options *o, struct walk_order *order, char **pa
     order->settings.enabled = true;
     order->out = o->out;
     order->size = o->size;
-    order->device = o->device;
+    order->common = o->common;
     order->exposure = o->exposure;
     order->gi_exposure = o->gi_exposure;
     order->seed = o->seed;
     order->every = o->every;
     order->window = o->window;
-    order->quiet = o->quiet;
     if (!run_apply_settings("walk", &o->set, &order->settings) ||
         !run_parse_lookups("walk", &o->lookup_names, &order->lookups) ||
         !run_parse_debug("walk", o->debug_name, order->settings.enabled, &order->debug) ||
         !load_path(o, order, path_name))
         return false;
-    order->view = o->view ? o->view : order->path.view;
+    if (!order->from.view)
+        order->from.view = order->path.view;
     return resolve_pace(o, order) && resolve_samples(o, order);
 }
 
@@ -310,7 +314,7 @@ static int walk(const struct options *options, struct walk_order *order)
     if (stopped)
         cli_error("walk: stopped by %s after %u of %u frames; %s has the report and the plot%s of those",
                   stop_name(), frames, order->frames, order->out, order->window ? "" : " and the pictures");
-    else if (walked && !order->quiet)
+    else if (walked && !order->common.quiet)
         print_summary(&result, order->out);
     walk_record_finish(&result.record);
     return stopped ? stop_exit_code() : walked ? CLI_EXIT_OK : CLI_EXIT_FAILURE;

@@ -3,7 +3,9 @@
 
 #include "file/cache_file.h"
 #include "view/view_file.h"
+#include "view/view_option.h"
 
+#include <base/text.h>
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
 #include <string.h>
@@ -69,25 +71,41 @@ bool run_parse_eyes(const char *command, const struct run_eyes *eyes, float *dis
     return false;
 }
 
-struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view)
+/* What the command line says goes over what the file or the scene says. */
+static bool view_change(const struct run_scene *from, const struct gltf_scene *scene, double aspect,
+                        struct host_view *view, char *error, size_t error_size)
+{
+    if (from->environment && from->sky)
+        return base_text_error(error, error_size, "--sky and --environment: give one of them");
+    return (!from->environment || view_option_environment(from->environment, view, error, error_size)) &&
+           (!from->sky || view_option_sky(from->sky, view, error, error_size)) &&
+           (!from->sun || view_option_sun(from->sun, view, error, error_size)) &&
+           (!from->camera || view_option_camera(from->camera, scene, aspect, view, error, error_size));
+}
+
+struct gltf_scene *run_load_scene(const char *command, const struct run_scene *from, double aspect,
+                                  bool quiet, struct host_view *view)
 {
     char error[CLI_ERROR_BYTES];
+    const struct gltf_pose pose = { from->time_s };
     *view = (struct host_view){ 0 };
-    if (view_path && !view_file_load(view_path, view, error, sizeof error)) {
+    if (from->view && !view_file_load(from->view, view, error, sizeof error)) {
         cli_error("%s", error);
         return NULL;
     }
-    struct gltf_scene *scene = gltf_scene_load(scene_path, error, sizeof error);
-    if (!scene) {
-        view_file_finish(view);
-        cli_error("%s", error);
-        return NULL;
-    }
-    if (scene->warning)
+    struct gltf_scene *scene =
+        gltf_scene_load_posed(from->scene, from->time_given ? &pose : NULL, error, sizeof error);
+    if (scene && scene->warning && !quiet)
         fprintf(stderr, "sdfgi: warning: %s\n", scene->warning);
-    if (!view_path)
-        view_file_from_scene(scene, view);
-    return scene;
+    if (scene && !from->view)
+        view_file_from_scene(scene, aspect, view);
+    const bool changed = scene && view_change(from, scene, aspect, view, error, sizeof error);
+    if (changed)
+        return scene;
+    cli_error("%s%s%s", scene ? command : "", scene ? ": " : "", error);
+    gltf_scene_destroy(scene);
+    view_file_finish(view);
+    return NULL;
 }
 
 const char *run_cache_folder(void)

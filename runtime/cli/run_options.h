@@ -56,9 +56,51 @@ struct run_eyes {
  * one line and returns false. */
 bool run_parse_eyes(const char *command, const struct run_eyes *eyes, float *distance_m);
 
-/* Loads the scene, and the view from `view_path` or, if that is NULL, from the scene. Prints warnings, and
- * one line on failure. On success the caller calls gltf_scene_destroy and view_file_finish. */
-struct gltf_scene *run_load_scene(const char *scene_path, const char *view_path, struct host_view *view);
+/* What every sub-command takes, as rows of its table. `device_help` says what the device is for. */
+struct run_common {
+    const char *device, *report;
+    bool quiet;
+};
+#define RUN_COMMON_OPTIONS(common, device_help, report_help)                                                 \
+    { "device", CLI_TEXT, &(common)->device, "N", .help = device_help },                                     \
+        { "report", CLI_TEXT, &(common)->report, "FILE", .help = report_help },                              \
+    {                                                                                                        \
+        "quiet", CLI_FLAG, &(common)->quiet, .help = "print nothing but errors"                              \
+    }
+#define RUN_DEVICE_HELP "index of the device or a part of its name"
+#define RUN_NO_DEVICE   "accepted everywhere; no device is needed here"
+
+/* What every sub-command takes that shows a scene. Where a VIEW.json says the same, these count. */
+struct run_scene {
+    const char *scene, *view, *sky, *sun, *environment, *camera;
+    double time_s;
+    bool time_given;
+};
+#define RUN_SCENE_OPTIONS(from, time_name)                                                                   \
+    { "sky", CLI_TEXT, &(from)->sky, "SKY", .help = "none, day, a radiance, R,G,B, or nine, see below" },    \
+        { "sun", CLI_TEXT, &(from)->sun, "SUN", .help = "none, day, X,Y,Z or X,Y,Z,R,G,B, see below" },      \
+        { "environment", CLI_TEXT, &(from)->environment, "FILE",                                             \
+          .help = "picture of all directions as sky: .hdr, .exr, .pfm" },                                    \
+    {                                                                                                        \
+        time_name, CLI_FLOAT, &(from)->time_s, "SECONDS",                                                    \
+            .help = "moment of the scene's animations; else at rest", .maximum = 1e9,                        \
+            .given = &(from)->time_given                                                                     \
+    }
+#define RUN_CAMERA_OPTION(from)                                                                              \
+    {                                                                                                        \
+        "camera", CLI_TEXT, &(from)->camera, "CAMERA",                                                       \
+            .help = "X,Y,Z,LX,LY,LZ[,DEGREES], a name, an index, or auto"                                    \
+    }
+#define RUN_SCENE_NOTES                                                                                      \
+    "--sky: radiance, one number, R,G,B, or the colours of zenith, horizon and ground. --sun: the way the "  \
+    "light\ntravels, and its irradiance. --environment: rows from up to down, -Z in the middle. Without a "  \
+    "light in the\nscene there are a sky and a sun by default.\n"
+
+/* Loads the scene, and the view from a VIEW.json or from the scene, for pictures of that width over height.
+ * Prints warnings unless it is to be quiet, and one line on failure. On success the caller calls
+ * gltf_scene_destroy and view_file_finish. */
+struct gltf_scene *run_load_scene(const char *command, const struct run_scene *from, double aspect,
+                                  bool quiet, struct host_view *view);
 
 /* A device by its index or a part of its name; NULL: the best one. Prints one line and returns NULL on
  * failure. */

@@ -185,7 +185,7 @@ static struct host_renderer *start_renderer(struct run *run, bool gi)
     const struct host_renderer_desc desc = { .width = order->size.width,
                                              .height = order->size.height,
                                              .settings = &settings,
-                                             .log = { gi && !order->quiet ? run_log : NULL, NULL },
+                                             .log = { gi && !order->common.quiet ? run_log : NULL, NULL },
                                              .seed = order->seed,
                                              .gi_exposure = (float)order->gi_exposure,
                                              .lookups = order->lookups };
@@ -195,7 +195,7 @@ static struct host_renderer *start_renderer(struct run *run, bool gi)
 static bool start_offscreen(struct run *run)
 {
     const struct cli_size size = run->order->size;
-    run->device = run_open_device(run->order->device);
+    run->device = run_open_device(run->order->common.device);
     if (!run->device)
         return false;
     run->scene = host_scene_create(run->device, run->gltf, &run->view);
@@ -333,7 +333,7 @@ static bool walk_in_window(struct run *run)
     const struct walk_order *order = run->order;
     char error[CLI_ERROR_BYTES];
     run->walking = order->hold == 0;
-    const struct host_window_desc desc = { .device_select = order->device,
+    const struct host_window_desc desc = { .device_select = order->common.device,
                                            .cache_folder = run_cache_folder(),
                                            .gltf = run->gltf,
                                            .view = &run->view,
@@ -393,7 +393,7 @@ static void summarise(const struct walk_order *order, struct walk_result *result
     summary->run.height = order->size.height;
     summary->run.settings = order->settings;
     summary->run.estimated_bytes = estimate.total_bytes;
-    summary->scene = order->scene;
+    summary->scene = order->from.scene;
     summary->path = order->path_name;
     summary->length_m = order->path.length_m;
     summary->start_m = order->start_m;
@@ -411,7 +411,8 @@ bool walk_run(const struct walk_order *order, struct walk_result *result)
 {
     struct run run = { .order = order, .result = result };
     const double start_s = cli_time_s();
-    run.gltf = run_load_scene(order->scene, order->view, &run.view);
+    const double aspect = (double)order->size.width / order->size.height;
+    run.gltf = run_load_scene("walk", &order->from, aspect, order->common.quiet, &run.view);
     const bool walked = run.gltf && (order->window ? walk_in_window(&run) : walk_offscreen(&run));
     result->summary.run.seconds = cli_time_s() - start_s;
     finish(&run);

@@ -4,6 +4,7 @@
 #define RUNTIME_WALK_RUN_H
 
 #include "cli.h"
+#include "run_options.h"
 #include "host/host.h"
 #include "walk/walk_path.h"
 #include "walk/walk_record.h"
@@ -12,8 +13,9 @@
 /* What was asked for, all of it resolved and checked. */
 struct walk_order {
     struct walk_path path;
-    const char *scene, *path_name, *view; /* `view` may be NULL: from the scene */
-    const char *device, *out;
+    const char *path_name, *out;
+    struct run_scene from; /* without a view: that of the scene */
+    struct run_common common;
     struct cli_size size;
     struct sdfgi_settings settings;
     struct host_lookups lookups;
@@ -24,7 +26,7 @@ struct walk_order {
     uint32_t every; /* frames from one that is written to the next; 0: none */
     struct host_sample samples[WALK_SAMPLES_MAX];
     uint32_t sample_count;
-    bool window, quiet;
+    bool window;
 };
 
 enum {

@@ -23,6 +23,7 @@
 #include <sdfgi/debug.h>
 #include <sdfgi/inspect.h>
 #include <sdfgi/sdfgi.h>
+#include <sdfgi/sky.h>
 
 #include "host_view.h"
 

@@ -163,10 +163,16 @@ static uint32_t sort_blended(struct host_renderer *renderer, const struct host_f
     return count;
 }
 
-static void draw_sky(struct host_renderer *renderer, VkCommandBuffer cmd)
+static void draw_sky(struct host_renderer *renderer, const struct host_slot *slot)
 {
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer->pipelines.sky);
-    vkCmdDraw(cmd, 3, 1, 0, 0);
+    const VkPipelineLayout layout = renderer->pipelines.layouts[host_sky_kind(renderer->scene)];
+    vkCmdBindDescriptorSets(slot->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, HOST_SET_FRAME, 1,
+                            &host_slot_here(renderer, slot)->set, 0, NULL);
+    if (renderer->scene->environment.exists)
+        vkCmdBindDescriptorSets(slot->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, HOST_SET_GI, 1,
+                                &renderer->environment_set, 0, NULL);
+    vkCmdBindPipeline(slot->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer->pipelines.sky);
+    vkCmdDraw(slot->cmd, 3, 1, 0, 0);
 }
 
 /* What all draws of a kind share. */
@@ -194,12 +200,9 @@ void host_draw_forward(struct host_renderer *renderer, const struct host_slot *s
     struct host_frustum frustum;
     camera_frustum(&renderer->camera, &frustum);
 
-    /* The sky first: its pipeline has the plain layout, which disturbs the GI set. */
-    vkCmdBindDescriptorSets(slot->cmd, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                            pipelines->layouts[HOST_FORWARD_PLAIN], HOST_SET_FRAME, 1,
-                            &host_slot_here(renderer, slot)->set, 0, NULL);
+    /* The sky first: its pipeline's layout disturbs the GI set. */
     if (renderer->shown == HOST_AOV_COLOR)
-        draw_sky(renderer, slot->cmd);
+        draw_sky(renderer, slot);
     bind_forward(renderer, &draw, kind, slot);
 
     for (uint32_t i = 0; i < scene->instance_count; i++) {

@@ -48,6 +48,7 @@ static float scene_brightest(const struct host_scene *scene)
     brightest = brightest_of(brightest, scene->sky.zenith);
     brightest = brightest_of(brightest, scene->sky.horizon);
     brightest = brightest_of(brightest, scene->sky.ground);
+    brightest = brightest_of(brightest, scene->environment.harmonics.coefficients[0]);
     for (uint32_t i = 0; i < scene->sun_count; i++)
         brightest = brightest_of(brightest, scene->suns[i].intensity);
     for (uint32_t i = 0; i < scene->light_count; i++)

@@ -153,7 +153,10 @@ static bool lighting_register(struct host_gi *gi, const struct host_scene *scene
         if (!light_register(gi, &scene->lights[i]))
             return false;
     }
-    return gi_check(gi, sdfgi_set_sky(gi->context, &sky), "setting the sky");
+    return gi_check(gi, sdfgi_set_sky(gi->context, &sky), "setting the sky") &&
+           (!scene->environment.exists ||
+            gi_check(gi, sdfgi_set_sky_harmonics(gi->context, &scene->environment.harmonics),
+                     "setting the environment"));
 }
 
 static bool scene_register(struct host_gi *gi, const struct host_scene *scene)

@@ -147,6 +147,14 @@ struct host_textures {
     VkSampler samplers[HOST_SAMPLER_COUNT];
 };
 
+/* A picture of all directions (host_environment.c). */
+struct host_environment_map {
+    bool exists;
+    struct host_image image;
+    VkSampler sampler;
+    struct sdfgi_sky_harmonics harmonics;
+};
+
 struct host_scene {
     struct host_device *device;
     struct host_buffer geometry, material_data;
@@ -158,6 +166,7 @@ struct host_scene {
     struct host_material *materials;
     struct host_scene_light *suns, *lights;
     struct host_sky sky;
+    struct host_environment_map environment;
     struct host_fog fog;
     uint32_t primitive_count, instance_count, material_count, sun_count, light_count;
     double center[3], radius; /* of everything drawn; the centre in whole 1/64 m */
@@ -167,6 +176,14 @@ const struct host_material *host_instance_material(const struct host_scene *scen
 /* Single-sided faces are invisible from behind; a mirrored instance turns its triangles round. */
 enum host_cull host_instance_cull(const struct host_scene *scene, uint32_t instance);
 
+bool host_environment_init(struct host_scene *scene, const struct host_environment *from);
+void host_environment_finish(struct host_scene *scene);
+/* The set has the layout of the pictures of a view's light. */
+void host_environment_set_write(const struct host_scene *scene, VkDescriptorSet set);
+
+/* An image of four bytes per texel, with mip levels, ready to be sampled. */
+bool host_texture_create(struct host_device *device, VkFormat format, uint32_t width, uint32_t height,
+                         uint32_t mips, const void *texels, struct host_image *out);
 VkSamplerAddressMode host_address_mode(enum gltf_wrap wrap);
 /* Makes image and sampler of a texture reference; `view` gets a white texel where there is none. */
 bool host_textures_get(struct host_device *device, struct host_textures *textures,
@@ -241,9 +258,10 @@ void host_passes_finish(struct host_device *device, struct host_passes *passes);
 bool host_pass_picture_create(struct host_device *device, VkFormat format, VkImageLayout final_layout,
                               VkRenderPass *out);
 /* `fog`: frames have fog. */
-bool host_pipelines_init(struct host_device *device, const struct host_passes *passes,
-                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout, bool fog,
-                         struct host_pipelines *pipelines);
+bool host_pipelines_init(const struct host_scene *scene, const struct host_passes *passes,
+                         VkDescriptorSetLayout gi_layout, bool fog, struct host_pipelines *pipelines);
+/* Whose layout the sky's pipeline has. */
+enum host_forward host_sky_kind(const struct host_scene *scene);
 void host_pipelines_finish(struct host_device *device, struct host_pipelines *pipelines);
 /* Bindings from 0 on, one descriptor each. */
 bool host_set_layout_create(struct host_device *device, const VkDescriptorType *types, uint32_t count,
@@ -393,6 +411,7 @@ struct host_renderer {
     struct host_targets targets;
     struct host_slot slots[HOST_SLOTS];
     VkDescriptorPool pool;
+    VkDescriptorSet environment_set; /* none if there is no environment */
     VkDescriptorSet post_sets[HOST_EYES], debug_sets[HOST_EYES]; /* of the passes that follow */
     VkSampler nearest;
     struct host_buffer exposure;

@@ -13,6 +13,8 @@
 #include "host_screen_vert.h"
 #include "host_shadow_frag.h"
 #include "host_shadow_vert.h"
+#include "host_sky_environment_frag.h"
+#include "host_sky_environment_fog_frag.h"
 #include "host_sky_frag.h"
 #include "host_sky_fog_frag.h"
 #include "host_surface_vert.h"
@@ -330,17 +332,26 @@ static bool shadow_create(struct host_device *device, const struct host_passes *
     return pipeline_create(device, &desc, &p->shadow_tested);
 }
 
-static bool sky_create(struct host_device *device, const struct host_passes *passes, bool fog,
+enum host_forward host_sky_kind(const struct host_scene *scene)
+{
+    return scene->environment.exists ? HOST_FORWARD_GATHERED : HOST_FORWARD_PLAIN;
+}
+
+static bool sky_create(const struct host_scene *scene, const struct host_passes *passes, bool fog,
                        struct host_pipelines *p)
 {
+    const struct shader_code codes[2][2] = {
+        { SHADER(host_sky_frag), SHADER(host_sky_fog_frag) },
+        { SHADER(host_sky_environment_frag), SHADER(host_sky_environment_fog_frag) },
+    };
     const struct pipeline_desc desc = { .vertex = SHADER(host_screen_vert),
-                                        .fragment = fog ? SHADER(host_sky_fog_frag) : SHADER(host_sky_frag),
-                                        .layout = p->layouts[HOST_FORWARD_PLAIN],
+                                        .fragment = codes[scene->environment.exists][fog],
+                                        .layout = p->layouts[host_sky_kind(scene)],
                                         .pass = passes->forward,
                                         .has_color = true,
                                         .has_depth = true,
                                         .compare = VK_COMPARE_OP_EQUAL };
-    return pipeline_create(device, &desc, &p->sky);
+    return pipeline_create(scene->device, &desc, &p->sky);
 }
 
 bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
@@ -375,13 +386,13 @@ bool host_pipeline_compute_create(struct host_device *device, const uint32_t *wo
     return ok;
 }
 
-bool host_pipelines_init(struct host_device *device, const struct host_passes *passes,
-                         VkDescriptorSetLayout material_layout, VkDescriptorSetLayout gi_layout, bool fog,
-                         struct host_pipelines *pipelines)
+bool host_pipelines_init(const struct host_scene *scene, const struct host_passes *passes,
+                         VkDescriptorSetLayout gi_layout, bool fog, struct host_pipelines *pipelines)
 {
-    return layouts_create(device, material_layout, gi_layout, fog, pipelines) &&
+    struct host_device *const device = scene->device;
+    return layouts_create(device, scene->material_layout, gi_layout, fog, pipelines) &&
            prepass_create(device, passes, pipelines) && shadow_create(device, passes, pipelines) &&
-           sky_create(device, passes, fog, pipelines) &&
+           sky_create(scene, passes, fog, pipelines) &&
            host_pipeline_compute_create(device, host_exposure_comp, sizeof(host_exposure_comp),
                                         pipelines->post_pipeline_layout, &pipelines->exposure) &&
            host_pipeline_tonemap_create(device, pipelines, passes->picture, &pipelines->tonemap);

@@ -170,10 +170,10 @@ static bool pool_create(struct host_renderer *renderer)
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, HOST_SLOTS * HOST_EYES },
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, (2 * HOST_SLOTS + 2) * HOST_EYES },
-        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (5 * HOST_SLOTS + 2) * HOST_EYES },
+        { VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (5 * HOST_SLOTS + 2) * HOST_EYES + 2 },
     };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                              .maxSets = (2 * HOST_SLOTS + 2) * HOST_EYES,
+                                              .maxSets = (2 * HOST_SLOTS + 2) * HOST_EYES + 1,
                                               .poolSizeCount = HOST_COUNT(sizes),
                                               .pPoolSizes = sizes };
     return host_check(renderer->device,
@@ -317,6 +317,16 @@ static bool post_init(struct host_renderer *renderer)
            exposure_init(renderer) && post_sets_allocate(renderer);
 }
 
+static bool environment_set_init(struct host_renderer *renderer)
+{
+    if (!renderer->scene->environment.exists)
+        return true;
+    if (!set_allocate(renderer, renderer->pipelines.light_layout, &renderer->environment_set))
+        return false;
+    host_environment_set_write(renderer->scene, renderer->environment_set);
+    return true;
+}
+
 static bool scratch_init(struct host_renderer *renderer)
 {
     const uint32_t count = renderer->scene->instance_count;
@@ -350,10 +360,10 @@ static bool renderer_init(struct host_renderer *r, const struct host_renderer_de
 {
     r->gi = host_gi_create(r->device, r->scene, desc, HOST_SLOTS);
     if (!r->gi || !host_passes_init(r->device, &r->passes) ||
-        !host_pipelines_init(r->device, &r->passes, r->scene->material_layout, host_gi_layout(r->gi),
-                             host_fog_exists(r->scene), &r->pipelines) ||
-        !host_shadows_init(r) || !pool_create(r) || !queries_create(r) || !post_init(r) || !scratch_init(r) ||
-        !host_fog_init(r))
+        !host_pipelines_init(r->scene, &r->passes, host_gi_layout(r->gi), host_fog_exists(r->scene),
+                             &r->pipelines) ||
+        !host_shadows_init(r) || !pool_create(r) || !queries_create(r) || !post_init(r) ||
+        !environment_set_init(r) || !scratch_init(r) || !host_fog_init(r))
         return false;
     for (int i = 0; i < HOST_SLOTS; i++) {
         if (!slot_init(r, &r->slots[i]))

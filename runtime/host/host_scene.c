@@ -178,7 +178,8 @@ struct host_scene *host_scene_create(struct host_device *device, const struct gl
         return NULL;
     scene->device = device;
     if (!geometry_init(scene, gltf) || !instances_init(scene, gltf) ||
-        !host_materials_init(scene, gltf, view) || !host_lights_init(scene, gltf, view)) {
+        !host_materials_init(scene, gltf, view) || !host_lights_init(scene, gltf, view) ||
+        !host_environment_init(scene, &view->environment)) {
         host_scene_destroy(scene);
         return NULL;
     }
@@ -191,6 +192,7 @@ void host_scene_destroy(struct host_scene *scene)
         return;
     vkDeviceWaitIdle(scene->device->device);
     host_materials_finish(scene);
+    host_environment_finish(scene);
     host_buffer_destroy(scene->device, &scene->geometry);
     free(scene->primitives);
     free(scene->instances);

@@ -70,7 +70,7 @@ static void record_upload(VkCommandBuffer cmd, const struct host_image *image, V
                        to_all, to_shader);
 }
 
-static bool upload_texels(struct host_device *device, const struct host_image *image, const uint8_t *texels)
+static bool upload_texels(struct host_device *device, const struct host_image *image, const void *texels)
 {
     struct host_buffer staging;
     const size_t size = (size_t)4 * image->width * image->height;
@@ -85,18 +85,26 @@ static bool upload_texels(struct host_device *device, const struct host_image *i
     return ok;
 }
 
-static bool texture_create(struct host_device *device, const struct gltf_image *source, bool srgb,
-                           struct host_image *out)
+bool host_texture_create(struct host_device *device, VkFormat format, uint32_t width, uint32_t height,
+                         uint32_t mips, const void *texels, struct host_image *out)
 {
     const struct host_image_desc desc = {
-        .format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
-        .width = source->width,
-        .height = source->height,
-        .mips = mip_count(source->width, source->height),
+        .format = format,
+        .width = width,
+        .height = height,
+        .mips = mips,
         .usage =
             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
     };
-    return host_image_create(device, &desc, out) && upload_texels(device, out, source->texels);
+    return host_image_create(device, &desc, out) && upload_texels(device, out, texels);
+}
+
+static bool texture_create(struct host_device *device, const struct gltf_image *source, bool srgb,
+                           struct host_image *out)
+{
+    return host_texture_create(device, srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+                               source->width, source->height, mip_count(source->width, source->height),
+                               source->texels, out);
 }
 
 VkSamplerAddressMode host_address_mode(enum gltf_wrap wrap)

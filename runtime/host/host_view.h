@@ -27,6 +27,14 @@ struct host_sky {
     float zenith[3], horizon[3], ground[3];
 };
 
+/* Radiance from all directions, in place of the sky's colours: a picture whose rows go from +Y down to -Y,
+ * and whose columns go around from +Z by -X, -Z, in the middle, and +X. */
+struct host_environment {
+    float *rgb; /* 3 * width * height, in [0, HOST_ENVIRONMENT_MAX]; NULL: none */
+    uint32_t width, height;
+};
+#define HOST_ENVIRONMENT_MAX 65504 /* of half floats */
+
 struct host_sun {
     bool enabled;
     float direction[3];  /* the way the light travels; need not be unit length */
@@ -61,6 +69,7 @@ enum host_materials { HOST_MATERIALS_GLTF, HOST_MATERIALS_LAMBERT };
 struct host_view {
     struct host_camera camera;
     struct host_sky sky;
+    struct host_environment environment;
     struct host_sun sun;
     struct host_fog fog;
     struct host_light *lights; /* in addition to those of the scene file */

@@ -218,6 +218,8 @@ bool view_file_load(const char *path, struct host_view *view, char *error, size_
 void view_file_finish(struct host_view *view)
 {
     free(view->lights);
+    free(view->environment.rgb);
+    view->environment.rgb = NULL;
     view->lights = NULL;
     view->light_count = 0;
 }

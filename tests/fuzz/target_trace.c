@@ -25,7 +25,7 @@ static struct raycast_view view_of(const struct gltf_scene *scene)
                                .sky = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } },
                                .sun = { { 0, -1, 0 }, { 1, 1, 1 }, 0 },
                                .default_albedo = { 0.5f, 0.5f, 0.5f } };
-    view_file_from_scene(scene, &from);
+    view_file_from_scene(scene, 1, &from);
     memcpy(to.camera.position, from.camera.position, sizeof to.camera.position);
     memcpy(to.camera.look_at, from.camera.look_at, sizeof to.camera.look_at);
     memcpy(to.camera.up, from.camera.up, sizeof to.camera.up);

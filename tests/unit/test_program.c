@@ -125,7 +125,6 @@ static const char *const bad_input[][2] = {
     { "reference none.glb --out a.exr --aov normal=b.exr --aov normal=c.exr", "normal is given twice" },
     { "reference none.glb --out a.exr --geometry cubes", "cubes" },
     { "reference none.glb --out a.exr --set cascades=2", "--set" },
-    { "reference none.glb --out a.exr --device 0", "--device" },
     { "reference none.glb --out a.exr --geometry voxels --set cascades=9", "sdfgi_cascades" },
 #endif
     { "compare one.pfm", "REFERENCE" },
