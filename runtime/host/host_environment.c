@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * A picture of all directions: the background, and for GI its second-order harmonics. */
 #include "host_internal.h"
+#include "host_texture.h"
 
 #include <math.h>
 #include <stdlib.h>

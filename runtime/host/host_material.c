@@ -6,6 +6,7 @@
  * on a metal floor, was 3 % lower. A blended material blocks and bounces light where its alpha is at least
  * one half, and one whose factor is below that does nothing to light at all. */
 #include "host_internal.h"
+#include "host_texture.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The renderer's lifetime: targets, descriptor sets, slots for frames in flight. */
 #include "host_internal.h"
+#include "host_texture.h"
 
 #include <stdlib.h>
 #include <string.h>

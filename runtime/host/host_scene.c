@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Geometry: every attribute of every primitive in one buffer that vertex input and the library both read. */
 #include "host_internal.h"
+#include "host_texture.h"
 #include "host_math.h"
 
 #include <stdlib.h>

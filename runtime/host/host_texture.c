@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Textures with mip levels, and samplers. An image that is read both as colour and as data exists twice. */
 #include "host_internal.h"
+#include "host_texture.h"
 
 #include <math.h>
 #include <stdlib.h>

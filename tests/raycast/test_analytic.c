@@ -147,6 +147,45 @@ static void sky_gradient_on_a_plane(void **state)
     sdfgi_scene_finish(&s);
 }
 
+/* One texel of a map of 32 x 16 shines, in the middle of its width: where -Z is. Through the cosine a plane
+ * gets L dphi (sin^2 b - sin^2 a) / 2 of it. */
+static void one_texel_of_an_environment_shines_from_its_direction(void **state)
+{
+    (void)state;
+    enum { WIDTH = 32, HEIGHT = 16, ROW = 4 };
+    static float map[3 * WIDTH * HEIGHT];
+    struct built_scene s;
+    floor_init(&s, 0.7f);
+    for (int k = 0; k < 3; k++)
+        map[3 * (ROW * WIDTH + WIDTH / 2) + k] = 50;
+    const double a = pi * ROW / HEIGHT, b = pi * (ROW + 1) / HEIGHT;
+    const double share = 2 * pi / WIDTH * (sin(b) * sin(b) - sin(a) * sin(a)) / 2;
+    struct raycast_view v = view_make(from_above, origin, 40);
+    v.environment = (struct raycast_environment){ map, WIDTH, HEIGHT };
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 50000).indirect[1], 50 * share, tolerance);
+    /* The texel right of the middle: a little to +X of -Z, halfway up. */
+    const double down = pi * (ROW + 0.5) / HEIGHT, around = pi / WIDTH;
+    v = view_make(from_above, (double[]){ sin(down) * sin(around), 2 + cos(down), -sin(down) * cos(around) },
+                  1);
+    v.environment = (struct raycast_environment){ map, WIDTH, HEIGHT };
+    assert_ratio(trace_mean(&s, &v, 8, 8, 1, 0, RAYCAST_AOV_RADIANCE), 50, tolerance);
+    sdfgi_scene_finish(&s);
+}
+
+static void an_even_environment_is_a_uniform_sky(void **state)
+{
+    (void)state;
+    static float map[3 * 8 * 4];
+    struct built_scene s;
+    floor_init(&s, 0.7f);
+    for (int i = 0; i < 3 * 8 * 4; i++)
+        map[i] = i < 3 * 8 * 2 ? 2 : 100; /* below the plane: must not count */
+    struct raycast_view v = view_make(from_above, origin, 40);
+    v.environment = (struct raycast_environment){ map, 8, 4 };
+    assert_ratio(gather_up(&s, &v, 0, 0, 0, 200000).indirect[0], pi * 2, tolerance);
+    sdfgi_scene_finish(&s);
+}
+
 static void right_angle_with_a_black_wall_halves_the_sky(void **state)
 {
     (void)state;
@@ -189,6 +228,8 @@ int main(void)
         cmocka_unit_test(spot_light_falls_off_as_measured),
         cmocka_unit_test(white_plane_under_a_uniform_sky),
         cmocka_unit_test(sky_gradient_on_a_plane),
+        cmocka_unit_test(one_texel_of_an_environment_shines_from_its_direction),
+        cmocka_unit_test(an_even_environment_is_a_uniform_sky),
         cmocka_unit_test(right_angle_with_a_black_wall_halves_the_sky),
         cmocka_unit_test(emissive_square_matches_its_form_factor),
     };
