@@ -7,6 +7,7 @@
 #include "import.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <picture/picture_png.h>
 #include <string_view>
@@ -57,6 +58,8 @@ dimensions dimensions_read(const byte_range &file, const std::string &what)
             size.type = codec::webp;
             return size;
         }
+    if (file.size >= 12 && memcmp(file.data + 1, "KTX 20", 6) == 0)
+        fail("%s is a KTX2 image (KHR_texture_basisu), and Debian 12 has no library for these", what.c_str());
     int width = 0, height = 0, channels = 0;
     if (file.size > INT32_MAX)
         fail("%s is larger than 2 GiB", what.c_str());

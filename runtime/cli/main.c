@@ -34,6 +34,11 @@ static void print_commands(FILE *out)
     fputs("usage: sdfgi COMMAND [arguments], sdfgi COMMAND --help\n\n", out);
     for (int i = 0; i < COMMAND_COUNT; i++)
         fprintf(out, "  %-11s %s\n", commands[i].name, commands[i].summary);
+    fputs("\nevery command takes --quiet, --device N and --report FILE.json; commands that show a scene read "
+          "glTF 2.0\n(.glb, .gltf) with Draco, meshoptimizer and WebP where they are built in, and take "
+          "--time, "
+          "--camera,\n--sky, --sun and --environment\n",
+          out);
     fputs("\nexit codes: 0 done, 1 failed, 2 wrong arguments, 130 stopped by SIGINT, 143 by SIGTERM\n", out);
 }
 
