@@ -186,6 +186,10 @@ static void every_command_has_help(void **state)
         assert_non_null(strstr(run.out, "usage: sdfgi"));
         assert_non_null(strstr(run.out, name));
         assert_string_equal(run.err, "");
+        static const char *const common[] = { "\n  --quiet ", "\n  --device ", "\n  --report " };
+        for (int i = 0; i < 3; i++)
+            if (!strstr(run.out, common[i]))
+                fail_msg("%s has no%s", name, common[i] + 2);
         commands++;
     }
     assert_true(commands >= 4);
@@ -199,6 +203,69 @@ static void a_picture_compared_with_itself_has_no_error(void **state)
     assert_non_null(strstr(run.out, "\"flip\":\t0"));
 }
 
+static void run_in_folder(const char *command)
+{
+    char line[512];
+    snprintf(line, sizeof line, "cd %s && %s", files_path(""), command);
+    assert_int_equal(system(line), 0);
+}
+
+/* Commands that print something, and what their reports hold. */
+static void quiet_commands_print_nothing_and_report(void **state)
+{
+    (void)state;
+    static const char *const rows[][2] = {
+        { "compare two.pfm two.pfm --device 0", "\"flip\"" },
+        { "properties --markdown", "\"sdfgi_cascades\"" },
+        { "info", "\"total_bytes\"" },
+#ifdef SDFGI_WITH_RAYCAST
+        { "reference tiny.gltf --size 8x8 --spp 1 --out r.pfm", "\"samples_per_pixel\"" },
+#endif
+    };
+    files_write_triangle("tiny.gltf");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char arguments[256], text[65536];
+        snprintf(arguments, sizeof arguments, "%s --quiet --report report.json", rows[i][0]);
+        const struct run run = run_program("", arguments);
+        if (run.code != 0 && strcmp(rows[i][0], "info") == 0)
+            continue; /* there is no device */
+        assert_int_equal(run.code, 0);
+        assert_string_equal(run.out, "");
+        assert_string_equal(run.err, "");
+        files_take_text("report.json", text, sizeof text);
+        if (!strstr(text, rows[i][1]))
+            fail_msg("%s is not in the report of %s", rows[i][1], rows[i][0]);
+    }
+    run_in_folder("rm -f r.pfm tiny.gltf report.json");
+}
+
+#ifdef SDFGI_WITH_RAYCAST
+/* A scene is loaded first, so that these cannot be among the rows above. */
+static void wrong_parts_of_a_view_are_named(void **state)
+{
+    (void)state;
+    static const char *const rows[][2] = {
+        { "--sky blue", "reference: --sky is \"blue\"" },
+        { "--sun 0,0,0", "--sun is \"0,0,0\"" },
+        { "--camera Garden", "--camera is \"Garden\"" },
+        { "--environment gone.hdr", "gone.hdr" },
+        { "--environment map.png", "picture of radiance" },
+        { "--environment two.pfm --sky 1", "give one of them" },
+        { "--pose-time -1", "--pose-time is \"-1\"" },
+    };
+    files_write_triangle("tiny.gltf");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char arguments[256];
+        snprintf(arguments, sizeof arguments, "reference tiny.gltf --out r.pfm %s", rows[i][0]);
+        const struct run run = run_program("", arguments);
+        if (run.code == 0 || !strstr(run.err, rows[i][1]) ||
+            strchr(run.err, '\n') != run.err + strlen(run.err) - 1)
+            fail_msg("%s: \"%s\"", rows[i][0], run.err);
+    }
+    run_in_folder("rm -f tiny.gltf");
+}
+#endif
+
 static void assert_renders(const char *environment, const char *picture)
 {
     char arguments[256];
@@ -210,13 +277,6 @@ static void assert_renders(const char *environment, const char *picture)
     unsetenv("MESA_SHADER_CACHE_DIR");
     assert_string_equal(run.err, "");
     assert_int_equal(run.code, 0);
-}
-
-static void run_in_folder(const char *command)
-{
-    char line[512];
-    snprintf(line, sizeof line, "cd %s && %s", files_path(""), command);
-    assert_int_equal(system(line), 0);
 }
 
 static void a_picture_needs_no_cache_and_a_damaged_one_is_no_harm(void **state)
@@ -285,6 +345,10 @@ int main(int argc, char **argv)
         cmocka_unit_test(listing_devices_leaves_nothing_behind),
         cmocka_unit_test(every_command_has_help),
         cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
+        cmocka_unit_test(quiet_commands_print_nothing_and_report),
+#ifdef SDFGI_WITH_RAYCAST
+        cmocka_unit_test(wrong_parts_of_a_view_are_named),
+#endif
         cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),
         cmocka_unit_test(a_debug_view_is_written_instead_of_the_picture),
     };
