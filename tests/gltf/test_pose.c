@@ -83,18 +83,21 @@ static void joints_move_their_vertices_and_the_node_does_not(void **state)
     gltf_scene_destroy(s);
 }
 
+/* Joint 0 stretches along Y, which flattens slopes; joint 1 turns a quarter around X. */
 static void normals_turn_with_their_joint(void **state)
 {
     (void)state;
+    static const float slopes[9] = { 0, 0.6f, 0.8f, 0, 0, 1, 0, 0, 1 };
     struct draft d = { 0 };
     skin_draft(&d);
-    /* Joint 0 turns a quarter around X and stretches; joint 1 stands still. */
-    struct gltf_scene *const s = draft_load(
-        &d, SKINNED_MESH SKIN ",\"nodes\":[{\"mesh\":0,\"skin\":0},{\"rotation\":[0.70710678,0,0,0.70710678],"
-                              "\"scale\":[1,2,3]},{\"translation\":[1,0,0]}]");
+    memcpy(d.binary + sizeof triangle, slopes, sizeof slopes);
+    struct gltf_scene *const s =
+        draft_load(&d, SKINNED_MESH SKIN ",\"nodes\":[{\"mesh\":0,\"skin\":0},{\"scale\":[1,2,1]},"
+                                         "{\"rotation\":[0.70710678,0,0,0.70710678]}]");
     const float *const n = s->primitives[s->instances[0].primitive].normals;
-    assert_true(fabsf(n[1] + 1) < 1e-6f && fabsf(n[2]) < 1e-6f); /* +Z becomes -Y */
-    assert_true(fabsf(n[5] - 1) < 1e-6f);
+    const double length = sqrt(0.3 * 0.3 + 0.8 * 0.8);
+    assert_true(fabs((double)n[1] - 0.3 / length) < 1e-6 && fabs((double)n[2] - 0.8 / length) < 1e-6);
+    assert_true(fabsf(n[4] + 1) < 1e-6f && fabsf(n[5]) < 1e-6f); /* +Z becomes -Y */
     gltf_scene_destroy(s);
 }
 
@@ -128,9 +131,9 @@ static void nodes_that_share_a_mesh_have_poses_of_their_own(void **state)
         draft_load(&d, SKINNED_MESH
                    ",\"skins\":[{\"joints\":[3,3]},{\"joints\":[4,4]}],\"nodes\":[{\"mesh\":0,\"skin\":0},"
                    "{\"mesh\":0,\"skin\":1},{\"mesh\":0,\"translation\":[0,0,7]},"
-                   "{\"translation\":[0,3,0]},{\"translation\":[0,0,9]}]");
+                   "{\"translation\":[0,3,0],\"scale\":[2,1,1]},{\"translation\":[0,0,9]}]");
     assert_int_equal(s->instance_count, 3);
-    vertex_expect(s, 0, 1, (const double[]){ 1, 3, 0 });
+    vertex_expect(s, 0, 1, (const double[]){ 2, 3, 0 });
     vertex_expect(s, 1, 1, (const double[]){ 1, 0, 9 });
     vertex_expect(s, 2, 1, (const double[]){ 1, 0, 7 });
     gltf_scene_destroy(s);
