@@ -166,12 +166,13 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
 
 /* ---- Rendering -------------------------------------------------------------------------------------- */
 
-static bool start(struct run *run, const struct options *options)
+static bool start(struct run *run, struct options *options)
 {
     const double aspect = (double)options->size.width / options->size.height;
     run->gltf = run_load_scene("render", &options->from, aspect, options->common.quiet, &run->view);
     if (!run->gltf)
         return false;
+    run_fit_cells(&options->from, &options->set, run->gltf, &run->view, &options->settings);
     run->device = run_open_device(options->common.device);
     if (!run->device)
         return false;

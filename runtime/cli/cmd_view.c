@@ -117,7 +117,8 @@ static bool record_write(struct record *record, const struct options *options,
     return false;
 }
 
-static int view_scene(const struct options *options, struct host_window_desc *desc)
+static int view_scene(const struct options *options, struct sdfgi_settings *settings,
+                      struct host_window_desc *desc)
 {
     char error[CLI_ERROR_BYTES];
     struct host_view view;
@@ -126,6 +127,7 @@ static int view_scene(const struct options *options, struct host_window_desc *de
     struct gltf_scene *gltf = run_load_scene("view", &options->from, aspect, options->common.quiet, &view);
     if (!gltf)
         return CLI_EXIT_FAILURE;
+    run_fit_cells(&options->from, &options->set, gltf, &view, settings);
     desc->gltf = gltf;
     desc->view = &view;
     desc->progress = options->common.report ? collect_frame : NULL;
@@ -134,7 +136,7 @@ static int view_scene(const struct options *options, struct host_window_desc *de
     bool ok = run_window(desc, error, sizeof(error));
     if (!ok || stop_asked())
         cli_error("view: %s%s", ok ? "closed by " : error, ok ? stop_name() : "");
-    ok = ok && (!options->common.report || record_write(&record, options, desc->settings));
+    ok = ok && (!options->common.report || record_write(&record, options, settings));
     report_finish(&record.report);
     gltf_scene_destroy(gltf);
     view_file_finish(&view);
@@ -167,5 +169,5 @@ int cmd_view(int argc, char **argv)
         !run_parse_debug("view", options.debug_name, settings.enabled, &debug) ||
         !run_check_outputs(&report, 1))
         return CLI_EXIT_USAGE;
-    return view_scene(&options, &desc);
+    return view_scene(&options, &settings, &desc);
 }

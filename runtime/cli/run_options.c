@@ -3,9 +3,11 @@
 
 #include "file/cache_file.h"
 #include "view/view_file.h"
+#include "view/view_frame.h"
 #include "view/view_option.h"
 
 #include <base/text.h>
+#include <math.h>
 #include <modules/gltf/gltf_scene.h>
 #include <stdio.h>
 #include <string.h>
@@ -106,6 +108,30 @@ struct gltf_scene *run_load_scene(const char *command, const struct run_scene *f
     gltf_scene_destroy(scene);
     view_file_finish(view);
     return NULL;
+}
+
+static bool sets_cells(const struct cli_list *set)
+{
+    static const char *const names[] = { "min_cell_size=", "cascade0_distance=", "max_distance=" };
+    for (uint32_t i = 0; i < set->count; i++)
+        for (int k = 0; k < 3; k++) {
+            const char *const pair = set->values[i];
+            const bool prefixed = strncmp(pair, name_prefix, strlen(name_prefix)) == 0;
+            if (strncmp(pair + (prefixed ? strlen(name_prefix) : 0), names[k], strlen(names[k])) == 0)
+                return true;
+        }
+    return false;
+}
+
+void run_fit_cells(const struct run_scene *from, const struct cli_list *set, const struct gltf_scene *scene,
+                   const struct host_view *view, struct sdfgi_settings *settings)
+{
+    if (from->view || sets_cells(set))
+        return;
+    const double scale =
+        view_cells_scale(scene, &view->camera, 2 * sdfgi_settings_get(settings, "sdfgi_cascade0_distance"),
+                         sdfgi_settings_get(settings, "sdfgi_max_distance"));
+    settings->min_cell_size_m = (float)fmin(fmax((double)settings->min_cell_size_m * scale, 0.01), 64);
 }
 
 const char *run_cache_folder(void)

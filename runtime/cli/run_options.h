@@ -102,6 +102,11 @@ struct run_scene {
 struct gltf_scene *run_load_scene(const char *command, const struct run_scene *from, double aspect,
                                   bool quiet, struct host_view *view);
 
+/* Unless a VIEW.json or a setting says how large cells are, makes them fit a scene that is larger than the
+ * cascades, or much smaller. */
+void run_fit_cells(const struct run_scene *from, const struct cli_list *set, const struct gltf_scene *scene,
+                   const struct host_view *view, struct sdfgi_settings *settings);
+
 /* A device by its index or a part of its name; NULL: the best one. Prints one line and returns NULL on
  * failure. */
 struct host_device *run_open_device(const char *select);

@@ -276,3 +276,16 @@ void view_frame_scene(const struct gltf_scene *scene, double aspect, struct host
         free(f->pixels_of);
     free(f);
 }
+
+double view_cells_scale(const struct gltf_scene *scene, const struct host_camera *camera, double finest_m,
+                        double coarsest_m)
+{
+    double reach_m = 0;
+    for (int i = 0; i < 3; i++)
+        reach_m = fmax(reach_m, fmax(fabs(scene->bounds_min[i] - camera->position[i]),
+                                     fabs(scene->bounds_max[i] - camera->position[i])));
+    const double needed_m = 2 * reach_m;
+    if (!(needed_m > 0) || !isfinite(needed_m))
+        return 1;
+    return needed_m > coarsest_m ? needed_m / coarsest_m : needed_m < finest_m ? needed_m / finest_m : 1;
+}

@@ -13,4 +13,9 @@ struct gltf_scene;
  * of view. */
 void view_frame_scene(const struct gltf_scene *scene, double aspect, struct host_camera *camera);
 
+/* What cells are to be multiplied by so that the coarsest cascade, an edge of `coarsest_m` around the camera,
+ * holds all of the scene, or that the finest, of `finest_m`, holds no more than it needs. 1 in between. */
+double view_cells_scale(const struct gltf_scene *scene, const struct host_camera *camera, double finest_m,
+                        double coarsest_m);
+
 #endif

@@ -147,6 +147,18 @@ static void a_scene_without_camera_fills_the_picture(void **state)
     }
 }
 
+static void cells_fit_scenes_that_are_larger_or_smaller_than_cascades(void **state)
+{
+    (void)state;
+    const struct host_camera camera = { .position = { 0, 0, 100 } };
+    struct gltf_scene scene = { .bounds_min = { -50, -50, -50 }, .bounds_max = { 50, 50, 50 } };
+    assert_true(view_cells_scale(&scene, &camera, 25, 300) == 1);
+    assert_true(view_cells_scale(&scene, &camera, 25, 100) == 3);
+    assert_true(view_cells_scale(&scene, &camera, 600, 1000) == 0.5);
+    scene.bounds_max[0] = (double)INFINITY;
+    assert_true(view_cells_scale(&scene, &camera, 25, 100) == 1);
+}
+
 /* ---- Light ------------------------------------------------------------------------------------------- */
 
 /* A closed box whose six sides all send out radiance 4: irradiance 4 pi. */
@@ -268,6 +280,7 @@ int main(void)
         cmocka_unit_test(a_box_that_is_open_on_one_side_is_looked_into),
         cmocka_unit_test(a_closed_room_is_seen_from_inside_and_a_solid_from_outside),
         cmocka_unit_test(a_scene_without_camera_fills_the_picture),
+        cmocka_unit_test(cells_fit_scenes_that_are_larger_or_smaller_than_cascades),
         cmocka_unit_test(only_what_is_brighter_than_paper_lights_a_scene),
         cmocka_unit_test(skies_and_suns_are_read_from_text),
         cmocka_unit_test(cameras_are_read_from_text),
