@@ -128,9 +128,11 @@ void run_fit_cells(const struct run_scene *from, const struct cli_list *set, con
 {
     if (from->view || sets_cells(set))
         return;
-    const double scale =
-        view_cells_scale(scene, &view->camera, 2 * sdfgi_settings_get(settings, "sdfgi_cascade0_distance"),
-                         sdfgi_settings_get(settings, "sdfgi_max_distance"));
+    /* Cascades move by a probe, which is 8 cells, and are not centred better; a little is blended. */
+    const double whole = 1 - 20 / fmax(sdfgi_settings_get(settings, "sdfgi_resolution"), 32);
+    const double finest_m = whole * 2 * sdfgi_settings_get(settings, "sdfgi_cascade0_distance");
+    const double coarsest_m = whole * sdfgi_settings_get(settings, "sdfgi_max_distance");
+    const double scale = view_cells_scale(scene, &view->camera, finest_m, coarsest_m);
     settings->min_cell_size_m = (float)fmin(fmax((double)settings->min_cell_size_m * scale, 0.01), 64);
 }
 
