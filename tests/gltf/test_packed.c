@@ -18,6 +18,7 @@
 
 enum { PACKED_SIZE = 4096 };
 
+#if defined(GLTF_WITH_DRACO) || defined(GLTF_WITH_MESHOPT)
 /* A bumpy grid: no two vertices are alike. */
 static void grid_make(struct grid *g)
 {
@@ -35,6 +36,7 @@ static void grid_make(struct grid *g)
             to += 6;
         }
 }
+#endif
 
 #ifdef GLTF_WITH_DRACO
 /* Twice the signed volume between the grid and its floor, with uv for x: any exchange of vertices shows. */
