@@ -233,7 +233,7 @@ static void wrong_options_are_named_and_change_nothing(void **state)
     (void)state;
     static const char *const skies[] = { "", "blue", "-1", "1,2", "1,2,3,4", "1,2,", "1e30", "nan" };
     static const char *const suns[] = { "", "1", "0,0,0", "1,2,3,4", "0,-1,0,1,1,-1" };
-    static const char *const cameras[] = { "", "0", "1,2,3", "1,2,3,1,2,3", "0,0,0,0,0,1,180", "Garden" };
+    static const char *const cameras[] = { "", "1", "1,2,3", "1,2,3,1,2,3", "0,0,0,0,0,1,180", "Garden" };
     struct gltf_camera orthographic = { .ymag = 1 };
     const struct gltf_scene scene = { .cameras = &orthographic, .camera_count = 1 };
     struct host_view before;
@@ -248,6 +248,7 @@ static void wrong_options_are_named_and_change_nothing(void **state)
         assert_false(view_option_camera(cameras[i], &scene, 1, &view, error, sizeof error) ||
                      !strstr(error, "--camera is"));
     assert_memory_equal(&before, &view, sizeof before);
+    assert_true(view_option_camera("0", &scene, 1, &view, error, sizeof error));
 }
 
 static void an_environment_takes_the_place_of_the_sky(void **state)
