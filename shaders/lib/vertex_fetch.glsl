@@ -50,18 +50,18 @@ vec4 sdfgi_fetch_completed(vec4 v, uint fetch)
 }
 
 /* Defines `vec4 name(uint fetch, uint byte)`: the element at a byte of an array of words. Reads no word
- * beyond the element. GLSL passes no buffer to a function. */
+ * beyond the element. GLSL passes no buffer to a function. What floats of 32 bits do not need is a loop of
+ * one round, because software drivers run what is under a condition in any case. */
 #define SDFGI_FETCH_FUNCTION(name, words)                                                                    \
     vec4 name(uint fetch, uint byte)                                                                         \
     {                                                                                                        \
         const uint at = byte >> 2u, last = sdfgi_fetch_last_word(fetch, byte);                               \
-        vec4 v;                                                                                              \
-        if (SDFGI_FETCH_GET_BITS(fetch) == 32u)                                                              \
-            v = uintBitsToFloat(                                                                             \
-                uvec4(words[at], words[at + 1u], words[min(at + 2u, last)], words[min(at + 3u, last)]));     \
-        else                                                                                                 \
-            v = sdfgi_fetch_packed(uvec3(words[at], words[min(at + 1u, last)], words[min(at + 2u, last)]),   \
-                                   byte, fetch);                                                             \
+        const uvec4 read = uvec4(words[at], words[min(at + 1u, last)], words[min(at + 2u, last)],            \
+                                 words[min(at + 3u, last)]);                                                 \
+        const uint times = SDFGI_FETCH_GET_BITS(fetch) < 32u ? 1u : 0u;                                      \
+        vec4 v = uintBitsToFloat(read);                                                                      \
+        for (uint i = 0u; i < times; i++)                                                                    \
+            v = sdfgi_fetch_packed(read.xyz, byte, fetch);                                                   \
         return sdfgi_fetch_completed(v, fetch);                                                              \
     }
 
@@ -69,9 +69,9 @@ vec4 sdfgi_fetch_completed(vec4 v, uint fetch)
 #define SDFGI_FETCH_INDEX_FUNCTION(name, words)                                                              \
     uint name(uint bits, uint byte)                                                                          \
     {                                                                                                        \
-        const uint shift = 8u * (byte & 3u);                                                                 \
+        const uint shift = 8u * (byte & 3u), times = shift + bits > 32u ? 1u : 0u;                           \
         uint number = words[byte >> 2u] >> shift;                                                            \
-        if (shift + bits > 32u)                                                                              \
+        for (uint i = 0u; i < times; i++)                                                                    \
             number |= words[(byte >> 2u) + 1u] << (32u - shift);                                             \
         return number & 0xffffffffu >> (32u - bits);                                                         \
     }

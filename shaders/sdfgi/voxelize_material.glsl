@@ -42,8 +42,11 @@ vec4 texture_sample(sampler2D from, vec4 rows[2], bool encoded, vec2 uv, uint in
 {
     const float level =
         args.uv_fetch != 0u ? texture_level(index, area2, rows, vec2(textureSize(from, 0))) : 0.0;
-    const vec4 texel = textureLod(from, texture_uv(rows, uv), level);
-    return encoded ? vec4(sdfgi_srgb_decode(texel.rgb), texel.a) : texel;
+    vec4 texel = textureLod(from, texture_uv(rows, uv), level);
+    /* A loop, because software drivers run what is under a condition in any case. */
+    for (uint i = 0u; i < uint(encoded); i++)
+        texel.rgb = sdfgi_srgb_decode(texel.rgb);
+    return texel;
 }
 #endif
 
