@@ -23,10 +23,9 @@ struct surface_sample {
 
 #ifdef SDFGI_VOXELIZE_TEXTURED
 /* Level at which one texel covers about one sub-voxel. */
-float texture_level(uint index[3], float area2, vec4 rows[2], vec2 size)
+float texture_level(vec2 uvs[3], float area2, vec4 rows[2], vec2 size)
 {
-    const vec2 a = mesh_uv(index, vec3(1.0, 0.0, 0.0));
-    const vec2 b = mesh_uv(index, vec3(0.0, 1.0, 0.0)) - a, c = mesh_uv(index, vec3(0.0, 0.0, 1.0)) - a;
+    const vec2 b = uvs[1] - uvs[0], c = uvs[2] - uvs[0];
     const float scale = abs(rows[0].x * rows[1].y - rows[0].y * rows[1].x);
     const float texels = abs(b.x * c.y - b.y * c.x) * scale * size.x * size.y;
     return 0.5 * log2(max(texels / max(area2, 1e-6), 1.0));
@@ -38,10 +37,10 @@ vec2 texture_uv(vec4 rows[2], vec2 uv)
 }
 
 /* Linear RGB, and alpha. */
-vec4 texture_sample(sampler2D from, vec4 rows[2], bool encoded, vec2 uv, uint index[3], float area2)
+vec4 texture_sample(sampler2D from, vec4 rows[2], bool encoded, vec2 uvs[3], vec3 bary, float area2)
 {
-    const float level =
-        args.uv_fetch != 0u ? texture_level(index, area2, rows, vec2(textureSize(from, 0))) : 0.0;
+    const vec2 uv = bary[0] * uvs[0] + bary[1] * uvs[1] + bary[2] * uvs[2];
+    const float level = texture_level(uvs, area2, rows, vec2(textureSize(from, 0)));
     vec4 texel = textureLod(from, texture_uv(rows, uv), level);
     /* A loop, because software drivers run what is under a condition in any case. */
     for (uint i = 0u; i < uint(encoded); i++)
@@ -59,13 +58,13 @@ surface_sample material_sample(uint index[3], vec3 bary, float area2)
     if (args.color_fetch != 0u)
         s.albedo *= mesh_color(index, bary);
 #ifdef SDFGI_VOXELIZE_TEXTURED
-    const vec2 uv = args.uv_fetch != 0u ? mesh_uv(index, bary) : vec2(0.0);
+    const vec2 corners[3] = corner_uvs(index);
     if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u)
         s.albedo *= texture_sample(albedo_texture, m.albedo_uv, (m.flags & SDFGI_MATERIAL_ALBEDO_SRGB) != 0u,
-                                   uv, index, area2);
+                                   corners, bary, area2);
     if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u)
         s.emission *= texture_sample(emission_texture, m.emission_uv,
-                                     (m.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u, uv, index, area2)
+                                     (m.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u, corners, bary, area2)
                           .rgb;
 #endif
     return s;

@@ -113,15 +113,16 @@ void triangle_count_faults(bool valid, vec3 v[3])
         counter_add(SDFGI_COUNTER_OUT_OF_BOUNDS, 1u);
 }
 
-vec2 mesh_uv(uint index[3], vec3 bary)
+/* Of the corners; 0 where the mesh has none. */
+vec2[3] corner_uvs(uint index[3])
 {
-    vec2 uv = vec2(0.0);
-    for (int i = 0; i < 3; i++) {
+    vec2 at[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+    const uint count = args.uv_fetch != 0u ? 3u : 0u;
+    for (uint i = 0u; i < count; i++) {
         const vec2 v = fetch_uv(args.uv_fetch, vertex_byte(args.uv_fetch, args.uv_stride, index[i])).xy;
-        uv += bary[i] *
-              vec2(sdfgi_finite_clamp(v.x, -MAX_UV, MAX_UV), sdfgi_finite_clamp(v.y, -MAX_UV, MAX_UV));
+        at[i] = vec2(sdfgi_finite_clamp(v.x, -MAX_UV, MAX_UV), sdfgi_finite_clamp(v.y, -MAX_UV, MAX_UV));
     }
-    return uv;
+    return at;
 }
 
 vec4 mesh_color(uint index[3], vec3 bary)
