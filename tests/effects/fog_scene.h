@@ -22,7 +22,7 @@ struct fog_scene {
         mirrors; /* bits of the boxes that are metals without roughness, unless materials are Lambertian */
     bool gi;
     float eye_distance_m; /* above 0: two eyes, in a picture that is twice as wide */
-    bool forward; /* light is looked up where surfaces are shaded, not for the whole picture */
+    bool forward;         /* light is looked up where surfaces are shaded, not for the whole picture */
 };
 
 struct fog_stage {

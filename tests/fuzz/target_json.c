@@ -39,6 +39,9 @@ static void check_camera(const struct host_camera *camera)
     require_finite_double(camera->look_at, 3);
     require_direction(camera->up);
     REQUIRE_TRUE(camera->yfov_rad > 0 && (double)camera->yfov_rad < 3.14159265358979);
+    REQUIRE_TRUE(camera->ymag_m >= 0 && camera->ymag_m <= 1e9f);
+    if (camera->ymag_m > 0)
+        REQUIRE_TRUE(camera->znear_m >= 0 && camera->znear_m < camera->zfar_m && camera->zfar_m <= 1e9f);
     REQUIRE_TRUE(memcmp(camera->position, camera->look_at, sizeof camera->position) != 0);
 }
 

@@ -30,6 +30,9 @@ static struct raycast_view view_of(const struct gltf_scene *scene)
     memcpy(to.camera.look_at, from.camera.look_at, sizeof to.camera.look_at);
     memcpy(to.camera.up, from.camera.up, sizeof to.camera.up);
     to.camera.yfov_deg = (float)((double)from.camera.yfov_rad * 57.29577951308232);
+    to.camera.ymag_m = from.camera.ymag_m;
+    to.camera.znear_m = from.camera.znear_m;
+    to.camera.zfar_m = from.camera.zfar_m;
     return to;
 }
 
