@@ -209,7 +209,7 @@ static void an_orthographic_camera_of_a_scene_is_taken(void **state)
         .transform = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1 }, .ymag = 3, .znear = 1, .zfar = 50
     };
     const struct gltf_scene scene = { .cameras = &camera, .camera_count = 1 };
-    view_file_from_scene(&scene, &view);
+    view_file_from_scene(&scene, 1, &view);
     assert_true(view.camera.position[1] == 6 && view.camera.look_at[2] == 6);
     assert_true(view.camera.ymag_m == 3 && view.camera.znear_m == 1 && view.camera.zfar_m == 50);
 }
