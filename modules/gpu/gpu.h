@@ -245,7 +245,7 @@ void gpu_bind_set(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipelin
 void gpu_push(struct gpu_recorder *rec, VkPipelineLayout layout, uint32_t size, const void *data);
 void gpu_dispatch(struct gpu_recorder *rec, uint32_t x, uint32_t y, uint32_t z);
 void gpu_dispatch_indirect(struct gpu_recorder *rec, const struct gpu_buffer *arguments, uint64_t offset);
-void gpu_draw(struct gpu_recorder *rec, uint32_t vertices);
+void gpu_draw(struct gpu_recorder *rec, uint32_t vertices, uint32_t instances);
 /* A render pass over `extent` pixels a side without attachments. */
 void gpu_render_pass_begin(struct gpu_recorder *rec, VkRenderPass pass, VkFramebuffer framebuffer,
                            uint32_t extent);

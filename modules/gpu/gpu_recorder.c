@@ -166,9 +166,9 @@ void gpu_dispatch_indirect(struct gpu_recorder *rec, const struct gpu_buffer *ar
     rec->command_count++;
 }
 
-void gpu_draw(struct gpu_recorder *rec, uint32_t vertices)
+void gpu_draw(struct gpu_recorder *rec, uint32_t vertices, uint32_t instances)
 {
-    rec->device->fn.CmdDraw(rec->cmd, vertices, 1, 0, 0);
+    rec->device->fn.CmdDraw(rec->cmd, vertices, instances, 0, 0);
     rec->command_count++;
 }
 

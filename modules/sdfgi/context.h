@@ -34,6 +34,7 @@ struct sdfgi {
     struct blank_set blank; /* for lookups while there is no light to show */
     struct frame frame;     /* this frame's; holds nothing between frames but what the report needs */
     struct pass_recorder recorder;
+    struct draw_list draws;                /* of the part that is being voxelised */
     struct pass_report passes[PASS_COUNT]; /* of the last update */
     uint32_t command_count;
     float exposure_hint;   /* of the last update */

@@ -28,9 +28,10 @@
     X(REGION_CLEAR, COMPUTE, region_clear, CELLS, GENERATE, VOXELS, CREATED,                                 \
       BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, 0, R(BITS) | R(SCRATCH) | R(BOUNDS))                        \
     X(VOXELIZE, COMPUTE_TEXTURED, voxelize, TRIANGLES, VOXELS, VOXELS, CREATED,                              \
-      INSTANCES, voxelize, SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(COUNTERS))     \
+      INSTANCES, voxelize, SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS) | R(INSTANCES), R(BITS) | R(SCRATCH) |   \
+      R(COUNTERS))                                                                                           \
     X(VOXELIZE_RASTER, RASTER_TEXTURED, voxelize_raster, TRIANGLES, VOXELS_RASTER, VOXELS, RASTER,           \
-      INSTANCES, voxelize, 1, MESH, R(MATERIALS), R(BITS) | R(SCRATCH) | R(COUNTERS))                        \
+      INSTANCES, voxelize, 1, MESH, R(MATERIALS) | R(INSTANCES), R(BITS) | R(SCRATCH) | R(COUNTERS))         \
     X(VOXEL_RESOLVE, COMPUTE, voxel_resolve, BLOCKS, GENERATE, VOXELS, CREATED,                              \
       BOX, region, 8 * SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(SCRATCH), R(ALBEDO) |                           \
       R(EMISSION) | R(NORMALS) | R(COUNTERS) | R(BOUNDS) | R(EMITTERS))                                      \

@@ -27,6 +27,8 @@
  * SUMS                      of this sample cycle; and each probe's history
  * PREVIOUS                  the sample cycle before
  * BOUNDS                    from the start of a change to its end
+ * INSTANCES                 a list of slots, those that a dispatch draws; then all of the scene by slot, written
+ *                           by the host when they change: grows with the scene
  */
 #ifndef SDFGI_RESOURCE_TABLE_H
 #define SDFGI_RESOURCE_TABLE_H
@@ -73,7 +75,8 @@
     X(GATHERED,    STORAGE, U32,             LISTS,   VOLUME, WORK,   GATHERED_COUNT(e),            SAVED)   \
     X(EMITTERS,    STORAGE, U32,             VOLUMES, VOLUME, WORK,   EMITTER_COUNT(e),             DERIVED) \
     X(SEEN,        STORAGE, U32,             LISTS,   VOLUME, WORK,   SEEN_COUNT(e),                DERIVED) \
-    X(SEARCH,      STORAGE, U32,             SCRATCH, VOLUME, WORK,   e->search,                    SCRATCH)
+    X(SEARCH,      STORAGE, U32,             SCRATCH, VOLUME, WORK,   e->search,                    SCRATCH) \
+    X(INSTANCES,   STORAGE, U8,              LISTS,   VOLUME, WORK,   INSTANCES_BYTES(e),           DERIVED)
 /* clang-format on */
 
 #define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
@@ -87,6 +90,8 @@
 #define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
 #define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)
 #define BOUNDS_BYTES   (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
+#define INSTANCES_BYTES(e) \
+    (SDFGI_MAX_DRAWS * sizeof(uint32_t) + (e)->instances * sizeof(struct sdfgi_instance_params))
 
 enum resource {
 #define RESOURCE_ENUM(id, kind, format, category, scope, set, extent, keep) RESOURCE_##id,

@@ -29,6 +29,17 @@ enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_d
     return sdfgi_scene_instance_create(&gi->scene, desc, out);
 }
 
+enum sdfgi_result sdfgi_instances_create(sdfgi *gi, uint32_t count, const struct sdfgi_instance_desc *descs,
+                                         sdfgi_instance *out)
+{
+    return sdfgi_scene_instances_create(&gi->scene, count, descs, out);
+}
+
+enum sdfgi_result sdfgi_instances_destroy(sdfgi *gi, uint32_t count, const sdfgi_instance *instances)
+{
+    return sdfgi_scene_instances_destroy(&gi->scene, count, instances);
+}
+
 enum sdfgi_result sdfgi_instance_set_transform(sdfgi *gi, sdfgi_instance instance,
                                                const struct sdfgi_transform *transform)
 {

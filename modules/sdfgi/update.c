@@ -112,6 +112,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
         return read;
     sdfgi_volume_make_room(&gi->volume);
     sdfgi_volume_add_emitters(&gi->volume, gi->scene.emissive > 0);
+    sdfgi_volume_add_instances(&gi->volume, &gi->scene);
 
     /* Decide what this frame does. */
     const struct frame_input input = frame_input(gi, desc);
@@ -120,7 +121,8 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     /* Record it. */
     sdfgi_pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd);
     gpu_timer_begin_frame(&gi->volume.resources->timer, slot);
-    sdfgi_frame_record(&gi->frame, &gi->scene, &gi->recorder, slot, sdfgi_backend_number(&gi->backend));
+    sdfgi_frame_record(&gi->frame, &gi->scene, &gi->recorder, &gi->draws, slot,
+                       sdfgi_backend_number(&gi->backend));
     sdfgi_pass_recorder_end(&gi->recorder);
 
     /* Take it over as done. */

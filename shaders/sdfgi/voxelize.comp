@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Voxelises a mesh instance into one cascade. Each thread of a workgroup culls one triangle against the box.
- * Then the threads share the columns of the remaining triangles evenly, whichever triangle they belong to.
- * The triangles of a workgroup lie far apart in the mesh, because neighbours lie in the box together and
- * would give one workgroup most of the work. */
+ * Voxelises instances of a mesh into one cascade. Triangles are numbered instance after instance. Each thread
+ * of a workgroup culls one triangle against the box. Then the threads share the columns of the remaining
+ * triangles evenly, whichever triangle they belong to. The triangles of a workgroup have numbers far apart,
+ * because neighbours lie in the box together and would give one workgroup most of the work. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize_common.glsl"
@@ -16,10 +16,10 @@ shared uint ends[SDFGI_GROUP_TRIANGLE];    /* number of its last column, plus 1 
 /* Groups of triangles. */
 uint group_count()
 {
-    return (args.triangle_count - 1u) / uint(SDFGI_GROUP_TRIANGLE) + 1u;
+    return (args.triangle_count * args.draw_count - 1u) / uint(SDFGI_GROUP_TRIANGLE) + 1u;
 }
 
-/* The triangle of a thread. Thread i of all groups reads the i-th part of the mesh. From part to part the
+/* The triangle of a thread. Thread i of all groups reads the i-th part of them. From part to part the
  * order of the groups is shifted by about the golden ratio of their number, so that the rows of a grid of
  * triangles do not meet in one group. */
 uint triangle_of(uint group, uint thread)
@@ -28,14 +28,22 @@ uint triangle_of(uint group, uint thread)
     return thread * groups + (group + thread * shift) % groups;
 }
 
+/* Takes the instance of a triangle, and fetches it. */
+bool triangle_take(uint number, out vec3 v[3], out uint index[3])
+{
+    const uint instance = number / args.triangle_count;
+    instance_load(instance);
+    return triangle_fetch(number - instance * args.triangle_count, v, index);
+}
+
 /* Number of columns of a thread's triangle that are to be tested; fills its range. */
-uint triangle_cull(uint t_index, uint thread)
+uint triangle_cull(uint number, uint thread)
 {
     vec3 v[3];
     triangle t;
-    if (t_index >= args.triangle_count)
+    if (number >= args.triangle_count * args.draw_count)
         return 0u;
-    const bool valid = triangle_fetch(t_index, v, t.index);
+    const bool valid = triangle_take(number, v, t.index);
     if (gl_WorkGroupID.y == 0u)
         triangle_count_faults(valid, v);
     if (!valid || !triangle_place(t, v))
@@ -74,7 +82,7 @@ void store_columns(uint group, uint owner, uint first, uint last)
     const uint begin = owner > 0u ? ends[owner - 1u] : 0u;
     vec3 v[3];
     triangle t;
-    triangle_fetch(triangle_of(group, owner), v, t.index);
+    triangle_take(triangle_of(group, owner), v, t.index);
     t.axis = range.w;
     triangle_setup(t, v);
     for (uint i = first - begin; i < last - begin; i++)

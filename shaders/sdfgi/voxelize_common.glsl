@@ -113,8 +113,8 @@ void triangle_setup(inout triangle t, vec3 v[3])
 
     /* Back to metric lengths, because cells may be flat, and to the mesh's front side. */
     const vec3 metric = normal / vec3(1.0, sdfgi_space_y_scale(), 1.0);
-    t.normal = normalize(metric) * ((args.flags & SDFGI_MESH_REVERSED) != 0u ? -1.0 : 1.0);
-    const bool emits = sdfgi_materials[args.material].emission != vec3(0.0);
+    t.normal = normalize(metric) * (drawn.reversed ? -1.0 : 1.0);
+    const bool emits = sdfgi_materials[drawn.material].emission != vec3(0.0);
     t.inset = sign(t.normal[t.axis]) * (TIE_BIAS + (emits ? 0.0 : INSET));
     t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));
 }
@@ -371,7 +371,7 @@ void store_bit(uint cell, uint bit)
 /* Sets the sub-voxel at `from_anchor`. */
 void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
 {
-    const ivec3 sub = from_anchor + args.anchor, cell = sub >> 2, inner = sub & 3;
+    const ivec3 sub = from_anchor + drawn.anchor, cell = sub >> 2, inner = sub & 3;
     const uint block = part_block(drawn_part(), cell);
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
@@ -385,7 +385,7 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
  * its rim misses centres. */
 void triangle_store_column(triangle t, ivec2 column)
 {
-    const bool emits = emission_is_kept() && sdfgi_materials[args.material].emission != vec3(0.0);
+    const bool emits = emission_is_kept() && sdfgi_materials[drawn.material].emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
     covered_part part = covered_part(0.0, vec2(column) + 0.5);
@@ -398,11 +398,11 @@ void triangle_store_column(triangle t, ivec2 column)
     if (first > last && !emits_here)
         return;
     const surface_sample s = triangle_sample(t, column);
-    if (s.albedo.a < sdfgi_materials[args.material].alpha_cutoff)
+    if (s.albedo.a < sdfgi_materials[drawn.material].alpha_cutoff)
         return;
     const ivec3 emitting = unpermute(ivec3(column, level), t.axis);
     if (emits_here)
-        accumulate_emission(t, part.area, part_block(drawn_part(), (emitting + args.anchor) >> 2), s);
+        accumulate_emission(t, part.area, part_block(drawn_part(), (emitting + drawn.anchor) >> 2), s);
     if (emits_here && part.area > LEAST_COVERED && (level < first || level > last))
         store_sub_voxel(t, emitting, s);
     for (int i = first; i <= last; i++)

@@ -53,7 +53,7 @@ vec4 texture_sample(sampler2D from, vec4 rows[2], bool encoded, vec2 uvs[3], vec
  * sub-voxels^2: as many points of it are sampled. */
 surface_sample material_sample(uint index[3], vec3 bary, float area2)
 {
-    const sdfgi_material_params m = sdfgi_materials[args.material];
+    const sdfgi_material_params m = sdfgi_materials[drawn.material];
     surface_sample s = surface_sample(vec4(m.albedo, m.alpha), m.emission, m.flags);
     if (args.color_fetch != 0u)
         s.albedo *= mesh_color(index, bary);

@@ -5,14 +5,9 @@
 
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
-#include "pass.glsl"
+#include "voxelize_instance.glsl"
 #include "../lib/finite.glsl"
 #include "../lib/vertex_fetch.glsl"
-
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_voxelize_args args;
-};
 
 layout(std430, set = SDFGI_SET_MESH, binding = SDFGI_BINDING_MESH_POSITIONS) readonly buffer mesh_positions
 {
@@ -45,7 +40,7 @@ ivec3 unpacked_corner(uint packed)
 /* The same in sub-voxels from the anchor. */
 ivec3 box_corner(uint packed)
 {
-    return unpacked_corner(packed) * SDFGI_SUBVOXELS - args.anchor;
+    return unpacked_corner(packed) * SDFGI_SUBVOXELS - drawn.anchor;
 }
 
 SDFGI_FETCH_FUNCTION(fetch_position, positions)
@@ -72,7 +67,7 @@ vec3 mesh_position(uint vertex)
 {
     const uint byte = vertex_byte(args.position_fetch, args.position_stride, vertex);
     const vec4 p = vec4(fetch_position(args.position_fetch, byte).xyz, 1.0);
-    return vec3(dot(args.rows[0], p), dot(args.rows[1], p), dot(args.rows[2], p));
+    return vec3(dot(drawn.rows[0], p), dot(drawn.rows[1], p), dot(drawn.rows[2], p));
 }
 
 /* False if a vertex is out of range or not finite. All vertices are read before any is tested, so that the
@@ -90,22 +85,30 @@ bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
     return valid;
 }
 
+/* A cell, and what rounding makes of a place so far from the anchor. */
+vec3 bounds_slack(vec3 from_anchor)
+{
+    return float(SDFGI_SUBVOXELS) + abs(from_anchor) * (1.0 / 1048576.0);
+}
+
 /* True if a vertex lies outside the instance's bounds, within the cascade or beyond a side of it that the
  * bounds do not reach. */
 bool triangle_leaves_bounds(vec3 v[3])
 {
     const ivec3 size = ivec3(sdfgi_space_resolution() * SDFGI_SUBVOXELS);
-    const vec3 first = vec3(-args.anchor), last = vec3(size - args.anchor);
+    const vec3 first = vec3(-drawn.anchor), last = vec3(size - drawn.anchor);
     const vec3 low = clamp(min(v[0], min(v[1], v[2])), first, last),
                high = clamp(max(v[0], max(v[1], v[2])), first, last);
-    return any(lessThan(low, vec3(box_corner(args.bounds_low)))) ||
-           any(greaterThan(high, vec3(box_corner(args.bounds_high))));
+    vec3 bounds_low, bounds_high;
+    instance_bounds(bounds_low, bounds_high);
+    return any(lessThan(low, clamp(bounds_low - bounds_slack(bounds_low), first, last))) ||
+           any(greaterThan(high, clamp(bounds_high + bounds_slack(bounds_high), first, last)));
 }
 
 /* Counts a triangle that is skipped, or that the host's bounds miss. */
 void triangle_count_faults(bool valid, vec3 v[3])
 {
-    if ((args.flags & SDFGI_MESH_CHECKED) != 0u)
+    if (drawn.checked)
         return;
     if (!valid)
         counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);

@@ -5,14 +5,16 @@
 #include "voxelize_common.glsl"
 
 layout(location = 0) flat in uint in_triangle;
+layout(location = 1) flat in uint in_instance;
 
 void main()
 {
     vec3 v[3];
     triangle t;
+    instance_load(in_instance);
     if (triangle_fetch(in_triangle, v, t.index) && triangle_place(t, v)) {
         triangle_setup(t, v);
-        const ivec2 column = ivec2(gl_FragCoord.xy) - permute(args.anchor, t.axis).xy;
+        const ivec2 column = ivec2(gl_FragCoord.xy) - permute(drawn.anchor, t.axis).xy;
         if (all(greaterThanEqual(column, t.columns.xy)) && all(lessThanEqual(column, t.columns.zw)))
             triangle_store_column(t, column);
     }

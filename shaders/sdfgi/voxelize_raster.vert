@@ -6,6 +6,7 @@
 #include "voxelize_common.glsl"
 
 layout(location = 0) flat out uint out_triangle;
+layout(location = 1) flat out uint out_instance;
 
 /* In pixels: a triangle may set sub-voxels half a pixel beside it. Also twice the edge margin. */
 const float WIDEN = 0.5 + 2.0 / 256.0;
@@ -42,6 +43,8 @@ void main()
     const uint t_index = uint(gl_VertexIndex) / 3u;
     const int corner = gl_VertexIndex % 3;
     out_triangle = t_index;
+    out_instance = uint(gl_InstanceIndex);
+    instance_load(out_instance);
     gl_Position = vec4(-2.0, -2.0, 0.5, 1.0);
     vec3 v[3];
     triangle t;
@@ -53,5 +56,5 @@ void main()
     triangle_setup(t, v);
     const float size = float(sdfgi_space_resolution() * SDFGI_SUBVOXELS);
     const vec2 at = is_needle(t) ? columns_corner(t, corner) : widened_corner(t, corner);
-    gl_Position = vec4((at + vec2(permute(args.anchor, t.axis).xy)) / size * 2.0 - 1.0, 0.5, 1.0);
+    gl_Position = vec4((at + vec2(permute(drawn.anchor, t.axis).xy)) / size * 2.0 - 1.0, 0.5, 1.0);
 }

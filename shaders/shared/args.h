@@ -23,31 +23,28 @@ struct sdfgi_region_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_region_args, 48);
 
-#define SDFGI_MESH_INDEX_BITS         63u  /* bits of an index, 0: there are none */
-#define SDFGI_MESH_REVERSED           64u  /* once transformed, fronts are clockwise */
-#define SDFGI_MESH_CHECKED            128u /* its triangles have been checked in this frame */
-#define SDFGI_MESH_INDEX_OFFSET_SHIFT 8u   /* 8 bits: where the first index begins, in bytes */
+#define SDFGI_MESH_INDEX_BITS         63u /* bits of an index, 0: there are none */
+#define SDFGI_MESH_INDEX_OFFSET_SHIFT 8u  /* 8 bits: where the first index begins, in bytes */
 
-/* voxelize, voxelize_raster: one instance. */
+/* voxelize, voxelize_raster: instances of one mesh. */
 struct sdfgi_voxelize_args {
-    vec4 rows[3]; /* object space to sub-voxels from the instance's anchor: row-major 3x4 */
-    ivec3 anchor; /* the anchor's sub-voxel in the cascade */
-    uint box_low; /* low corner of the box of cells to fill, 10 bits per axis */
+    vec3 bounds_min; /* of the mesh, object space */
     uint cascade;
+    vec3 bounds_max;
     uint triangle_count;
-    uint slices; /* workgroups that share the columns of a group of triangles */
-    uint material;
+    ivec3 corner_low; /* low corner of the cascade, as the place of an instance: low words */
+    uint slices;      /* workgroups that share the columns of a group of triangles */
+    ivec3 corner_high;
     uint flags;                           /* SDFGI_MESH_* */
     uint position_fetch, position_stride; /* vertex_fetch.h; bytes */
     uint uv_fetch, uv_stride;             /* 0: there are none */
     uint color_fetch, color_stride;       /* 0: there are none */
     uint vertex_offset;                   /* added to indices, modulo 2^32 */
     uint vertex_count;
-    uint box_high;   /* high corner of the box, packed as box_low */
-    uint bounds_low; /* the instance's bounds, widened and cut to the cascade, packed as box_low */
-    uint bounds_high;
+    uint box_low, box_high;      /* corners of the box of cells to fill, 10 bits per axis */
+    uint first_draw, draw_count; /* in the list of instances */
 };
-SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 128);
+SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 112);
 
 /* distance_prepare: which light blocks need new distances. */
 struct sdfgi_distance_prepare_args {

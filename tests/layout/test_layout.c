@@ -98,13 +98,13 @@
     X(sdfgi_region_args, bounds_axis)                                                                        \
     X(sdfgi_region_args, before)                                                                             \
     X(sdfgi_region_args, padding_0)                                                                          \
-    X(sdfgi_voxelize_args, rows)                                                                             \
-    X(sdfgi_voxelize_args, anchor)                                                                           \
-    X(sdfgi_voxelize_args, box_low)                                                                          \
+    X(sdfgi_voxelize_args, bounds_min)                                                                       \
     X(sdfgi_voxelize_args, cascade)                                                                          \
+    X(sdfgi_voxelize_args, bounds_max)                                                                       \
     X(sdfgi_voxelize_args, triangle_count)                                                                   \
+    X(sdfgi_voxelize_args, corner_low)                                                                       \
     X(sdfgi_voxelize_args, slices)                                                                           \
-    X(sdfgi_voxelize_args, material)                                                                         \
+    X(sdfgi_voxelize_args, corner_high)                                                                      \
     X(sdfgi_voxelize_args, flags)                                                                            \
     X(sdfgi_voxelize_args, position_fetch)                                                                   \
     X(sdfgi_voxelize_args, position_stride)                                                                  \
@@ -114,9 +114,18 @@
     X(sdfgi_voxelize_args, color_stride)                                                                     \
     X(sdfgi_voxelize_args, vertex_offset)                                                                    \
     X(sdfgi_voxelize_args, vertex_count)                                                                     \
+    X(sdfgi_voxelize_args, box_low)                                                                          \
     X(sdfgi_voxelize_args, box_high)                                                                         \
-    X(sdfgi_voxelize_args, bounds_low)                                                                       \
-    X(sdfgi_voxelize_args, bounds_high)                                                                      \
+    X(sdfgi_voxelize_args, first_draw)                                                                       \
+    X(sdfgi_voxelize_args, draw_count)                                                                       \
+    X(sdfgi_instance_params, row_x)                                                                          \
+    X(sdfgi_instance_params, place_low_x)                                                                    \
+    X(sdfgi_instance_params, row_y)                                                                          \
+    X(sdfgi_instance_params, place_low_y)                                                                    \
+    X(sdfgi_instance_params, row_z)                                                                          \
+    X(sdfgi_instance_params, place_low_z)                                                                    \
+    X(sdfgi_instance_params, place_high)                                                                     \
+    X(sdfgi_instance_params, material)                                                                       \
     X(sdfgi_distance_prepare_args, cascade)                                                                  \
     X(sdfgi_distance_prepare_args, first_block)                                                              \
     X(sdfgi_distance_prepare_args, box_count)                                                                \

@@ -109,6 +109,7 @@ struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings)
         .rays_per_frame = settings->ray_count,
         .search = sdfgi_search_end(sdfgi_log2(n)),
         .occlusion = 1,
+        .instances = SDFGI_FIRST_INSTANCES,
         .gathers = sdfgi_settings_cycle_visits(settings) > 0,
     };
     sdfgi_extent_set_light_cells(&e, LIGHT_CELL_QUARTER_LAYERS * n * n / 4);

@@ -9,12 +9,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Instances for which there is room at first. */
+enum { SDFGI_FIRST_INSTANCES = 1024 };
+
 /* Elements of one cascade, and what else the sizes in the resource table depend on. */
 struct extent {
     uint64_t cells, blocks, probes, probes_per_side, cascades, cycle_samples, rays_per_frame, scratch, search,
         occlusion;
     uint64_t light_cells,
         light_cells_max; /* room in the light list of a cascade, and how much it may become */
+    uint64_t instances;  /* room for so many of the scene */
     bool gathers;        /* light cells gather with rays of their own */
     bool emits;          /* something in the scene emits: there is room for emission and for emitters */
 };

@@ -62,6 +62,23 @@ static uint32_t free_slot(const struct pool *pool)
     return slot;
 }
 
+/* Slots that can be taken without growing, as far as `enough` of them. */
+static uint32_t slots_left(const struct pool *pool, uint32_t enough)
+{
+    uint32_t left = pool->capacity - pool->end;
+    for (uint32_t slot = pool->first_free; slot < pool->end && left < enough; slot++)
+        left += !pool->live[slot] && !is_used_up(pool, slot);
+    return left;
+}
+
+bool sdfgi_pool_reserve(struct pool *pool, const struct hooks *hooks, uint32_t count)
+{
+    while (slots_left(pool, count) < count)
+        if (!grow(pool, hooks))
+            return false;
+    return true;
+}
+
 uint32_t sdfgi_pool_id(const struct pool *pool, uint32_t index)
 {
     return (index + 1) | pool->generations[index] << pool->slot_bits;

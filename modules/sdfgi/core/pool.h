@@ -26,6 +26,9 @@ struct pool {
 void sdfgi_pool_init(struct pool *pool, size_t item_size, uint32_t limit);
 void sdfgi_pool_finish(struct pool *pool, const struct hooks *hooks);
 
+/* Makes room for `count` items more: so many calls of sdfgi_pool_add will succeed. False, and the items stay
+ * as they are, if memory, slots or handles do not suffice. */
+bool sdfgi_pool_reserve(struct pool *pool, const struct hooks *hooks, uint32_t count);
 /* Takes a zeroed slot. Returns NULL if memory, slots or handles have run out. */
 void *sdfgi_pool_add(struct pool *pool, const struct hooks *hooks, uint32_t *id);
 /* NULL if `id` is not a live handle. */

@@ -4,6 +4,7 @@
 #ifndef SDFGI_FRAME_H
 #define SDFGI_FRAME_H
 
+#include "draw_list.h"
 #include "frame_needs.h"
 #include "pass/pass_record.h"
 #include "volume/volume.h"
@@ -28,6 +29,7 @@ enum frame_upload {
     FRAME_UPLOAD_LIGHTS = 2,
     FRAME_UPLOAD_MATERIALS = 4,
     FRAME_UPLOAD_RAY_QUEUE = 8, /* empties it */
+    FRAME_UPLOAD_INSTANCES = 16,
 };
 
 struct frame {
@@ -39,6 +41,7 @@ struct frame {
     uint32_t gather_count;
     int rescale_power;               /* light is stored with an exposure so many powers of two larger */
     uint32_t uploads;                /* enum frame_upload */
+    uint64_t instances_since;        /* revision of the scene: instances that changed later are uploaded */
     bool cycle_ends;                 /* this is the last frame of a sample cycle */
     const char *reasons[PASS_COUNT]; /* why each pass runs, or not */
 };
@@ -46,10 +49,10 @@ struct frame {
 /* Fills `frame` from the input alone: the same input gives the same plan. Needs no device. */
 void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input);
 
-/* Records a plan. Changes nothing but the command buffer and what the recorder counts. `slot` and `number`
- * are those of its frame in flight. */
+/* Records a plan. Changes nothing but the command buffer and what the recorder counts; `draws` is scratch.
+ * `slot` and `number` are those of its frame in flight. */
 void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *rec,
-                        uint32_t slot, uint32_t number);
+                        struct draw_list *draws, uint32_t slot, uint32_t number);
 
 /* The state after a recorded plan: what completed is finished, and the sample cycle goes on. */
 void sdfgi_frame_next_state(const struct frame *frame, const struct sdfgi_settings *settings,

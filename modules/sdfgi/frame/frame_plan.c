@@ -193,6 +193,16 @@ static void plan_uploads(struct frame *frame, const struct frame_input *input,
         frame->uploads |= FRAME_UPLOAD_RAY_QUEUE;
 }
 
+/* Voxelisers read instances from a buffer. It is brought up to date in frames that voxelise any. */
+static void plan_instances(struct frame *frame, const struct frame_input *input)
+{
+    if (!frame->situation.geometry_due || frame->next.instances == input->scene->revision)
+        return;
+    frame->uploads |= FRAME_UPLOAD_INSTANCES;
+    frame->instances_since = frame->next.instances;
+    frame->next.instances = input->scene->revision;
+}
+
 /* Whatever else the frame does, and also where light has converged. */
 static void add_rescale(struct frame *frame)
 {
@@ -227,6 +237,7 @@ void sdfgi_frame_plan(struct frame *frame, const struct frame_input *input)
     frame->situation.geometry_due = geometry_is_due(frame, input->scene);
     const struct situation_needs needs = sdfgi_frame_needs(&frame->situation);
     plan_uploads(frame, input, &needs);
+    plan_instances(frame, input);
     add_rescale(frame);
     if (!frame->situation.converged)
         sdfgi_frame_add_work(frame, input, &needs);

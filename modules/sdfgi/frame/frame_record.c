@@ -43,6 +43,35 @@ static void upload_materials(struct pass_recorder *r, const struct scene *scene)
     }
 }
 
+/* Those that changed since the buffer was written last, newest first. Neighbours in the list are often
+ * neighbours in the buffer, the other way round. */
+static void upload_instances(struct pass_recorder *r, const struct scene *scene, const struct frame *frame)
+{
+    enum { BATCH = 128 };
+    struct sdfgi_instance_params batch[BATCH];
+    const uint64_t size = sizeof *batch, first = SDFGI_MAX_DRAWS * sizeof(uint32_t);
+    const struct cascades *cascades = &frame->next.cascades;
+    uint32_t filled = 0, lowest = 0;
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(INSTANCES));
+    for (uint32_t link = scene->newest; link > 0;) {
+        const struct instance *instance = sdfgi_pool_at(&scene->instances, link - 1);
+        if (instance->revision <= frame->instances_since)
+            break;
+        if (filled == BATCH || (filled > 0 && link != lowest)) {
+            upload(r, RESOURCE_INSTANCES, first + lowest * size, filled * size, batch + BATCH - filled);
+            filled = 0;
+        }
+        if (link <= r->resources->extent.instances) {
+            filled++;
+            batch[BATCH - filled] = sdfgi_params_of_instance(cascades, scene, instance);
+            lowest = link - 1;
+        }
+        link = instance->by_revision.after;
+    }
+    if (filled > 0)
+        upload(r, RESOURCE_INSTANCES, first + lowest * size, filled * size, batch + BATCH - filled);
+}
+
 /* No workgroups, no rays, none that ran out of steps: shaders/sdfgi/ray_queue.glsl. */
 static void empty_ray_queue(struct pass_recorder *r)
 {
@@ -63,6 +92,8 @@ static void record_uploads(struct pass_recorder *r, const struct frame *frame, c
         upload_lights(r, &frame->next, &scene->lights);
     if (frame->uploads & FRAME_UPLOAD_MATERIALS)
         upload_materials(r, scene);
+    if (frame->uploads & FRAME_UPLOAD_INSTANCES)
+        upload_instances(r, scene, frame);
 }
 
 /* ---- Work */
@@ -88,9 +119,9 @@ static void record_readback(struct pass_recorder *r, uint32_t slot, uint32_t num
 }
 
 void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r,
-                        uint32_t slot, uint32_t number)
+                        struct draw_list *draws, uint32_t slot, uint32_t number)
 {
-    const struct voxelizer voxelizer = { r, scene, &frame->next.cascades };
+    const struct voxelizer voxelizer = { r, scene, &frame->next.cascades, draws };
     record_uploads(r, frame, scene);
     for (uint32_t i = 0; i < frame->work.count; i++)
         record_item(r, &voxelizer, &frame->work.items[i]);

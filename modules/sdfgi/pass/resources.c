@@ -337,6 +337,14 @@ bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *r)
     return grow(backend, r, &extent, emitting, sizeof emitting / sizeof *emitting);
 }
 
+bool sdfgi_resources_grow_instances(struct backend *backend, struct resources *r, uint64_t instances)
+{
+    static const enum resource which[] = { RESOURCE_INSTANCES };
+    struct extent extent = r->extent;
+    extent.instances = instances;
+    return too_large(backend, &extent) == RESOURCE_COUNT && grow(backend, r, &extent, which, 1);
+}
+
 /* ---- The blank set */
 
 VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)

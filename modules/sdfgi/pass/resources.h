@@ -53,6 +53,10 @@ bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources 
  * if memory is short. */
 bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *resources);
 
+/* Exchanges the buffer of instances for an empty one with room for `instances`. Changes nothing and returns
+ * false if memory is short, or if no buffer of the device can be so long. */
+bool sdfgi_resources_grow_instances(struct backend *backend, struct resources *resources, uint64_t instances);
+
 /* The LOOKUP set of a context that has no light to show: every lookup is black. At most 64 KiB, and no
  * command. */
 struct blank_set {

@@ -11,6 +11,7 @@
 #include "shaders/shared/args.h"
 #include "shaders/shared/counters.h"
 #include "shaders/shared/frame.h"
+#include "shaders/shared/instances.h"
 
 enum {
     SDFGI_MAX_LIGHTS = 1024,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Meshes, materials, instances and what follows from them. Every value is checked here, at the edge; the
+ * Meshes, materials and what follows from them. Every value is checked here, at the edge; the
  * stages trust it. */
 #include "scene.h"
 #include "same.h"
@@ -19,6 +19,7 @@ void sdfgi_scene_init(struct scene *scene, struct backend *backend)
     sdfgi_pool_init(&scene->materials, sizeof(struct material), SDFGI_MAX_MATERIALS);
     sdfgi_pool_init(&scene->instances, sizeof(struct instance), MAX_OBJECTS);
     sdfgi_pool_init(&scene->lights, sizeof(struct light), SDFGI_MAX_LIGHTS);
+    sdfgi_tree_init(&scene->tree);
 }
 
 static void free_sets(struct scene *scene)
@@ -44,27 +45,13 @@ void sdfgi_scene_finish(struct scene *scene)
     sdfgi_pool_finish(&scene->materials, hooks);
     sdfgi_pool_finish(&scene->instances, hooks);
     sdfgi_pool_finish(&scene->lights, hooks);
+    sdfgi_tree_finish(&scene->tree, hooks);
 }
 
 void sdfgi_scene_add_journal(struct scene *scene, struct journal *journal)
 {
     journal->next = scene->journals;
     scene->journals = journal;
-}
-
-bool sdfgi_instance_touches(const struct instance *instance, const struct box *box)
-{
-    return instance->desc.mobility == SDFGI_STATIC && sdfgi_box_overlaps(&instance->bounds, box);
-}
-
-bool sdfgi_scene_touches(const struct scene *scene, const struct box *box)
-{
-    for (uint32_t i = 0; i < scene->instances.end; i++) {
-        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
-        if (instance && sdfgi_instance_touches(instance, box))
-            return true;
-    }
-    return false;
 }
 
 bool sdfgi_scene_has_light(const struct scene *scene, bool reads_sky)
@@ -163,18 +150,26 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
     return SDFGI_OK;
 }
 
+static enum sdfgi_result still_used(const struct scene *scene, sdfgi_material handle)
+{
+    uint32_t user = 0;
+    for (uint32_t i = 0; i < scene->instances.end; i++) {
+        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
+        if (instance && instance->desc.material.id == handle.id)
+            user = sdfgi_pool_id(&scene->instances, i);
+    }
+    return sdfgi_message_invalid(&scene->backend->hooks,
+                                 "sdfgi_material_destroy: instance %u still uses material %u", user,
+                                 handle.id);
+}
+
 enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_material handle)
 {
     struct material *material = sdfgi_pool_get(&scene->materials, handle.id);
     if (!material)
         return sdfgi_check_unknown_handle(scene, "sdfgi_material_destroy", handle.id);
-    for (uint32_t i = 0; i < scene->instances.end; i++) {
-        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
-        if (instance && instance->desc.material.id == handle.id)
-            return sdfgi_message_invalid(&scene->backend->hooks,
-                                         "sdfgi_material_destroy: instance %u still uses material %u",
-                                         sdfgi_pool_id(&scene->instances, i), handle.id);
-    }
+    if (material->users > 0)
+        return still_used(scene, handle);
     sdfgi_scene_sets_retire(scene, material->set);
     scene->emissive -= emits(&material->desc);
     const bool was_smoothest = material->desc.smoothness >= scene->smoothest;
@@ -212,91 +207,11 @@ enum sdfgi_result sdfgi_scene_mesh_destroy(struct scene *scene, sdfgi_mesh handl
     struct mesh *mesh = sdfgi_pool_get(&scene->meshes, handle.id);
     if (!mesh)
         return sdfgi_check_unknown_handle(scene, "sdfgi_mesh_destroy", handle.id);
-    for (uint32_t i = 0; i < scene->instances.end; i++) {
-        const struct instance *instance = sdfgi_pool_at(&scene->instances, i);
-        if (instance && instance->desc.mesh.id == handle.id)
-            sdfgi_scene_instance_destroy(scene, (sdfgi_instance){ sdfgi_pool_id(&scene->instances, i) });
-    }
+    while (mesh->first > 0)
+        sdfgi_scene_instance_destroy(scene,
+                                     (sdfgi_instance){ sdfgi_pool_id(&scene->instances, mesh->first - 1) });
     sdfgi_scene_sets_retire(scene, mesh->set);
     sdfgi_pool_remove(&scene->meshes, handle.id);
-    return SDFGI_OK;
-}
-
-/* ---- Instances */
-
-static struct box transformed_bounds(const struct mesh *mesh, const struct sdfgi_transform *t)
-{
-    struct box box;
-    for (int row = 0; row < 3; row++) {
-        double low = t->translation[row], high = low;
-        for (int column = 0; column < 3; column++) {
-            const double a = (double)t->basis[3 * column + row] * mesh->desc.bounds_min[column];
-            const double b = (double)t->basis[3 * column + row] * mesh->desc.bounds_max[column];
-            low += fmin(a, b);
-            high += fmax(a, b);
-        }
-        box.min[row] = low;
-        box.max[row] = high;
-    }
-    return box;
-}
-
-enum sdfgi_result sdfgi_scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
-                                              sdfgi_instance *out)
-{
-    const struct mesh *mesh = sdfgi_pool_get(&scene->meshes, desc->mesh.id);
-    if (!mesh)
-        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_create: mesh", desc->mesh.id);
-    if (!sdfgi_pool_get(&scene->materials, desc->material.id))
-        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_create: material", desc->material.id);
-    struct problem problem = sdfgi_check_transform(&desc->transform);
-    if (desc->mobility != SDFGI_STATIC && desc->mobility != SDFGI_EXCLUDED)
-        sdfgi_problem_add(&problem, "mobility is %d, must be one of enum sdfgi_mobility",
-                          (int)desc->mobility);
-    if (problem.text[0])
-        return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_instance_create");
-    uint32_t id;
-    struct instance *instance = sdfgi_pool_add(&scene->instances, &scene->backend->hooks, &id);
-    if (!instance)
-        return sdfgi_check_out_of_slots(scene, "sdfgi_instance_create", MAX_OBJECTS);
-    instance->desc = *desc;
-    instance->bounds = transformed_bounds(mesh, &desc->transform);
-    if (desc->mobility == SDFGI_STATIC)
-        sdfgi_journal_add_box(scene->journals, &instance->bounds);
-    out->id = id;
-    return SDFGI_OK;
-}
-
-enum sdfgi_result sdfgi_scene_instance_set_transform(struct scene *scene, sdfgi_instance handle,
-                                                     const struct sdfgi_transform *transform)
-{
-    struct instance *instance = sdfgi_pool_get(&scene->instances, handle.id);
-    if (!instance)
-        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_set_transform", handle.id);
-    const struct problem problem = sdfgi_check_transform(transform);
-    if (problem.text[0])
-        return sdfgi_problem_report_of(&problem, &scene->backend->hooks, "sdfgi_instance_set_transform",
-                                       "instance", handle.id);
-    if (sdfgi_same_transform(&instance->desc.transform, transform))
-        return SDFGI_OK;
-    const bool in_volumes = instance->desc.mobility == SDFGI_STATIC;
-    if (in_volumes)
-        sdfgi_journal_add_box(scene->journals, &instance->bounds);
-    instance->desc.transform = *transform;
-    instance->bounds = transformed_bounds(sdfgi_pool_get(&scene->meshes, instance->desc.mesh.id), transform);
-    if (in_volumes)
-        sdfgi_journal_add_box(scene->journals, &instance->bounds);
-    return SDFGI_OK;
-}
-
-enum sdfgi_result sdfgi_scene_instance_destroy(struct scene *scene, sdfgi_instance handle)
-{
-    const struct instance *instance = sdfgi_pool_get(&scene->instances, handle.id);
-    if (!instance)
-        return sdfgi_check_unknown_handle(scene, "sdfgi_instance_destroy", handle.id);
-    if (instance->desc.mobility == SDFGI_STATIC)
-        sdfgi_journal_add_box(scene->journals, &instance->bounds);
-    sdfgi_pool_remove(&scene->instances, handle.id);
     return SDFGI_OK;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/pool.h"
 #include "harmonics.h"
+#include "instance_tree.h"
 #include "journal.h"
 #include "mesh_streams.h"
 #include "pass/backend.h"
@@ -22,16 +23,27 @@ struct mesh {
     struct sdfgi_mesh_desc desc; /* without defaults: see `streams` */
     struct mesh_stream streams[MESH_STREAMS];
     struct object_set *set;
+    uint32_t first; /* of its instances: a slot + 1, or 0 */
 };
 
 struct material {
     struct sdfgi_material_desc desc;
     struct object_set *set; /* NULL: no textures */
+    uint32_t users;         /* instances */
+};
+
+/* Neighbours in a list of instances: slots + 1, or 0. */
+struct neighbours {
+    uint32_t before, after;
 };
 
 struct instance {
     struct sdfgi_instance_desc desc;
-    struct box bounds; /* world */
+    struct box bounds;             /* world */
+    uint64_t revision;             /* of the scene, when it was made or moved last */
+    struct neighbours of_mesh;     /* all instances of its mesh */
+    struct neighbours by_revision; /* all that are in the volumes, newest first */
+    bool is_named;                 /* by the list of handles that is being checked */
 };
 
 struct light {
@@ -60,6 +72,9 @@ struct scene {
     float most_emission;                  /* of any material so far */
     float emission_unit;                  /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;
+    struct instance_tree tree; /* of the instances that are in the volumes */
+    uint64_t revision;         /* changes of these so far */
+    uint32_t newest;           /* of them: a slot + 1, or 0 */
 };
 
 void sdfgi_scene_init(struct scene *scene, struct backend *backend);
@@ -77,6 +92,10 @@ enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfg
 enum sdfgi_result sdfgi_scene_mesh_destroy(struct scene *scene, sdfgi_mesh mesh);
 enum sdfgi_result sdfgi_scene_instance_create(struct scene *scene, const struct sdfgi_instance_desc *desc,
                                               sdfgi_instance *out);
+enum sdfgi_result sdfgi_scene_instances_create(struct scene *scene, uint32_t count,
+                                               const struct sdfgi_instance_desc *descs, sdfgi_instance *out);
+enum sdfgi_result sdfgi_scene_instances_destroy(struct scene *scene, uint32_t count,
+                                                const sdfgi_instance *instances);
 enum sdfgi_result sdfgi_scene_instance_set_transform(struct scene *scene, sdfgi_instance instance,
                                                      const struct sdfgi_transform *transform);
 enum sdfgi_result sdfgi_scene_instance_destroy(struct scene *scene, sdfgi_instance instance);
@@ -90,9 +109,7 @@ enum sdfgi_result sdfgi_scene_set_harmonics(struct scene *scene, const struct sd
 enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double box_min[static 3],
                                              const double box_max[static 3]);
 
-/* True if the instance is in the volumes and may touch the box. */
-bool sdfgi_instance_touches(const struct instance *instance, const struct box *box);
-/* True if any instance does. */
+/* True if an instance that is in the volumes may touch the box. */
 bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
 /* The brightest that surfaces may get from all there is, about: radiance, or irradiance over pi. */
 float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky);

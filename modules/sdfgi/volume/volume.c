@@ -136,6 +136,32 @@ void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
                       "sdfgi_update: no memory for emission: what emits stays dark");
 }
 
+/* A larger buffer is empty: to a frame that is undone, too. */
+static void forget_instances(struct volume *volume)
+{
+    volume->state.instances = volume->undo.state.instances = 0;
+    if (volume->feedback.instances_refused > 0)
+        volume->journal.notes |= JOURNAL_EVERYTHING;
+    volume->feedback.instances_refused = 0;
+}
+
+void sdfgi_volume_add_instances(struct volume *volume, const struct scene *scene)
+{
+    const struct pool *pool = &scene->instances;
+    const uint64_t room = volume->resources->extent.instances;
+    if (pool->end <= room || volume->feedback.instances_refused == scene->revision)
+        return;
+    if (sdfgi_resources_grow_instances(volume->backend, volume->resources, pool->capacity)) {
+        forget_instances(volume);
+        return;
+    }
+    if (volume->feedback.instances_refused == 0)
+        sdfgi_message_log(&volume->backend->hooks, SDFGI_MESSAGE_OUT_OF_DEVICE_MEMORY,
+                          "sdfgi_update: no memory for %u instances: those beyond %llu are left out for now",
+                          (unsigned)pool->end, (unsigned long long)room);
+    volume->feedback.instances_refused = scene->revision;
+}
+
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume)
 {
     struct light_lists lists = { .cascades = volume->state.cascades.count,

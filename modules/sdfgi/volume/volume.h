@@ -24,6 +24,7 @@ struct volume_state {
     uint32_t seed;
     uint32_t seed_asked;              /* by the last frame: taken over once two in a row ask for it */
     struct sdfgi_frame_params params; /* as last uploaded */
+    uint64_t instances;               /* revision of the scene up to which instances have been uploaded */
     uint64_t updates;                 /* frames recorded since there was nothing */
     bool paused;                      /* GI has been switched off since, and volumes are kept */
 };
@@ -50,6 +51,7 @@ struct feedback {
     struct feedback_time times[PASS_COUNT];
     uint64_t light_cells_refused; /* light cells for which there was no room; 0: there always was */
     bool emitters_refused;        /* there was no memory for emission */
+    uint64_t instances_refused; /* revision of the scene with instances for which there was no memory, or 0 */
 };
 
 /* Buffers that have been made and that no frame has filled. */
@@ -105,6 +107,8 @@ VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t slot, bool *has_
 void sdfgi_volume_make_room(struct volume *volume);
 /* Makes room for emission and for emitters as soon as something emits. */
 void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
+/* Makes room for all instances of the scene. */
+void sdfgi_volume_add_instances(struct volume *volume, const struct scene *scene);
 /* The lists as far as counters know them. */
 struct light_lists sdfgi_volume_light_lists(const struct volume *volume);
 
@@ -118,6 +122,11 @@ void sdfgi_params_fill(struct sdfgi_frame_params *params, const struct volume_st
                        const struct params_input *input);
 struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state,
                                                 const struct sdfgi_light_desc *light);
+struct sdfgi_instance_params sdfgi_params_of_instance(const struct cascades *cascades,
+                                                      const struct scene *scene,
+                                                      const struct instance *instance);
+/* A cascade's low corner along an axis, counted as the place of an instance. */
+int64_t sdfgi_params_corner(const struct cascades *cascades, uint32_t cascade, int axis);
 struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
                                                       const struct sdfgi_material_desc *material);
 

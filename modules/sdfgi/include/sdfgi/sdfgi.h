@@ -300,6 +300,15 @@ struct sdfgi_instance_desc {
 
 SDFGI_API enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_desc *desc,
                                                   sdfgi_instance *out);
+/* Creates `count` instances, or none: an error leaves the scene and `handles` as they are. Its message names
+ * the index of the first description that is wrong: "descs[17]". All handles of `descs` and `handles` are as
+ * those of sdfgi_instance_create. `count` may be 0. */
+SDFGI_API enum sdfgi_result sdfgi_instances_create(sdfgi *gi, uint32_t count,
+                                                   const struct sdfgi_instance_desc *descs,
+                                                   sdfgi_instance *handles);
+/* Destroys `count` instances, or none: a handle that is stale, or there twice, is an error, whose message
+ * names its index. `count` may be 0. */
+SDFGI_API enum sdfgi_result sdfgi_instances_destroy(sdfgi *gi, uint32_t count, const sdfgi_instance *handles);
 SDFGI_API enum sdfgi_result sdfgi_instance_set_transform(sdfgi *gi, sdfgi_instance instance,
                                                          const struct sdfgi_transform *transform);
 SDFGI_API enum sdfgi_result sdfgi_instance_destroy(sdfgi *gi, sdfgi_instance instance);
