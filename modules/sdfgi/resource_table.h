@@ -27,7 +27,7 @@
  * SUMS                      of this sample cycle; and each probe's history
  * PREVIOUS                  the sample cycle before
  * BOUNDS                    from the start of a change to its end
- * INSTANCES                 a list of slots, those that a dispatch draws; then all of the scene by slot, written
+ * INSTANCES                 a list of slots, which a dispatch draws; then all of the scene by slot, written
  *                           by the host when they change: grows with the scene
  */
 #ifndef SDFGI_RESOURCE_TABLE_H
