@@ -4,9 +4,12 @@
  *
  *   bench_instances [INSTANCES] [RESOLUTION] [FRAMES] [SPACING_M]
  *
- * Set SDFGI_TEST_DEVICE to choose a device and SDFGI_TEST_VALIDATION=0 to measure without validation. */
+ * Set SDFGI_TEST_DEVICE to choose a device and SDFGI_TEST_VALIDATION=0 to measure without validation. With
+ * SDFGI_BENCH_RECORD=1 dispatches and draws are left out: a software driver then takes no time that CPU times
+ * could be lost in, and there are no GPU times. */
 #include "box_field.h"
 #include "require.h"
+#include "test_memory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,13 +17,14 @@
 #include <string.h>
 #include <time.h>
 
-enum { SETTLE_MOST = 4000, RESTARTS = 5 };
+enum { SETTLE_MOST = 4000, RESTARTS = 3 };
 
 struct bench {
     struct gi_test t;
     struct box_field field;
     uint32_t resolution, frames;
-    double update_ms; /* CPU time of the last update, of the thread that records */
+    double voxelize_ms[2][2]; /* GPU time: of instances and of one mesh; of a first frame and of a walk */
+    double update_ms;         /* CPU time of the last update, of the thread that records */
 };
 
 static struct bench bench;
@@ -59,6 +63,51 @@ static void print_times(const char *what, double *ms, uint32_t count)
            ms[count - 1]);
 }
 
+/* ---- A device that does nothing */
+
+static VKAPI_ATTR void VKAPI_CALL no_dispatch(VkCommandBuffer cmd, uint32_t x, uint32_t y, uint32_t z)
+{
+    (void)cmd, (void)x, (void)y, (void)z;
+}
+
+static VKAPI_ATTR void VKAPI_CALL no_dispatch_indirect(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize at)
+{
+    (void)cmd, (void)buffer, (void)at;
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL idle_device_function(VkDevice device, const char *name)
+{
+    if (strcmp(name, "vkCmdDispatch") == 0)
+        return (PFN_vkVoidFunction)no_dispatch;
+    if (strcmp(name, "vkCmdDispatchIndirect") == 0)
+        return (PFN_vkVoidFunction)no_dispatch_indirect;
+    return vkGetDeviceProcAddr(device, name);
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL idle_instance_function(VkInstance instance, const char *name)
+{
+    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
+        return (PFN_vkVoidFunction)idle_device_function;
+    return vkGetInstanceProcAddr(instance, name);
+}
+
+static void open_device(void)
+{
+    struct sdfgi_settings off;
+    sdfgi_settings_default(&off);
+    gi_test_open(&bench.t, &off);
+    const char *record = getenv("SDFGI_BENCH_RECORD");
+    if (!record || strcmp(record, "1") != 0)
+        return;
+    const struct gpu_test *gpu = &bench.t.gpu;
+    const struct sdfgi_desc desc = { .vulkan = { gpu->instance, gpu->physical_device, gpu->device,
+                                                 gpu->queue_family_index, idle_instance_function, NULL } };
+    sdfgi_destroy(bench.t.gi);
+    REQUIRE_CMP(sdfgi_create(&desc, &bench.t.gi), ==, SDFGI_OK);
+}
+
+/* ---- Scenes */
+
 static void open_context(void)
 {
     struct sdfgi_settings settings;
@@ -77,15 +126,17 @@ static void add_instances(void)
     const sdfgi_mesh mesh = gi_test_mesh(&bench.t, &unit);
     const sdfgi_material material =
         gi_test_material(&bench.t, (float[3]){ 0.5f, 0.5f, 0.5f }, (float[3]){ 0 });
+    struct sdfgi_instance_desc *descs = test_array_alloc(bench.field.count, sizeof *descs);
+    sdfgi_instance *handles = test_array_alloc(bench.field.count, sizeof *handles);
+    for (uint32_t i = 0; i < bench.field.count; i++)
+        descs[i] =
+            (struct sdfgi_instance_desc){ mesh, material, box_field_place(&bench.field, i), SDFGI_STATIC };
     const double begin = thread_ms();
-    for (uint32_t i = 0; i < bench.field.count; i++) {
-        const struct sdfgi_instance_desc desc = { mesh, material, box_field_place(&bench.field, i),
-                                                  SDFGI_STATIC };
-        sdfgi_instance unused;
-        REQUIRE_CMP(sdfgi_instance_create(bench.t.gi, &desc, &unused), ==, SDFGI_OK);
-    }
+    REQUIRE_CMP(sdfgi_instances_create(bench.t.gi, bench.field.count, descs, handles), ==, SDFGI_OK);
     printf("%-34s %.1f ms\n", "creating them", thread_ms() - begin);
     test_mesh_destroy(&unit);
+    free(descs);
+    free(handles);
 }
 
 static void add_mesh(void)
@@ -104,7 +155,7 @@ static double voxelize_ms(void)
     return pass->gpu_ns_valid ? (double)pass->gpu_ns * 1e-6 : 0;
 }
 
-static void time_start(const char *what)
+static void time_start(int which, const char *what)
 {
     double cpu[RESTARTS], gpu[RESTARTS];
     for (int i = 0; i < RESTARTS; i++) {
@@ -122,6 +173,7 @@ static void time_start(const char *what)
     print_times(text, cpu, RESTARTS);
     snprintf(text, sizeof text, "%s: first frame, voxelize", what);
     print_times(text, gpu, RESTARTS);
+    bench.voxelize_ms[which][0] = gpu[RESTARTS / 2];
 }
 
 static void time_settled(const char *what)
@@ -144,7 +196,7 @@ static void time_settled(const char *what)
 }
 
 /* At 5 m/s and 60 frames a second. */
-static void time_walk(const char *what)
+static void time_walk(int which, const char *what)
 {
     double *cpu = calloc(bench.frames, sizeof *cpu), gpu = 0;
     for (uint32_t i = 0; i < bench.frames; i++) {
@@ -157,6 +209,7 @@ static void time_walk(const char *what)
     snprintf(text, sizeof text, "%s: walking, CPU", what);
     print_times(text, cpu, bench.frames);
     printf("%s: walking, voxelize              %.3f ms in all\n", what, gpu);
+    bench.voxelize_ms[which][1] = gpu;
     free(cpu);
 }
 
@@ -168,17 +221,22 @@ int main(int argc, char **argv)
     bench.resolution = argc > 2 ? (uint32_t)atoi(argv[2]) : 128;
     bench.frames = argc > 3 ? (uint32_t)atoi(argv[3]) : 600;
     bench.field.spacing_m = argc > 4 ? atof(argv[4]) : 1;
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    open_device();
     open_context();
     printf("%u boxes, %u^3 cells, on %s\n", bench.field.count, bench.resolution,
            bench.t.gpu.properties.deviceName);
     add_instances();
-    time_start("instances");
+    time_start(0, "instances");
     time_settled("instances");
-    time_walk("instances");
+    time_walk(0, "instances");
     open_context();
     add_mesh();
-    time_start("one mesh");
-    time_walk("one mesh");
+    time_start(1, "one mesh");
+    time_walk(1, "one mesh");
+    printf("voxelize, instances over one mesh: first frame %.2f, walking %.2f\n",
+           bench.voxelize_ms[0][0] / bench.voxelize_ms[1][0],
+           bench.voxelize_ms[0][1] / bench.voxelize_ms[1][1]);
     gi_test_close(&bench.t);
     return 0;
 }
