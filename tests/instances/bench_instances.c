@@ -115,6 +115,9 @@ static void open_context(void)
     settings.enabled = true;
     settings.resolution = bench.resolution;
     gi_test_renew(&bench.t, &settings);
+    const uint32_t none[SDFGI_COUNTER_COUNT] = { 0 }; /* where no shader writes them */
+    gpu_test_buffer_write(&bench.t.gpu, bench.t.gi->volume.resources->buffers[RESOURCE_COUNTERS].handle, 0,
+                          sizeof none, none);
     bench.t.frame.camera_position[1] = 1.7;
     const struct sdfgi_sky sky = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } };
     REQUIRE_CMP(sdfgi_set_sky(bench.t.gi, &sky), ==, SDFGI_OK);

@@ -99,19 +99,40 @@ void sdfgi_draws_begin(struct draw_list *list, const struct draw_query *query)
     sdfgi_tree_search(&list->search, &query->scene->tree, &list->box);
 }
 
+/* Adds the slot at `index` of those that the tree named, if it touches the box indeed. */
+static void take(struct draw_list *list, const struct draw_query *query, uint32_t index)
+{
+    const uint32_t slot = list->draws[index];
+    const struct instance *instance = sdfgi_pool_at(&query->scene->instances, slot);
+    if (slot < query->room && sdfgi_box_overlaps(&instance->bounds, &list->box))
+        append(list, query, slot, instance);
+}
+
+/* Instances lie anywhere in memory, and waiting for one after the other would take most of the time. */
+static void fetch_ahead(const struct draw_list *list, const struct draw_query *query, uint32_t index)
+{
+    const struct instance *instance = sdfgi_pool_at(&query->scene->instances, list->draws[index]);
+    __builtin_prefetch(&instance->bounds);
+    __builtin_prefetch(&instance->desc.material);
+}
+
 bool sdfgi_draws_next(struct draw_list *list, const struct draw_query *query)
 {
-    uint32_t slot;
+    enum { AHEAD = 16 };
+    uint32_t named = 0;
+    while (named < SDFGI_MAX_DRAWS && sdfgi_tree_next(&list->search, &list->draws[named]))
+        named++;
     list->count = 0;
-    while (list->count < SDFGI_MAX_DRAWS && sdfgi_tree_next(&list->search, &slot)) {
-        const struct instance *instance = sdfgi_pool_at(&query->scene->instances, slot);
-        if (slot < query->room && sdfgi_box_overlaps(&instance->bounds, &list->box))
-            append(list, query, slot, instance);
+    for (uint32_t i = 0; i < named + AHEAD; i++) {
+        if (i < named)
+            fetch_ahead(list, query, i);
+        if (i >= AHEAD)
+            take(list, query, i - AHEAD);
     }
     sort(list);
     for (uint32_t i = 0; i < list->count; i++)
         list->draws[i] = list->found[number_of(list->order[i])];
-    return list->count > 0;
+    return named > 0;
 }
 
 /* ---- Batches */

@@ -308,9 +308,13 @@ bool sdfgi_tree_next(struct tree_search *search, uint32_t *slot)
         const struct tree_node *n = &search->tree->nodes[at];
         search->visited++;
         assert(search->count + 2 <= TREE_MOST_HEIGHT);
-        for (int i = 0; i < 2; i++)
-            if (overlaps(&n->boxes[i], &search->box))
-                search->left[search->count++] = n->child[i];
+        for (int i = 0; i < 2; i++) {
+            if (!overlaps(&n->boxes[i], &search->box))
+                continue;
+            search->left[search->count++] = n->child[i];
+            if (!is_leaf(n->child[i]))
+                __builtin_prefetch(&search->tree->nodes[n->child[i]]);
+        }
     }
     return false;
 }

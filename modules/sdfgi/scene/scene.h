@@ -38,8 +38,8 @@ struct neighbours {
 };
 
 struct instance {
+    struct box bounds; /* world. What searches read comes first: this, and the mesh and material of `desc` */
     struct sdfgi_instance_desc desc;
-    struct box bounds;             /* world */
     uint64_t revision;             /* of the scene, when it was made or moved last */
     struct neighbours of_mesh;     /* all instances of its mesh */
     struct neighbours by_revision; /* all that are in the volumes, newest first */
