@@ -179,6 +179,72 @@ static void light_rests_even_if_nothing_is_told_of_a_while(void **state)
     sdfgi_destroy(gi);
 }
 
+/* More instances than a context has room for at first, all of which touch its cascade. */
+enum { MANY = 3000 };
+
+static void add_many_triangles(sdfgi *gi, sdfgi_instance *last)
+{
+    static struct sdfgi_instance_desc descs[MANY];
+    static sdfgi_instance handles[MANY];
+    const struct sdfgi_mesh_desc mesh = {
+        .position_buffer = triangle.buffer, .vertex_count = 3, .triangle_count = 1, .bounds_max = { 1, 1, 0 }
+    };
+    const struct sdfgi_material_desc material = { .albedo = { 0.5f, 0.5f, 0.5f } };
+    REQUIRE_CMP((int)sdfgi_mesh_create(gi, &mesh, &descs[0].mesh), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_material_create(gi, &material, &descs[0].material), ==, (int)SDFGI_OK);
+    descs[0].transform = (struct sdfgi_transform){ { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 0, 0 } };
+    for (int i = 1; i < MANY; i++)
+        descs[i] = descs[0];
+    REQUIRE_CMP((int)sdfgi_instances_create(gi, MANY, descs, handles), ==, (int)SDFGI_OK);
+    *last = handles[MANY - 1];
+}
+
+static uint64_t triangles_drawn(const sdfgi *gi)
+{
+    static struct sdfgi_report report;
+    sdfgi_get_report(gi, &report);
+    return report.passes[PASS_VOXELIZE].work;
+}
+
+/* One error says so, and frames go on without some of them, until there is memory. */
+static void room_for_instances_comes_as_soon_as_there_is_memory(void **state)
+{
+    (void)state;
+    const struct sdfgi_transform moved = { { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0.5, 0, 0 } };
+    sdfgi *gi = create(SDFGI_VOXELIZER_COMPUTE, true);
+    sdfgi_instance last;
+    add_many_triangles(gi, &last);
+    uint32_t k = 1;
+    for (;; k++) {
+        errors = 0;
+        gi->volume.feedback.instances_refused = 0;
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        gpu_test_submit_many(&gpu, 1, record_update, gi);
+        if (failing_vulkan_calls() < k)
+            break;
+        if (k == 1)
+            REQUIRE_CMP(triangles_drawn(gi), ==, (uint64_t)SDFGI_FIRST_INSTANCES);
+        REQUIRE_CMP(errors, ==, 1u);
+        REQUIRE_CMP(gi->volume.resources->extent.instances, ==, (uint64_t)SDFGI_FIRST_INSTANCES);
+        update(gi, 1);
+        REQUIRE_CMP(errors, ==, 1u);
+    }
+    printf("%u Vulkan calls of making room for instances can fail\n", k - 1);
+    REQUIRE_CMP(k, >, 3u);
+
+    /* Once more, with memory that comes back later, when the scene has changed. */
+    sdfgi_destroy(gi);
+    gi = create(SDFGI_VOXELIZER_COMPUTE, true);
+    add_many_triangles(gi, &last);
+    failing_vulkan_reset(1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    update(gi, 2);
+    failing_vulkan_reset(0, VK_SUCCESS);
+    REQUIRE_CMP((int)sdfgi_instance_set_transform(gi, last, &moved), ==, (int)SDFGI_OK);
+    gpu_test_submit_many(&gpu, 1, record_update, gi);
+    REQUIRE_CMP(triangles_drawn(gi), ==, (uint64_t)MANY);
+    sdfgi_destroy(gi);
+}
+
 /* A warning says what it costs; frames go on. */
 static void lists_of_emitters_can_be_done_without(void **state)
 {
@@ -295,6 +361,7 @@ int main(void)
         cmocka_unit_test(switching_on_the_raster_voxelizer_may_fail_anywhere),
         cmocka_unit_test(what_a_frame_found_out_can_be_done_without),
         cmocka_unit_test(light_rests_even_if_nothing_is_told_of_a_while),
+        cmocka_unit_test(room_for_instances_comes_as_soon_as_there_is_memory),
         cmocka_unit_test(lists_of_emitters_can_be_done_without),
         cmocka_unit_test(switching_off_reset_and_cancel_call_nothing_that_can_fail),
         cmocka_unit_test(preparing_may_fail_anywhere),
