@@ -33,9 +33,9 @@ struct sdfgi_prepare_desc {
  *
  * Once all is there, sdfgi_set_settings with these settings and `enabled` set makes no pipeline, allocates no
  * device memory and cannot fail for want of either; nor does sdfgi_update after it, unless surfaces outgrow
- * the list of light cells. That holds for the switch from off to on, and for settings marked "re-create"
- * while GI is on: the volumes in force go on until then. Both are held meanwhile. Settings are as prepared if
- * they agree in all that is marked "re-create".
+ * the list of light cells or the scene has more than 1024 instances. That holds for the switch from off to
+ * on, and for settings marked "re-create" while GI is on: the volumes in force go on until then. Both are
+ * held meanwhile. Settings are as prepared if they agree in all that is marked "re-create".
  *
  * What has been prepared is kept: from then on switching off keeps the volumes as they are, light included,
  * and switching on goes on from there, with what changed meanwhile. Lookups are black until the next

@@ -104,7 +104,8 @@ SDFGI_API enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysic
 SDFGI_API const char *sdfgi_memory_category_name(enum sdfgi_memory_category category);
 
 /* Device bytes that a context with these settings will allocate when it is switched on: exactly what
- * sdfgi_get_report says afterwards. Needs no device. `settings` may be NULL for the defaults. */
+ * sdfgi_get_report says afterwards. Scenes of more than 1024 instances take 64 more for each, rounded up to a
+ * power of two of instances. Needs no device. `settings` may be NULL for the defaults. */
 SDFGI_API enum sdfgi_result sdfgi_estimate_memory(const struct sdfgi_settings *settings,
                                                   uint32_t frames_in_flight, struct sdfgi_memory *memory);
 
@@ -298,6 +299,10 @@ struct sdfgi_instance_desc {
     enum sdfgi_mobility mobility;
 };
 
+/* A scene may have 1,048,574 instances. One more is refused with SDFGI_ERROR_OUT_OF_MEMORY and a message that
+ * names the limit, and those that are there stay. Each takes 240 bytes of host memory and 64 of the device's,
+ * and as much again where room has just been doubled. What a frame costs depends on the instances that it
+ * voxelises and on those that have changed, not on how many there are. */
 SDFGI_API enum sdfgi_result sdfgi_instance_create(sdfgi *gi, const struct sdfgi_instance_desc *desc,
                                                   sdfgi_instance *out);
 /* Creates `count` instances, or none: an error leaves the scene and `handles` as they are. Its message names
@@ -373,7 +378,8 @@ struct sdfgi_frame_desc {
  * for all earlier work of the queue, and leaves pipelines, sets and push constants of its own bound.
  * Afterwards the descriptor set may be used by graphics and compute work later in the same queue: the
  * barriers are recorded. Records nothing at all while GI is disabled. Where surfaces outgrow the list of
- * light cells, allocates a longer one. */
+ * light cells, allocates a longer one, and likewise for instances. Without memory for these, one message says
+ * so, and the last ones are left out of the volumes until there is memory and the scene changes again. */
 SDFGI_API enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *desc);
 
 /* Undoes the last sdfgi_update, whose command buffer has not run and will not: the swapchain was out of date,
