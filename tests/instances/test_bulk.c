@@ -149,6 +149,8 @@ static void without_memory_none_is_created(void **state)
     sdfgi_instance *out = test_array_alloc(count, sizeof *out);
     for (uint32_t i = 0; i < count; i++)
         many[i] = descs[i % field.count];
+    for (uint32_t i = 0; i < count; i++)
+        out[i].id = 77;
     for (uint32_t i = 0; i < field.count; i++)
         handles[i].id = 77;
     memset(t.messages, 0, sizeof t.messages);
@@ -156,6 +158,8 @@ static void without_memory_none_is_created(void **state)
     require_refused(sdfgi_instances_create(t.gi, count, many, out), SDFGI_ERROR_OUT_OF_MEMORY,
                     SDFGI_MESSAGE_OUT_OF_HOST_MEMORY, "sdfgi_instances_create", 1);
     is_poor = false;
+    for (uint32_t i = 0; i < count; i++)
+        REQUIRE_CMP(out[i].id, ==, 77u);
     REQUIRE_CMP(sdfgi_instances_create(t.gi, count, many, out), ==, SDFGI_OK);
     REQUIRE_CMP(sdfgi_instances_destroy(t.gi, count, out), ==, SDFGI_OK);
     REQUIRE_CMP(sdfgi_instance_destroy(t.gi, first), ==, SDFGI_OK);

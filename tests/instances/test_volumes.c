@@ -41,7 +41,8 @@ static void add_half_as_mesh(const struct box_field *field, uint32_t first, sdfg
     test_mesh_destroy(&all);
 }
 
-static void add_as_instances(const struct box_field *field)
+/* Those from `first` on. */
+static void add_as_instances(const struct box_field *field, uint32_t first, uint32_t end)
 {
     struct sdfgi_instance_desc *descs = test_array_alloc(field->count, sizeof *descs);
     sdfgi_instance *handles = test_array_alloc(field->count, sizeof *handles);
@@ -51,7 +52,7 @@ static void add_as_instances(const struct box_field *field)
     for (uint32_t i = 0; i < field->count; i++)
         descs[i] =
             (struct sdfgi_instance_desc){ mesh, materials[i % 2], box_field_place(field, i), SDFGI_STATIC };
-    REQUIRE_CMP(sdfgi_instances_create(t.gi, field->count, descs, handles), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_instances_create(t.gi, end - first, descs + first, handles), ==, SDFGI_OK);
     test_mesh_destroy(&unit);
     free(handles);
     free(descs);
@@ -125,7 +126,7 @@ static void require_same(const struct box_field *field, enum sdfgi_voxelizer vox
     const struct sdfgi_settings settings = settings_of(voxelizer);
     struct volumes expected = volumes_of_meshes(field, voxelizer);
     gi_test_renew(&t, &settings);
-    add_as_instances(field);
+    add_as_instances(field, 0, field->count);
     gi_test_update(&t, 1);
     struct volumes made = read_volumes();
     REQUIRE_CMP(bits_set(&expected), >, 1000ull);
@@ -174,7 +175,7 @@ static void a_cancelled_update_loses_no_instance(void **state)
     const struct sdfgi_settings settings = settings_of(SDFGI_VOXELIZER_COMPUTE);
     struct volumes expected = volumes_of_meshes(&field, SDFGI_VOXELIZER_COMPUTE);
     gi_test_renew(&t, &settings);
-    add_as_instances(&field);
+    add_as_instances(&field, 0, field.count);
     gpu_test_record_and_drop(&t.gpu, record_update, NULL);
     sdfgi_cancel_update(t.gi);
     gi_test_update(&t, 1);
@@ -189,6 +190,32 @@ static void a_cancelled_update_loses_no_instance(void **state)
     made = read_volumes();
     require_equal(&expected, &made);
     free_volumes(&made);
+    free_volumes(&expected);
+}
+
+/* The buffer becomes longer while it holds some of them, in an update that is cancelled. */
+static void later_instances_lose_no_earlier_one(void **state)
+{
+    (void)state;
+    const struct box_field field = { 2500, 0.25 };
+    const struct sdfgi_settings settings = settings_of(SDFGI_VOXELIZER_COMPUTE);
+    struct volumes expected = volumes_of_meshes(&field, SDFGI_VOXELIZER_COMPUTE);
+    for (int cancels = 0; cancels < 2; cancels++) {
+        gi_test_restart(&t, &settings);
+        add_as_instances(&field, 0, 900);
+        gi_test_update(&t, 2);
+        REQUIRE_CMP(t.gi->volume.resources->extent.instances, ==, (uint64_t)SDFGI_FIRST_INSTANCES);
+        add_as_instances(&field, 900, field.count);
+        if (cancels) {
+            gpu_test_record_and_drop(&t.gpu, record_update, NULL);
+            sdfgi_cancel_update(t.gi);
+        }
+        gi_test_update(&t, 8);
+        REQUIRE_CMP(t.gi->volume.resources->extent.instances, >, (uint64_t)SDFGI_FIRST_INSTANCES);
+        struct volumes made = read_volumes();
+        require_equal(&expected, &made);
+        free_volumes(&made);
+    }
     free_volumes(&expected);
 }
 
@@ -208,6 +235,7 @@ int main(void)
         cmocka_unit_test(instances_are_as_one_mesh_to_the_raster_voxelizer),
         cmocka_unit_test(a_crowd_is_as_one_mesh),
         cmocka_unit_test(a_cancelled_update_loses_no_instance),
+        cmocka_unit_test(later_instances_lose_no_earlier_one),
     };
     return cmocka_run_group_tests_name("instances_volumes", tests, NULL, close_context);
 }

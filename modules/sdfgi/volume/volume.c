@@ -136,10 +136,10 @@ void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
                       "sdfgi_update: no memory for emission: what emits stays dark");
 }
 
-/* A larger buffer is empty: to a frame that is undone, too. */
+/* A longer buffer is empty. The state before this frame says so, too, which it may be taken back to. */
 static void forget_instances(struct volume *volume)
 {
-    volume->state.instances = volume->undo.state.instances = 0;
+    volume->state.instances = 0;
     if (volume->feedback.instances_refused > 0)
         volume->journal.notes |= JOURNAL_EVERYTHING;
     volume->feedback.instances_refused = 0;
