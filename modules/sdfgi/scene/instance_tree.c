@@ -223,29 +223,22 @@ static uint32_t take_node(struct instance_tree *tree)
     return node;
 }
 
-/* A child to stand beside: from the root down as long as a child's box grows by less than a node around both
- * would add. */
+/* A leaf to stand beside: from the root down to the child whose box grows least. Beside an inner node, which
+ * may be cheaper, one rotation on each level would not bring the tree in balance. */
 static uint32_t sibling_for(const struct instance_tree *tree, const struct tree_box *box,
                             struct tree_box *sibling_box)
 {
     uint32_t at = tree->root;
-    struct tree_box at_box = is_leaf(at) ? tree->only : box_of_node(tree, at);
+    *sibling_box = tree->only;
     while (!is_leaf(at)) {
         const struct tree_node *n = &tree->nodes[at];
-        const double here = 2 * area_around(&at_box, box),
-                     inherited = 2 * (area_around(&at_box, box) - half_area(&at_box));
-        double costs[2];
-        for (int i = 0; i < 2; i++) {
-            const double grown = area_around(&n->boxes[i], box);
-            costs[i] = inherited + grown - (is_leaf(n->child[i]) ? 0 : half_area(&n->boxes[i]));
-        }
-        if (here < costs[0] && here < costs[1])
-            break;
-        const int side = costs[1] < costs[0];
+        double growth[2];
+        for (int i = 0; i < 2; i++)
+            growth[i] = area_around(&n->boxes[i], box) - half_area(&n->boxes[i]);
+        const int side = growth[1] < growth[0];
         at = n->child[side];
-        at_box = n->boxes[side];
+        *sibling_box = n->boxes[side];
     }
-    *sibling_box = at_box;
     return at;
 }
 
@@ -260,7 +253,7 @@ void sdfgi_tree_add(struct instance_tree *tree, uint32_t slot, const struct box 
     }
     struct tree_box sibling_box;
     const uint32_t sibling = sibling_for(tree, &box, &sibling_box), node = take_node(tree),
-                   above = is_leaf(sibling) ? tree->parents[slot_of(sibling)] : tree->nodes[sibling].parent;
+                   above = tree->parents[slot_of(sibling)];
     const struct tree_box both = around(&sibling_box, &box);
     replace(tree, above, sibling, node, &both);
     set_child(tree, node, 0, sibling, &sibling_box);
