@@ -156,7 +156,8 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         "render", "Renders a glTF scene offscreen.", CLI_ARRAY(table), CLI_ARRAY(positionals),
         RUN_SCENE_NOTES "Float pictures are linear radiance without exposure. Parts of the light: "
                         "color, direct, diffuse_indirect,\n"
-                        "irradiance, reflection, normal, depth, albedo, roughness. Debug views are linear from 0 to 1.\n"
+                        "irradiance, reflection, normal, depth, albedo, roughness. Debug views are linear "
+                        "from 0 to 1.\n"
                         "SIGINT and SIGTERM end it after the frame in flight. The files are written "
                         "as they are then, and the exit\n"
                         "code is 128 + the signal's number."

@@ -91,7 +91,7 @@ enum host_aov {
     HOST_AOV_NORMAL,           /* world-space shading normal that faces the viewer */
     HOST_AOV_DEPTH,            /* distance along the camera's axis, metres; 0 where there is only sky */
     HOST_AOV_ALBEDO,           /* diffuse albedo, emission left out */
-    HOST_AOV_ROUGHNESS,        /* perceptual roughness, 1 without a specular part; 0 where there is only sky */
+    HOST_AOV_ROUGHNESS,        /* perceptual, 1 without a specular part; 0 where there is only sky */
     HOST_AOV_COUNT,
 };
 

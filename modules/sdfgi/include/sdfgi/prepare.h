@@ -10,6 +10,8 @@
 extern "C" {
 #endif
 
+struct sdfgi_progress; /* sdfgi/report.h */
+
 /* What to make besides that which every frame needs. */
 enum sdfgi_prepare_part {
     SDFGI_PREPARE_TEXTURES = 1,    /* the pipeline for materials with textures */
