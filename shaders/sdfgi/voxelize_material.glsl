@@ -37,11 +37,8 @@ vec2 texture_uv(vec4 rows[2], vec2 uv)
 }
 
 /* Linear RGB, and alpha. */
-vec4 texture_sample(sampler2D from, vec4 rows[2], bool encoded, vec2 uvs[3], vec3 bary, float area2)
+vec4 texel_decode(vec4 texel, bool encoded)
 {
-    const vec2 uv = bary[0] * uvs[0] + bary[1] * uvs[1] + bary[2] * uvs[2];
-    const float level = texture_level(uvs, area2, rows, vec2(textureSize(from, 0)));
-    vec4 texel = textureLod(from, texture_uv(rows, uv), level);
     /* A loop, because software drivers run what is under a condition in any case. */
     for (uint i = 0u; i < uint(encoded); i++)
         texel.rgb = sdfgi_srgb_decode(texel.rgb);
@@ -59,13 +56,19 @@ surface_sample material_sample(uint index[3], vec3 bary, float area2)
         s.albedo *= mesh_color(index, bary);
 #ifdef SDFGI_VOXELIZE_TEXTURED
     const vec2 corners[3] = corner_uvs(index);
-    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u)
-        s.albedo *= texture_sample(albedo_texture, m.albedo_uv, (m.flags & SDFGI_MATERIAL_ALBEDO_SRGB) != 0u,
-                                   corners, bary, area2);
-    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u)
-        s.emission *= texture_sample(emission_texture, m.emission_uv,
-                                     (m.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u, corners, bary, area2)
+    const vec2 uv = bary[0] * corners[0] + bary[1] * corners[1] + bary[2] * corners[2];
+    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
+        const float level = texture_level(corners, area2, m.albedo_uv, vec2(textureSize(albedo_texture, 0)));
+        s.albedo *= texel_decode(textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level),
+                                 (m.flags & SDFGI_MATERIAL_ALBEDO_SRGB) != 0u);
+    }
+    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
+        const float level =
+            texture_level(corners, area2, m.emission_uv, vec2(textureSize(emission_texture, 0)));
+        s.emission *= texel_decode(textureLod(emission_texture, texture_uv(m.emission_uv, uv), level),
+                                   (m.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u)
                           .rgb;
+    }
 #endif
     return s;
 }
