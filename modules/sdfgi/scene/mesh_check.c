@@ -41,18 +41,15 @@ static void check_plain_vertices(struct problem *p, const struct sdfgi_mesh_desc
 
 static void check_format(struct problem *p, const struct mesh_stream *stream, uint32_t least_components)
 {
-    const char *name = sdfgi_format_name(stream->format);
     const uint32_t components = stream->layout ? stream->layout->components : 0;
     if (components >= least_components)
         return;
-    if (!name)
+    if (!stream->layout)
         sdfgi_problem_add(p, "%s_format is %d, a VkFormat that vertices cannot have", stream->name,
                           (int)stream->format);
-    else if (components == 0)
-        sdfgi_problem_add(p, "%s_format is %s, which vertices cannot have", stream->name, name);
     else
-        sdfgi_problem_add(p, "%s_format is %s, must have at least %u components", stream->name, name,
-                          (unsigned)least_components);
+        sdfgi_problem_add(p, "%s_format is %s, must have at least %u components", stream->name,
+                          stream->layout->name, (unsigned)least_components);
 }
 
 static void check_layout(struct problem *p, const struct mesh_stream *stream)
@@ -62,12 +59,11 @@ static void check_layout(struct problem *p, const struct mesh_stream *stream)
         return;
     if (stream->offset % layout->alignment)
         sdfgi_problem_add(p, "%s_offset is %llu, must be a multiple of %u for %s", stream->name,
-                          (unsigned long long)stream->offset, (unsigned)layout->alignment,
-                          sdfgi_format_name(layout->format));
+                          (unsigned long long)stream->offset, (unsigned)layout->alignment, layout->name);
     if (stream->stride % layout->alignment || stream->stride < layout->size)
         sdfgi_problem_add(p, "%s_stride is %u, must be 0 or a multiple of %u that is at least %u for %s",
                           stream->name, (unsigned)stream->stride, (unsigned)layout->alignment,
-                          (unsigned)layout->size, sdfgi_format_name(layout->format));
+                          (unsigned)layout->size, layout->name);
 }
 
 /* The bytes that hold the buffer are at least as many as it has. */

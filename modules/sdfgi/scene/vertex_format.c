@@ -13,7 +13,7 @@ enum order { RGB = 0, BGR = SDFGI_FETCH_BLUE_FIRST };
 
 #define ROW(name, components, bits, size, alignment, number, order)                                          \
     {                                                                                                        \
-        VK_FORMAT_##name, components, size, alignment,                                                       \
+        VK_FORMAT_##name, "VK_FORMAT_" #name, components, size, alignment,                                   \
             (uint32_t)number | (uint32_t)order | (bits) << SDFGI_FETCH_BITS_SHIFT |                          \
                 (components) << SDFGI_FETCH_COMPONENTS_SHIFT | (size) << SDFGI_FETCH_SIZE_SHIFT              \
     }

@@ -12,6 +12,7 @@
 
 struct vertex_format {
     VkFormat format;
+    const char *name; /* "VK_FORMAT_..." */
     uint8_t components;
     uint8_t size;      /* bytes of an element */
     uint8_t alignment; /* bytes, of offsets and strides: Vulkan's of vertex input */
@@ -23,8 +24,5 @@ extern const size_t sdfgi_vertex_format_count;
 
 /* NULL if vertices cannot have it. */
 const struct vertex_format *sdfgi_vertex_format(VkFormat format);
-
-/* "VK_FORMAT_..." of the formats of Vulkan 1.0; NULL for others. */
-const char *sdfgi_format_name(VkFormat format);
 
 #endif
