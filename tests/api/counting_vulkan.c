@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "counting_vulkan.h"
 
+#include "layered_vulkan.h"
+
 #include <vulkan/vulkan.h>
 
 #include <stdatomic.h>
-#include <string.h>
 
 static atomic_uint pipelines, memory, objects;
 
@@ -45,30 +46,18 @@ static VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkM
     return vkAllocateMemory(device, info, callbacks, out);
 }
 
-static const struct {
-    const char *name;
-    PFN_vkVoidFunction function;
-} own[] = {
-    { "vkCreateComputePipelines", (PFN_vkVoidFunction)create_Compute },
-    { "vkCreateGraphicsPipelines", (PFN_vkVoidFunction)create_Graphics },
-    { "vkCreateBuffer", (PFN_vkVoidFunction)create_Buffer },
-    { "vkCreateImage", (PFN_vkVoidFunction)create_Image },
-    { "vkCreateDescriptorPool", (PFN_vkVoidFunction)create_DescriptorPool },
-    { "vkCreateQueryPool", (PFN_vkVoidFunction)create_QueryPool },
-    { "vkAllocateMemory", (PFN_vkVoidFunction)allocate_memory },
+static const struct layered_function counted[] = {
+    LAYERED("vkCreateComputePipelines", create_Compute),
+    LAYERED("vkCreateGraphicsPipelines", create_Graphics),
+    LAYERED("vkCreateBuffer", create_Buffer),
+    LAYERED("vkCreateImage", create_Image),
+    LAYERED("vkCreateDescriptorPool", create_DescriptorPool),
+    LAYERED("vkCreateQueryPool", create_QueryPool),
+    LAYERED("vkAllocateMemory", allocate_memory),
+    { NULL, NULL },
 };
 
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
+PFN_vkGetInstanceProcAddr counting_vulkan_loader(void)
 {
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (strcmp(own[i].name, name) == 0)
-            return own[i].function;
-    return vkGetDeviceProcAddr(device, name);
-}
-
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_vulkan_loader(VkInstance instance, const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)get_device_proc_addr;
-    return vkGetInstanceProcAddr(instance, name);
+    return layered_vulkan_loader(counted);
 }

@@ -15,6 +15,6 @@ struct counting_vulkan {
 /* Since the program began. */
 struct counting_vulkan counting_vulkan_get(void);
 
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL counting_vulkan_loader(VkInstance instance, const char *name);
+PFN_vkGetInstanceProcAddr counting_vulkan_loader(void);
 
 #endif

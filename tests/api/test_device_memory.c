@@ -112,7 +112,7 @@ static void all_memory_is_the_hosts_and_goes_back(void **state)
     (void)state;
     const float expected = light_without_the_hook();
     const uint32_t before = counting_vulkan_get().memory;
-    loader = counting_vulkan_loader;
+    loader = counting_vulkan_loader();
     pool_allocator_open(&pool, &t.gpu);
     REQUIRE_CMP((int)create(false), ==, (int)SDFGI_OK);
     REQUIRE_CMP(pool_allocator_live(&pool), ==, 1u); /* of lookups that answer black */

@@ -2,6 +2,7 @@
  * The host's pipeline cache reaches every pipeline that the library makes: the loader given to the library
  * notes the cache of each call. */
 #include "gi_test.h"
+#include "layered_vulkan.h"
 #include "require.h"
 
 #include <sdfgi/debug.h>
@@ -35,21 +36,11 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_graphics(VkDevice device, VkPipelin
     return vkCreateGraphicsPipelines(device, cache, count, infos, callbacks, out);
 }
 
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
-{
-    if (strcmp(name, "vkCreateComputePipelines") == 0)
-        return (PFN_vkVoidFunction)create_compute;
-    if (strcmp(name, "vkCreateGraphicsPipelines") == 0)
-        return (PFN_vkVoidFunction)create_graphics;
-    return vkGetDeviceProcAddr(device, name);
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance, const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)get_device_proc_addr;
-    return vkGetInstanceProcAddr(instance, name);
-}
+static const struct layered_function watched[] = {
+    LAYERED("vkCreateComputePipelines", create_compute),
+    LAYERED("vkCreateGraphicsPipelines", create_graphics),
+    { NULL, NULL },
+};
 
 static struct gpu_test gpu;
 
@@ -105,7 +96,8 @@ static void live_a_whole_life(VkPipelineCache cache)
     settings.resolution = 32;
     settings.voxelizer = SDFGI_VOXELIZER_RASTER;
     const struct sdfgi_desc desc = { .vulkan = { gpu.instance, gpu.physical_device, gpu.device,
-                                                 gpu.queue_family_index, get_instance_proc_addr, NULL },
+                                                 gpu.queue_family_index, layered_vulkan_loader(watched),
+                                                 NULL },
                                      .pipeline_cache = cache };
     memset(&seen, 0, sizeof seen);
     seen.wanted = cache;

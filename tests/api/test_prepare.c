@@ -64,7 +64,7 @@ static int open_context(void **state)
     memset(&t, 0, sizeof t);
     gpu_test_open(&t.gpu, sdfgi_get_requirements);
     struct sdfgi_desc desc = gi_test_desc(&t, &off);
-    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader;
+    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader();
     desc.pipelines_later = true;
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
     return 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Skies of spherical harmonics: light in the air is what they have, however it gets there, and cube maps are
  * projected to what they show. */
-#include "gi_test.h"
+#include "light_scene.h"
 #include "require.h"
 
 #include <sdfgi/sky.h>
@@ -14,19 +14,6 @@
 enum { NORMALS = 8, SIDE = 32 };
 
 static const double pi = 3.14159265358979;
-
-/* Brighter towards +X, +Y and a direction between -Z and +X; nowhere below 0. */
-static const struct sdfgi_sky_harmonics tinted = {
-    .coefficients = { { 3.5f, 3, 2.5f },
-                      { 0.5f, 0.4f, 0.3f },
-                      { -0.3f, 0.1f, 0.2f },
-                      { 0.6f, 0.2f, -0.1f },
-                      { 0.1f, 0.2f, 0 },
-                      { -0.2f, 0.1f, 0.1f },
-                      { 0.2f, -0.1f, 0.3f },
-                      { 0.3f, 0, -0.2f },
-                      { -0.1f, 0.25f, 0.1f } },
-};
 
 static const float normals[NORMALS][3] = { { 0, 1, 0 },
                                            { 0, -1, 0 },
@@ -110,9 +97,9 @@ static double worst_error(struct gi_test *t, const float place[static 3], double
     look_up(t, place, found);
     for (int i = 0; i < NORMALS; i++)
         for (int k = 0; k < 3; k++)
-            worst =
-                fmax(worst,
-                     fabs((double)found[i][k] / (intensity * irradiance(&tinted, turn, normals[i], k)) - 1));
+            worst = fmax(worst, fabs((double)found[i][k] /
+                                         (intensity * irradiance(&light_tinted_sky, turn, normals[i], k)) -
+                                     1));
     return worst;
 }
 
@@ -125,7 +112,7 @@ static const float inside[3] = { 0.3f, 0.2f, -0.4f }, outside[3] = { 60, 0, 0 };
 static void the_air_has_the_light_of_the_sky(void **state)
 {
     struct gi_test *t = *state;
-    start(t, &tinted);
+    start(t, &light_tinted_sky);
     const double far = worst_error(t, outside, 0, 1), near = worst_error(t, inside, 0, 1);
     printf("largest error beyond the cascades %.4f, in them %.4f\n", far, near);
     REQUIRE_CMP(far, <, 0.002);
@@ -137,7 +124,7 @@ static void a_sky_turns_and_brightens(void **state)
     static const double turns[] = { 0.5, 1.5707963, -2.1, 40 };
     struct gi_test *t = *state;
     for (int i = 0; i < 4; i++) {
-        struct sdfgi_sky_harmonics turned = tinted;
+        struct sdfgi_sky_harmonics turned = light_tinted_sky;
         turned.rotation_rad = (float)turns[i];
         turned.intensity = 2.5f;
         start(t, &turned);
@@ -186,12 +173,12 @@ static uint32_t commands(struct gi_test *t)
 static void the_same_harmonics_again_wake_nothing(void **state)
 {
     struct gi_test *t = *state;
-    start(t, &tinted);
+    start(t, &light_tinted_sky);
     gi_test_update(t, 3);
     REQUIRE_CMP(commands(t), ==, 0u);
-    REQUIRE_CMP((int)sdfgi_set_sky_harmonics(t->gi, &tinted), ==, (int)SDFGI_OK);
+    REQUIRE_CMP((int)sdfgi_set_sky_harmonics(t->gi, &light_tinted_sky), ==, (int)SDFGI_OK);
     REQUIRE_CMP(commands(t), ==, 0u);
-    struct sdfgi_sky_harmonics other = tinted;
+    struct sdfgi_sky_harmonics other = light_tinted_sky;
     other.coefficients[8][2] += 1;
     REQUIRE_CMP((int)sdfgi_set_sky_harmonics(t->gi, &other), ==, (int)SDFGI_OK);
     REQUIRE_CMP(commands(t), >, 0u);
@@ -200,9 +187,9 @@ static void the_same_harmonics_again_wake_nothing(void **state)
 static void what_is_not_finite_is_refused(void **state)
 {
     struct gi_test *t = *state;
-    start(t, &tinted);
+    start(t, &light_tinted_sky);
     for (int i = 0; i < 3; i++) {
-        struct sdfgi_sky_harmonics bad = tinted;
+        struct sdfgi_sky_harmonics bad = light_tinted_sky;
         *(float *[]){ &bad.coefficients[7][1], &bad.intensity, &bad.rotation_rad }[i] = NAN;
         REQUIRE_CMP((int)sdfgi_set_sky_harmonics(t->gi, &bad), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
     }
@@ -249,13 +236,14 @@ static void a_cube_map_of_harmonics_gives_them_back(void **state)
         double d[3];
         texel_direction(i / SIDE / SIDE, i % SIDE, i / SIDE % SIDE, d);
         for (int k = 0; k < 3; k++)
-            texels[i][k] = (float)radiance(&tinted, d, k);
+            texels[i][k] = (float)radiance(&light_tinted_sky, d, k);
     }
     sdfgi_sky_harmonics_from_cube(texels[0], SIDE, &found);
     REQUIRE_NEAR((double)found.intensity, 1, 0);
     for (int i = 0; i < 9; i++)
         for (int k = 0; k < 3; k++)
-            REQUIRE_NEAR((double)found.coefficients[i][k], (double)tinted.coefficients[i][k], 0.005);
+            REQUIRE_NEAR((double)found.coefficients[i][k], (double)light_tinted_sky.coefficients[i][k],
+                         0.005);
 }
 
 static int open_context(void **state)

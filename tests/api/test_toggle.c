@@ -74,7 +74,7 @@ static int open_context(void **state)
     gpu_test_open(&t.gpu, sdfgi_get_requirements);
     const struct sdfgi_settings s = settings(false);
     struct sdfgi_desc desc = gi_test_desc(&t, &s);
-    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader;
+    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader();
     desc.pipelines_later = true;
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
     const VkQueryPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,

@@ -114,15 +114,10 @@ int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    static struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_open(&t, &settings);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(a_sealed_room_calls_for_no_sky, &t),
-        cmocka_unit_test_prestate(no_feedback_calls_for_no_bounces, &t),
-        cmocka_unit_test_prestate(no_cascade_is_read_before_the_blend, &t),
+        cmocka_unit_test(a_sealed_room_calls_for_no_sky),
+        cmocka_unit_test(no_feedback_calls_for_no_bounces),
+        cmocka_unit_test(no_cascade_is_read_before_the_blend),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    gi_test_close(&t);
-    return failed;
+    return cmocka_run_group_tests(tests, light_open, light_close);
 }

@@ -2,6 +2,7 @@
  * What the host owns, and contexts whose memory is counted. */
 #include "api_world.h"
 
+#include "layered_vulkan.h"
 #include "require.h"
 
 #include <vulkan/vulkan.h>
@@ -47,21 +48,11 @@ static VKAPI_ATTR void VKAPI_CALL count_release(VkDevice device, VkDeviceMemory 
     vkFreeMemory(device, memory, callbacks);
 }
 
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
-{
-    if (strcmp(name, "vkAllocateMemory") == 0)
-        return (PFN_vkVoidFunction)count_allocate;
-    if (strcmp(name, "vkFreeMemory") == 0)
-        return (PFN_vkVoidFunction)count_release;
-    return vkGetDeviceProcAddr(device, name);
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance, const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)get_device_proc_addr;
-    return vkGetInstanceProcAddr(instance, name);
-}
+static const struct layered_function counted[] = {
+    LAYERED("vkAllocateMemory", count_allocate),
+    LAYERED("vkFreeMemory", count_release),
+    { NULL, NULL },
+};
 
 /* ---- Contexts --------------------------------------------------------------------------------------- */
 
@@ -78,7 +69,7 @@ void api_context_open(struct gi_test *t, const struct sdfgi_settings *settings)
 {
     const struct sdfgi_desc desc = {
         .vulkan = { t->gpu.instance, t->gpu.physical_device, t->gpu.device, t->gpu.queue_family_index,
-                    get_instance_proc_addr, NULL, VK_API_VERSION_1_2 },
+                    layered_vulkan_loader(counted), NULL, VK_API_VERSION_1_2 },
         .frames_in_flight = 2,
         .settings = settings,
         .log = { count_message, t },

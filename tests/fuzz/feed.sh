@@ -15,7 +15,7 @@ target=${target#fuzz_}
 most_findings=5
 
 # Every file that is read is written before; and what a program leaves there when it crashes goes away.
-scratch=$(mktemp -d -t sdfgi_fuzz_XXXXXX)
+scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$corpus" "$findings"
 

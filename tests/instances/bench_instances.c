@@ -8,6 +8,7 @@
  * SDFGI_BENCH_RECORD=1 dispatches and draws are left out: a software driver then takes no time that CPU times
  * could be lost in, and there are no GPU times. */
 #include "box_field.h"
+#include "layered_vulkan.h"
 #include "require.h"
 #include "test_memory.h"
 
@@ -75,21 +76,11 @@ static VKAPI_ATTR void VKAPI_CALL no_dispatch_indirect(VkCommandBuffer cmd, VkBu
     (void)cmd, (void)buffer, (void)at;
 }
 
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL idle_device_function(VkDevice device, const char *name)
-{
-    if (strcmp(name, "vkCmdDispatch") == 0)
-        return (PFN_vkVoidFunction)no_dispatch;
-    if (strcmp(name, "vkCmdDispatchIndirect") == 0)
-        return (PFN_vkVoidFunction)no_dispatch_indirect;
-    return vkGetDeviceProcAddr(device, name);
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL idle_instance_function(VkInstance instance, const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)idle_device_function;
-    return vkGetInstanceProcAddr(instance, name);
-}
+static const struct layered_function idle[] = {
+    LAYERED("vkCmdDispatch", no_dispatch),
+    LAYERED("vkCmdDispatchIndirect", no_dispatch_indirect),
+    { NULL, NULL },
+};
 
 static void open_device(void)
 {
@@ -101,7 +92,8 @@ static void open_device(void)
         return;
     const struct gpu_test *gpu = &bench.t.gpu;
     const struct sdfgi_desc desc = { .vulkan = { gpu->instance, gpu->physical_device, gpu->device,
-                                                 gpu->queue_family_index, idle_instance_function, NULL } };
+                                                 gpu->queue_family_index, layered_vulkan_loader(idle),
+                                                 NULL } };
     sdfgi_destroy(bench.t.gi);
     REQUIRE_CMP(sdfgi_create(&desc, &bench.t.gi), ==, SDFGI_OK);
 }

@@ -163,17 +163,12 @@ int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    static struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_open(&t, &settings);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(a_furnace_is_even_in_the_air, &t),
-        cmocka_unit_test_prestate(nothing_is_known_within_a_wall, &t),
-        cmocka_unit_test_prestate(the_mean_of_a_gradient_sky_is_exact, &t),
-        cmocka_unit_test_prestate(a_glowing_wall_fills_its_solid_angle, &t),
-        cmocka_unit_test_prestate(the_air_and_a_floating_surface_get_the_same, &t),
+        cmocka_unit_test(a_furnace_is_even_in_the_air),
+        cmocka_unit_test(nothing_is_known_within_a_wall),
+        cmocka_unit_test(the_mean_of_a_gradient_sky_is_exact),
+        cmocka_unit_test(a_glowing_wall_fills_its_solid_angle),
+        cmocka_unit_test(the_air_and_a_floating_surface_get_the_same),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    gi_test_close(&t);
-    return failed;
+    return cmocka_run_group_tests(tests, light_open, light_close);
 }

@@ -244,16 +244,11 @@ int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    static struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_open(&t, &settings);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(hard_44_a_probe_in_a_body_leaves_its_light_to_others, &t),
-        cmocka_unit_test_prestate(hard_44_eight_probes_in_a_body_leave_their_light_to_others, &t),
-        cmocka_unit_test_prestate(hard_68_light_fades_to_the_sky_over_one_probe, &t),
-        cmocka_unit_test_prestate(hard_69_eight_cascades_of_nothing_render, &t),
+        cmocka_unit_test(hard_44_a_probe_in_a_body_leaves_its_light_to_others),
+        cmocka_unit_test(hard_44_eight_probes_in_a_body_leave_their_light_to_others),
+        cmocka_unit_test(hard_68_light_fades_to_the_sky_over_one_probe),
+        cmocka_unit_test(hard_69_eight_cascades_of_nothing_render),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    gi_test_close(&t);
-    return failed;
+    return cmocka_run_group_tests(tests, light_open, light_close);
 }

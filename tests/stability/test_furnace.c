@@ -211,17 +211,12 @@ int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    static struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_open(&t, &settings);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(hard_33_35_furnace_of_albedo_half, &t),
-        cmocka_unit_test_prestate(hard_33_furnace_of_albedo_four_fifths, &t),
-        cmocka_unit_test_prestate(hard_34_light_stays_bounded, &t),
-        cmocka_unit_test_prestate(hard_34_gain_below_the_clamp_is_not_reported, &t),
-        cmocka_unit_test_prestate(hard_37_a_sphere_that_a_lamp_lights, &t),
+        cmocka_unit_test(hard_33_35_furnace_of_albedo_half),
+        cmocka_unit_test(hard_33_furnace_of_albedo_four_fifths),
+        cmocka_unit_test(hard_34_light_stays_bounded),
+        cmocka_unit_test(hard_34_gain_below_the_clamp_is_not_reported),
+        cmocka_unit_test(hard_37_a_sphere_that_a_lamp_lights),
     };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    gi_test_close(&t);
-    return failed;
+    return cmocka_run_group_tests(tests, light_open, light_close);
 }

@@ -171,14 +171,9 @@ int main(void)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    static struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_open(&t, &settings);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(hard_55_reflected_rays_cross_cascades, &t),
-        cmocka_unit_test_prestate(hard_69_views_of_one_row_reflect, &t),
+        cmocka_unit_test(hard_55_reflected_rays_cross_cascades),
+        cmocka_unit_test(hard_69_views_of_one_row_reflect),
     };
-    const int failed = cmocka_run_group_tests_name("reflections", tests, NULL, NULL);
-    gi_test_close(&t);
-    return failed;
+    return cmocka_run_group_tests_name("reflections", tests, light_open, light_close);
 }

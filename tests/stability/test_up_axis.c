@@ -72,19 +72,13 @@ static void look_up(enum sdfgi_up_axis up, const float *viewer, const struct gi_
 
 static const struct sdfgi_sky gradient = { { 3, 2, 4 }, { 1, 1.5f, 0.5f }, { 0.2f, 0.1f, 0.3f } };
 
-/* Different along every axis and every pair of axes. */
-static const struct sdfgi_sky_harmonics tinted = {
-    .coefficients = { { 3.5f, 3, 2.5f },
-                      { 0.5f, 0.4f, 0.3f },
-                      { -0.3f, 0.1f, 0.2f },
-                      { 0.6f, 0.2f, -0.1f },
-                      { 0.1f, 0.2f, 0 },
-                      { -0.2f, 0.1f, 0.1f },
-                      { 0.2f, -0.1f, 0.3f },
-                      { 0.3f, 0, -0.2f },
-                      { -0.1f, 0.25f, 0.1f } },
-    .rotation_rad = 0.7f,
-};
+static void set_skies(void)
+{
+    struct sdfgi_sky_harmonics harmonics = light_tinted_sky;
+    harmonics.rotation_rad = 0.7f;
+    REQUIRE_CMP(sdfgi_set_sky(t.gi, &gradient), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_set_sky_harmonics(t.gi, &harmonics), ==, SDFGI_OK);
+}
 
 /* Beyond the cascades, where lookups give the sky itself. */
 static const struct gi_test_point far_points[] = {
@@ -106,8 +100,7 @@ static void skies_stand_upright(void **state)
     float expected[FAR_POINTS][3], found[FAR_POINTS][3];
     for (int up = 0; up < UPS; up++) {
         open_world((enum sdfgi_up_axis)up, &settings);
-        REQUIRE_CMP(sdfgi_set_sky(t.gi, &gradient), ==, SDFGI_OK);
-        REQUIRE_CMP(sdfgi_set_sky_harmonics(t.gi, &tinted), ==, SDFGI_OK);
+        set_skies();
         gi_test_update(&t, 2);
         look_up((enum sdfgi_up_axis)up, NULL, far_points, FAR_POINTS, found);
         if (up == SDFGI_UP_Y)
@@ -145,8 +138,7 @@ static void add_room(enum sdfgi_up_axis up)
     struct sdfgi_light_desc lamp = light_point(0, 0, 0, 3);
     turned(up, (double[3]){ -1, 0.4, -1 }, lamp.position);
     light_create(&t, &lamp);
-    REQUIRE_CMP(sdfgi_set_sky(t.gi, &gradient), ==, SDFGI_OK);
-    REQUIRE_CMP(sdfgi_set_sky_harmonics(t.gi, &tinted), ==, SDFGI_OK);
+    set_skies();
 }
 
 /* On every surface, and in the air. */

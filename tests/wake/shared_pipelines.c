@@ -3,6 +3,7 @@
  * of the next. Pipelines of one shader are told apart by its code alone: the library specialises none. */
 #include "shared_pipelines.h"
 
+#include "layered_vulkan.h"
 #include "require.h"
 #include "test_memory.h"
 
@@ -77,28 +78,16 @@ static VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice device, VkPipeline p
     vkDestroyPipeline(device, pipeline, callbacks);
 }
 
-static const struct {
-    const char *name;
-    PFN_vkVoidFunction function;
-} own[] = {
-    { "vkCreateShaderModule", (PFN_vkVoidFunction)create_module },
-    { "vkCreateComputePipelines", (PFN_vkVoidFunction)create_compute },
-    { "vkDestroyPipeline", (PFN_vkVoidFunction)destroy_pipeline },
+static const struct layered_function shared[] = {
+    LAYERED("vkCreateShaderModule", create_module),
+    LAYERED("vkCreateComputePipelines", create_compute),
+    LAYERED("vkDestroyPipeline", destroy_pipeline),
+    { NULL, NULL },
 };
 
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
+PFN_vkGetInstanceProcAddr shared_pipelines_loader(void)
 {
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (strcmp(own[i].name, name) == 0)
-            return own[i].function;
-    return vkGetDeviceProcAddr(device, name);
-}
-
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL shared_pipelines_loader(VkInstance instance, const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)get_device_proc_addr;
-    return vkGetInstanceProcAddr(instance, name);
+    return layered_vulkan_loader(shared);
 }
 
 void shared_pipelines_destroy(VkDevice device)

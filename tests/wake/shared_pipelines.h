@@ -6,7 +6,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL shared_pipelines_loader(VkInstance instance, const char *name);
+PFN_vkGetInstanceProcAddr shared_pipelines_loader(void);
 /* Before the device goes. */
 void shared_pipelines_destroy(VkDevice device);
 

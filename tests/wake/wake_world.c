@@ -147,7 +147,7 @@ void wake_context_create(struct wake_context *c, struct wake_device *device, con
     const struct gpu_test *gpu = &device->t.gpu;
     const struct sdfgi_desc desc = {
         .vulkan = { gpu->instance, gpu->physical_device, gpu->device, gpu->queue_family_index,
-                    shared_pipelines_loader, NULL },
+                    shared_pipelines_loader(), NULL },
         .settings = &world->settings,
         .log = { log_message, NULL },
     };

@@ -6,6 +6,31 @@
 #include <math.h>
 #include <string.h>
 
+const struct sdfgi_sky_harmonics light_tinted_sky = { .coefficients = { { 3.5f, 3, 2.5f },
+                                                                        { 0.5f, 0.4f, 0.3f },
+                                                                        { -0.3f, 0.1f, 0.2f },
+                                                                        { 0.6f, 0.2f, -0.1f },
+                                                                        { 0.1f, 0.2f, 0 },
+                                                                        { -0.2f, 0.1f, 0.1f },
+                                                                        { 0.2f, -0.1f, 0.3f },
+                                                                        { 0.3f, 0, -0.2f },
+                                                                        { -0.1f, 0.25f, 0.1f } } };
+
+int light_open(void **state)
+{
+    static struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_open(&t, &settings);
+    *state = &t;
+    return 0;
+}
+
+int light_close(void **state)
+{
+    gi_test_close(*state);
+    return 0;
+}
+
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m)
 {
     struct sdfgi_settings s = gi_test_settings();

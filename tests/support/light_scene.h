@@ -7,6 +7,10 @@
 
 #define PI 3.14159265358979323846
 
+/* Setup and teardown of a group of tests: their state is a context with light_settings(32, 0.25f). */
+int light_open(void **state);
+int light_close(void **state);
+
 /* Settles in few frames: a cycle of 500 samples in 4 frames. */
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
 
@@ -18,6 +22,9 @@ sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], cons
 struct sdfgi_light_desc light_sun(float x, float y, float z, float irradiance);
 struct sdfgi_light_desc light_point(double x, double y, double z, float intensity);
 sdfgi_light light_create(struct gi_test *t, const struct sdfgi_light_desc *desc);
+/* A sky different along every axis and every pair of axes: brighter towards +X, +Y and a direction between -Z
+ * and +X; nowhere below 0. */
+extern const struct sdfgi_sky_harmonics light_tinted_sky;
 void light_set_uniform_sky(struct gi_test *t, float radiance);
 
 /* Irradiance at one point; all channels finite and not negative. */

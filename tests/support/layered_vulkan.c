@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+#include "layered_vulkan.h"
+
+#include <string.h>
+
+#include <vulkan/vulkan.h>
+
+static const struct layered_function *layer;
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
+{
+    for (const struct layered_function *f = layer; f->name; f++)
+        if (strcmp(f->name, name) == 0)
+            return f->function;
+    return vkGetDeviceProcAddr(device, name);
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance, const char *name)
+{
+    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
+        return (PFN_vkVoidFunction)get_device_proc_addr;
+    return vkGetInstanceProcAddr(instance, name);
+}
+
+PFN_vkGetInstanceProcAddr layered_vulkan_loader(const struct layered_function *functions)
+{
+    layer = functions;
+    return get_instance_proc_addr;
+}

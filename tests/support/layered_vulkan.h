@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT
+ * A loader for the library in which functions of a test stand for some of the device's. */
+#ifndef TEST_LAYERED_VULKAN_H
+#define TEST_LAYERED_VULKAN_H
+
+#include <vulkan/vulkan_core.h>
+
+struct layered_function {
+    const char *name; /* "vk..." */
+    PFN_vkVoidFunction function;
+};
+#define LAYERED(name, function)                                                                              \
+    {                                                                                                        \
+        name, (PFN_vkVoidFunction)(function)                                                                 \
+    }
+
+/* `functions` ends with an empty row and outlives all devices. A program has one such table at a time. */
+PFN_vkGetInstanceProcAddr layered_vulkan_loader(const struct layered_function *functions);
+
+#endif
