@@ -26,14 +26,15 @@ vec3 emission_behind(uint cascade, ivec3 cell, uint axis)
 }
 
 /* Emission of the surface at a light cell that faces along an axis. If none does, the mean of the others
- * stands for it, as in light_fill_axes. */
+ * stands for it, as in light_fill_axes. Software drivers run a loop as often as one of their threads needs:
+ * once, where it is not unrolled. */
 vec3 cell_emission(uint cascade, uint entry, ivec3 cell, uint axis)
 {
-    if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)] != SDFGI_SURFACE_NONE)
-        return emission_behind(cascade, cell, axis);
+    const bool faces = sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)] != SDFGI_SURFACE_NONE;
+    const uint first = faces ? axis : 0u, last = faces ? axis : 5u;
     vec3 sum = vec3(0.0);
     float count = 0.0;
-    for (uint other = 0u; other < 6u; other++) {
+    for (uint other = first; other <= last; other++) {
         if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, other)] == SDFGI_SURFACE_NONE)
             continue;
         sum += emission_behind(cascade, cell, other);
@@ -90,13 +91,37 @@ void load_ray(uint cascade, ivec3 probe, uint slot, uint i)
     ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
 }
 
-vec4 sum_rays(uint rays, vec3 normal)
+/* ---- Sums */
+
+/* A thread sums up one ray in SUM_PARTS for SUM_TEXELS texels, so that each ray is read from shared memory by
+ * SUM_THREADS threads and not by all: software drivers read it for each thread on its own. */
+const uint SUM_THREADS = 8u, SUM_PARTS = SDFGI_GROUP_PROBE / SUM_THREADS, SUM_TEXELS = 4u;
+
+/* Adds up the parts of all rays, and leaves them in ray_dir: texel by texel, part after part. */
+void sum_rays(uint rays)
+{
+    const uint part = gl_LocalInvocationIndex / SUM_THREADS, first = gl_LocalInvocationIndex % SUM_THREADS;
+    vec3 normals[SUM_TEXELS];
+    vec4 sums[SUM_TEXELS];
+    for (uint k = 0u; k < SUM_TEXELS; k++) {
+        normals[k] = probe_texel_direction(first + SUM_THREADS * k);
+        sums[k] = vec4(0.0);
+    }
+    for (uint i = part; i < rays; i += SUM_PARTS) {
+        const vec4 dir = ray_dir[i], light = vec4(ray_light[i], 1.0);
+        for (uint k = 0u; k < SUM_TEXELS; k++)
+            sums[k] += light * (max(dot(normals[k], dir.xyz), 0.0) * dir.w);
+    }
+    barrier();
+    for (uint k = 0u; k < SUM_TEXELS; k++)
+        ray_dir[part * SUM_THREADS * SUM_TEXELS + SUM_THREADS * k + first] = sums[k];
+}
+
+vec4 sum_of_texel(uint texel)
 {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < rays; i++) {
-        const float weight = max(dot(normal, ray_dir[i].xyz), 0.0) * ray_dir[i].w;
-        sum += vec4(ray_light[i], 1.0) * weight;
-    }
+    for (uint part = 0u; part < SUM_PARTS; part++)
+        sum += ray_dir[part * SUM_THREADS * SUM_TEXELS + texel];
     return sum;
 }
 
@@ -118,8 +143,8 @@ void main()
     for (uint i = lane; i < rays; i += uint(SDFGI_GROUP_PROBE))
         load_ray(cascade, probe, slot, i);
     barrier();
-
+    sum_rays(rays);
+    barrier();
     if (lane < uint(SDFGI_IRRADIANCE_COUNT))
-        sdfgi_sums[probe_sums(slot) + lane] =
-            probe_load_sum(slot, lane) + sum_rays(rays, probe_texel_direction(lane));
+        sdfgi_sums[probe_sums(slot) + lane] = probe_load_sum(slot, lane) + sum_of_texel(lane);
 }

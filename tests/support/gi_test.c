@@ -2,6 +2,7 @@
 #include "gi_test.h"
 
 #include "require.h"
+#include "shared_pipelines.h"
 #include "test_memory.h"
 
 #include <stdio.h>
@@ -44,7 +45,8 @@ struct sdfgi_desc gi_test_desc(struct gi_test *t, const struct sdfgi_settings *s
 
 static void create(struct gi_test *t, const struct sdfgi_settings *settings)
 {
-    const struct sdfgi_desc desc = gi_test_desc(t, settings);
+    struct sdfgi_desc desc = gi_test_desc(t, settings);
+    desc.vulkan.get_instance_proc_addr = shared_pipelines_loader();
     REQUIRE_CMP(sdfgi_create(&desc, &t->gi), ==, SDFGI_OK);
 }
 
@@ -80,6 +82,7 @@ void gi_test_close(struct gi_test *t)
 {
     destroy(t);
     t->gi = NULL;
+    shared_pipelines_destroy(t->gpu.device);
     gpu_test_close(&t->gpu);
 }
 

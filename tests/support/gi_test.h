@@ -27,7 +27,8 @@ struct gi_test {
  * stay where it is until it is closed. */
 void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings);
 void gi_test_close(struct gi_test *t);
-/* Another context, without a scene, on the same device: drivers may run out of instances after some sixty. */
+/* Another context, without a scene, on the same device: drivers may run out of instances after some sixty.
+ * Contexts share compute pipelines. */
 void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings);
 /* An empty scene and a start from nothing in the same context, whose pipelines stay: they take longer to make
  * than most scenes of tests. Opens what is closed. */
