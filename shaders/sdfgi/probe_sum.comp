@@ -34,12 +34,13 @@ vec3 cell_emission(uint cascade, uint entry, ivec3 cell, uint axis)
     const uint first = faces ? axis : 0u, last = faces ? axis : 5u;
     vec3 sum = vec3(0.0);
     float count = 0.0;
-    for (uint other = first; other <= last; other++) {
-        if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, other)] == SDFGI_SURFACE_NONE)
-            continue;
-        sum += emission_behind(cascade, cell, other);
-        count += 1.0;
-    }
+    uint other = first;
+    do {
+        if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, other)] != SDFGI_SURFACE_NONE) {
+            sum += emission_behind(cascade, cell, other);
+            count += 1.0;
+        }
+    } while (++other <= last);
     return sum / max(count, 1.0);
 }
 
@@ -140,8 +141,12 @@ void main()
     const bool is_new = probe_history_state(probe_history_load(slot)) == PROBE_NEW;
     const uint most = min(MAX_RAYS, sdfgi_frame.cycle_samples);
     const uint rays = is_new ? min(PROBE_NEW_FRAMES * rays_of_frame(), most) : rays_of_frame();
-    for (uint i = lane; i < rays; i += uint(SDFGI_GROUP_PROBE))
-        load_ray(cascade, probe, slot, i);
+    uint i = lane;
+    do { /* once, mostly; software drivers run a loop that begins with its condition once more than that */
+        if (i < rays)
+            load_ray(cascade, probe, slot, i);
+        i += uint(SDFGI_GROUP_PROBE);
+    } while (i < rays);
     barrier();
     sum_rays(rays);
     barrier();
