@@ -59,7 +59,7 @@ static void bad_descriptions_are_refused(void **state)
     (void)state;
     static struct gi_test t;
     open_wall(&t);
-    t.gpu.messages.quiet = true;
+    t.gpu.messages->quiet = true;
     struct gpu_test_image output = gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, 4, 4, NULL);
     struct sdfgi_debug_desc good = debug_desc(DEBUG_CAMERA_FORWARD, (double[]){ 0, 0, 0 }, 0);
     good.output = output.view;

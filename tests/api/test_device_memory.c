@@ -181,7 +181,7 @@ static void any_refusal_is_an_error_that_leaves_nothing(void **state)
     loader = failing_vulkan_get_instance_proc_addr;
     failing_vulkan_reset(0, VK_SUCCESS);
     failing_vulkan_skip_shaders(true);
-    t.gpu.messages.quiet = true;
+    t.gpu.messages->quiet = true;
     for (bool failed = true; failed;) {
         pool_allocator_open(&pool, &t.gpu);
         memset(t.messages, 0, sizeof t.messages);
@@ -196,7 +196,7 @@ static void any_refusal_is_an_error_that_leaves_nothing(void **state)
         destroy();
         pool_allocator_close(&pool);
     }
-    t.gpu.messages.quiet = false;
+    t.gpu.messages->quiet = false;
     printf("%u requests can be refused\n", k - 1);
     REQUIRE_CMP(k, >, 60u);
 }
@@ -206,7 +206,7 @@ static void what_a_careless_host_gives_is_refused(void **state)
     (void)state;
     static const int faults[] = { POOL_NULL, POOL_MISPLACED, POOL_UNMAPPED };
     static const char *const words[] = { "memory is null", "offset", "mapped is null" };
-    t.gpu.messages.quiet = true;
+    t.gpu.messages->quiet = true;
     for (int i = 0; i < 3; i++) {
         pool_allocator_open(&pool, &t.gpu);
         pool.fault = faults[i];
@@ -219,7 +219,7 @@ static void what_a_careless_host_gives_is_refused(void **state)
     desc.device_allocator.free = NULL;
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
     REQUIRE_TRUE(strstr(t.last_message, "device_allocator.free is null"));
-    t.gpu.messages.quiet = false;
+    t.gpu.messages->quiet = false;
 }
 
 int main(void)

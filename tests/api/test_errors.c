@@ -16,7 +16,7 @@ static int open_disabled(void **state)
     struct sdfgi_settings settings = gi_test_settings();
     settings.enabled = false;
     gi_test_open(&t, &settings);
-    t.gpu.messages.quiet = true;
+    t.gpu.messages->quiet = true;
     return 0;
 }
 

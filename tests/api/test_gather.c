@@ -246,7 +246,7 @@ static void gather_refuses_bad_descriptors(void **state)
     (void)state;
     struct gi_test t;
     open_scene(&t);
-    t.gpu.messages.quiet = true;
+    t.gpu.messages->quiet = true;
     struct gpu_test_image depth = gi_test_gather_image(&t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, NULL);
     struct gpu_test_image output =
         gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, WIDTH, HEIGHT, NULL);

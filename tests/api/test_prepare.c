@@ -442,14 +442,14 @@ static void what_makes_no_sense_is_refused(void **state)
     struct sdfgi_progress p = { 7, 8 };
     struct sdfgi_prepare_desc desc = { .settings = &bad };
     bad.cascades = 77;
-    t.gpu.messages.quiet = true;
+    t.gpu.messages->quiet = true;
     REQUIRE_CMP((int)sdfgi_prepare(t.gi, &desc, &p), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
     REQUIRE_CMP(t.messages[SDFGI_MESSAGE_INVALID_SETTING], ==, 1u);
     bad = settings(true);
     desc.parts = 1u << 20;
     REQUIRE_CMP((int)sdfgi_prepare(t.gi, &desc, &p), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
     REQUIRE_CMP(t.messages[SDFGI_MESSAGE_INVALID_ARGUMENT], ==, 1u);
-    t.gpu.messages.quiet = false;
+    t.gpu.messages->quiet = false;
     REQUIRE_TRUE(p.made == 7 && p.total == 8 && report().prepared.total == 0);
 }
 

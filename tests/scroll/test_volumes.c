@@ -247,12 +247,15 @@ static void depths_scroll_too(void **state)
 {
     (void)state;
     static struct gi_test t;
-    for (int scale = SDFGI_Y_SCALE_50; scale <= SDFGI_Y_SCALE_100; scale += 2) {
+    const int last = scroll_is_full() ? SDFGI_Y_SCALE_100 : SDFGI_Y_SCALE_50;
+    for (int scale = SDFGI_Y_SCALE_50; scale <= last; scale += 2) {
         const struct sdfgi_settings settings = depth_settings((enum sdfgi_y_scale)scale);
         open_world(&t, &settings, home);
-        REQUIRE_CMP(one_step(&t, 1, 0, 0, "depths, +x"), ==, 0ul);
-        REQUIRE_CMP(one_step(&t, 0, -1, 0, "depths, -y"), ==, 0ul);
         REQUIRE_CMP(one_step(&t, 1, 1, -1, "depths, all axes"), ==, 0ul);
+        if (scroll_is_full()) {
+            REQUIRE_CMP(one_step(&t, 1, 0, 0, "depths, +x"), ==, 0ul);
+            REQUIRE_CMP(one_step(&t, 0, -1, 0, "depths, -y"), ==, 0ul);
+        }
         gi_test_close(&t);
     }
 }

@@ -8,15 +8,64 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void log_message(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
 {
     struct gi_test *t = user;
     t->messages[id]++;
     snprintf(t->last_message, sizeof t->last_message, "%s", text);
-    if (level == SDFGI_LOG_ERROR && !t->gpu.messages.quiet)
+    if (level == SDFGI_LOG_ERROR && !t->gpu.messages->quiet)
         fprintf(stderr, "sdfgi: %s\n", text);
 }
+
+/* ---- Devices, which stay for the next context */
+
+enum { PARKED_MOST = 2 };
+
+static struct gpu_test parked[PARKED_MOST];
+static uint32_t parked_count;
+
+/* At the end of the program. What the validation layer says then, of objects that are left, fails it. */
+static void destroy_parked(void)
+{
+    bool silent = true;
+    while (parked_count) {
+        struct gpu_test *gpu = &parked[--parked_count];
+        shared_pipelines_destroy(gpu->device);
+        const struct gpu_test_messages messages = gpu_test_destroy(gpu);
+        silent = silent && !messages.errors && !messages.warnings;
+    }
+    fflush(NULL);
+    if (!silent)
+        _exit(1);
+}
+
+static void take_device(struct gpu_test *gpu)
+{
+    if (parked_count)
+        *gpu = parked[--parked_count];
+    else
+        gpu_test_open(gpu, sdfgi_get_requirements);
+}
+
+static void park_device(struct gpu_test *gpu)
+{
+    static bool registered;
+    if (parked_count == PARKED_MOST) {
+        shared_pipelines_destroy(gpu->device);
+        gpu_test_close(gpu);
+        return;
+    }
+    if (!registered)
+        atexit(destroy_parked);
+    registered = true;
+    gpu->messages->quiet = false;
+    parked[parked_count++] = *gpu;
+    gpu_test_require_silence(gpu);
+}
+
+/* ---- Contexts */
 
 struct sdfgi_settings gi_test_settings(void)
 {
@@ -66,7 +115,7 @@ static void destroy(struct gi_test *t)
 void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
 {
     memset(t, 0, sizeof *t);
-    gpu_test_open(&t->gpu, sdfgi_get_requirements);
+    take_device(&t->gpu);
     create(t, settings);
 }
 
@@ -82,8 +131,7 @@ void gi_test_close(struct gi_test *t)
 {
     destroy(t);
     t->gi = NULL;
-    shared_pipelines_destroy(t->gpu.device);
-    gpu_test_close(&t->gpu);
+    park_device(&t->gpu);
 }
 
 static void empty_scene(sdfgi *gi)

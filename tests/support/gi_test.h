@@ -24,7 +24,8 @@ struct gi_test {
 };
 
 /* Opens a device and a context that is switched on with `settings`; the camera stands in the origin. Must
- * stay where it is until it is closed. */
+ * stay where it is until it is closed. Devices stay open for contexts to come, with their pipelines: making
+ * those takes longer than most scenes of tests. */
 void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings);
 void gi_test_close(struct gi_test *t);
 /* Another context, without a scene, on the same device: drivers may run out of instances after some sixty.

@@ -120,7 +120,7 @@ static void open_validated_instance(struct gpu_test *gpu)
         .enabledValidationFeatureCount = 1,
         .pEnabledValidationFeatures = enabled,
     };
-    VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(&gpu->messages);
+    VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(gpu->messages);
     messenger.pNext = &features;
     gpu->instance = instance_create(&messenger, true);
     REQUIRE_TRUE(gpu->instance != VK_NULL_HANDLE);
@@ -261,7 +261,8 @@ static void open_device(struct gpu_test *gpu, gpu_test_requirements_fn requireme
 
 void gpu_test_open(struct gpu_test *gpu, gpu_test_requirements_fn requirements)
 {
-    *gpu = (struct gpu_test){ 0 };
+    *gpu = (struct gpu_test){ .messages = test_array_alloc(1, sizeof *gpu->messages) };
+    *gpu->messages = (struct gpu_test_messages){ 0 };
     if (validation_is_wanted())
         open_validated_instance(gpu);
     else
@@ -273,12 +274,12 @@ void gpu_test_open(struct gpu_test *gpu, gpu_test_requirements_fn requirements)
 
 struct gpu_test_messages gpu_test_take_messages(struct gpu_test *gpu)
 {
-    const struct gpu_test_messages taken = gpu->messages;
-    gpu->messages = (struct gpu_test_messages){ .quiet = taken.quiet };
+    const struct gpu_test_messages taken = *gpu->messages;
+    *gpu->messages = (struct gpu_test_messages){ .quiet = taken.quiet };
     return taken;
 }
 
-void gpu_test_close(struct gpu_test *gpu)
+struct gpu_test_messages gpu_test_destroy(struct gpu_test *gpu)
 {
     if (gpu->device) {
         gpu_test_compute_forget(gpu);
@@ -294,9 +295,25 @@ void gpu_test_close(struct gpu_test *gpu)
     if (gpu->instance)
         vkDestroyInstance(gpu->instance, NULL);
     const struct gpu_test_messages messages = gpu_test_take_messages(gpu);
+    free(gpu->messages);
     *gpu = (struct gpu_test){ 0 };
+    return messages;
+}
+
+static void require_silence(struct gpu_test_messages messages)
+{
     REQUIRE_CMP(messages.errors, ==, 0);
     REQUIRE_CMP(messages.warnings, ==, 0);
+}
+
+void gpu_test_require_silence(struct gpu_test *gpu)
+{
+    require_silence(gpu_test_take_messages(gpu));
+}
+
+void gpu_test_close(struct gpu_test *gpu)
+{
+    require_silence(gpu_test_destroy(gpu));
 }
 
 /* ---- Work ---- */

@@ -47,11 +47,10 @@ struct gpu_test_pipeline {
 
 enum { GPU_TEST_IDLE_MOST = 8 };
 
-/* Must stay where it is between open and close: the validation layer writes to `messages`. */
 struct gpu_test {
     VkInstance instance;
     VkDebugUtilsMessengerEXT messenger; /* VK_NULL_HANDLE without validation */
-    struct gpu_test_messages messages;
+    struct gpu_test_messages *messages; /* owned */
     VkPhysicalDevice physical_device;
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceMemoryProperties memory_properties;
@@ -73,6 +72,10 @@ void gpu_test_open(struct gpu_test *gpu, gpu_test_requirements_fn requirements);
 
 /* Destroys everything, then fails the test if the layer had anything to say. */
 void gpu_test_close(struct gpu_test *gpu);
+/* The same outside of a test. Returns what the layer had to say. */
+struct gpu_test_messages gpu_test_destroy(struct gpu_test *gpu);
+/* Fails the test if the layer had anything to say. */
+void gpu_test_require_silence(struct gpu_test *gpu);
 
 /* Messages so far, which are forgotten; `quiet` stays as it is. */
 struct gpu_test_messages gpu_test_take_messages(struct gpu_test *gpu);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Layouts of equal definition are compatible, so a pipeline made with those of one context runs with those
- * of the next. Pipelines of one shader are told apart by its code alone: the library specialises none. */
+ * of the next. Equal definitions have the same immutable samplers, so samplers are shared as well. Pipelines of one shader are told apart by its code alone: the library specialises none. */
 #include "shared_pipelines.h"
 
 #include "layered_vulkan.h"
@@ -10,9 +10,10 @@
 #include <stdlib.h>
 #include <vulkan/vulkan.h>
 
-enum { MOST = 64 };
+enum { MOST = 256 };
 
 struct shader {
+    VkDevice device;
     uint32_t *code;
     size_t size;
     VkShaderModule module; /* the newest with this code */
@@ -22,22 +23,32 @@ struct shader {
 static struct shader shaders[MOST];
 static uint32_t shader_count;
 
-static struct shader *shader_of_code(const uint32_t *code, size_t size)
+struct sampler {
+    VkDevice device;
+    VkSamplerCreateInfo info;
+    VkSampler sampler;
+};
+
+static struct sampler samplers[MOST];
+static uint32_t sampler_count;
+
+static struct shader *shader_of_code(VkDevice device, const uint32_t *code, size_t size)
 {
     for (uint32_t i = 0; i < shader_count; i++)
-        if (shaders[i].size == size && memcmp(shaders[i].code, code, size) == 0)
+        if (shaders[i].device == device && shaders[i].size == size &&
+            memcmp(shaders[i].code, code, size) == 0)
             return &shaders[i];
     REQUIRE_CMP(shader_count, <, (uint32_t)MOST);
     struct shader *shader = &shaders[shader_count++];
-    *shader = (struct shader){ .code = test_array_alloc(size, 1), .size = size };
+    *shader = (struct shader){ .device = device, .code = test_array_alloc(size, 1), .size = size };
     memcpy(shader->code, code, size);
     return shader;
 }
 
-static struct shader *shader_of_module(VkShaderModule module)
+static struct shader *shader_of_module(VkDevice device, VkShaderModule module)
 {
     for (uint32_t i = 0; i < shader_count; i++)
-        if (shaders[i].module == module)
+        if (shaders[i].device == device && shaders[i].module == module)
             return &shaders[i];
     require_fail(__FILE__, __LINE__, "a pipeline of a shader that nobody made");
     return NULL;
@@ -49,9 +60,9 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_module(VkDevice device, const VkSha
 {
     const VkResult result = vkCreateShaderModule(device, info, callbacks, out);
     for (uint32_t i = 0; i < shader_count; i++)
-        if (shaders[i].module == *out)
+        if (shaders[i].device == device && shaders[i].module == *out)
             shaders[i].module = VK_NULL_HANDLE;
-    shader_of_code(info->pCode, info->codeSize)->module = *out;
+    shader_of_code(device, info->pCode, info->codeSize)->module = *out;
     return result;
 }
 
@@ -61,7 +72,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
 {
     REQUIRE_CMP(count, ==, 1u);
     REQUIRE_TRUE(infos->stage.pSpecializationInfo == NULL);
-    struct shader *shader = shader_of_module(infos->stage.module);
+    struct shader *shader = shader_of_module(device, infos->stage.module);
     VkResult result = VK_SUCCESS;
     if (!shader->pipeline)
         result = vkCreateComputePipelines(device, cache, 1, infos, callbacks, &shader->pipeline);
@@ -73,15 +84,42 @@ static VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice device, VkPipeline p
                                                    const VkAllocationCallbacks *callbacks)
 {
     for (uint32_t i = 0; i < shader_count; i++)
-        if (shaders[i].pipeline == pipeline)
+        if (shaders[i].device == device && shaders[i].pipeline == pipeline)
             return;
     vkDestroyPipeline(device, pipeline, callbacks);
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSamplerCreateInfo *info,
+                                                     const VkAllocationCallbacks *callbacks, VkSampler *out)
+{
+    REQUIRE_TRUE(info->pNext == NULL);
+    for (uint32_t i = 0; i < sampler_count; i++)
+        if (samplers[i].device == device && memcmp(&samplers[i].info, info, sizeof *info) == 0) {
+            *out = samplers[i].sampler;
+            return VK_SUCCESS;
+        }
+    const VkResult result = vkCreateSampler(device, info, callbacks, out);
+    REQUIRE_CMP(sampler_count, <, (uint32_t)MOST);
+    if (result == VK_SUCCESS)
+        samplers[sampler_count++] = (struct sampler){ device, *info, *out };
+    return result;
+}
+
+static VKAPI_ATTR void VKAPI_CALL destroy_sampler(VkDevice device, VkSampler sampler,
+                                                  const VkAllocationCallbacks *callbacks)
+{
+    for (uint32_t i = 0; i < sampler_count; i++)
+        if (samplers[i].device == device && samplers[i].sampler == sampler)
+            return;
+    vkDestroySampler(device, sampler, callbacks);
 }
 
 static const struct layered_function shared[] = {
     LAYERED("vkCreateShaderModule", create_module),
     LAYERED("vkCreateComputePipelines", create_compute),
     LAYERED("vkDestroyPipeline", destroy_pipeline),
+    LAYERED("vkCreateSampler", create_sampler),
+    LAYERED("vkDestroySampler", destroy_sampler),
     { NULL, NULL },
 };
 
@@ -90,11 +128,28 @@ PFN_vkGetInstanceProcAddr shared_pipelines_loader(void)
     return layered_vulkan_loader(shared);
 }
 
+static void destroy_samplers(VkDevice device)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < sampler_count; i++)
+        if (samplers[i].device != device)
+            samplers[kept++] = samplers[i];
+        else
+            vkDestroySampler(device, samplers[i].sampler, NULL);
+    sampler_count = kept;
+}
+
 void shared_pipelines_destroy(VkDevice device)
 {
+    destroy_samplers(device);
+    uint32_t kept = 0;
     for (uint32_t i = 0; i < shader_count; i++) {
+        if (shaders[i].device != device) {
+            shaders[kept++] = shaders[i];
+            continue;
+        }
         vkDestroyPipeline(device, shaders[i].pipeline, NULL);
         free(shaders[i].code);
     }
-    shader_count = 0;
+    shader_count = kept;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A loader whose devices share compute pipelines: contexts of the library ask for the same ones over and
- * over, and a software driver compiles each of them when it runs first. One device at a time. */
+ * A loader with which contexts on a device share compute pipelines: they ask for the same ones over and over,
+ * and a software driver compiles them each time. */
 #ifndef TEST_SHARED_PIPELINES_H
 #define TEST_SHARED_PIPELINES_H
 

@@ -68,7 +68,7 @@ static void misuse_is_counted_as_an_error(void **state)
     gpu_test_open(&gpu, NULL);
     if (!gpu.messenger)
         skip();
-    gpu.messages.quiet = true;
+    gpu.messages->quiet = true;
     const VkBufferCreateInfo nothing = { .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                          .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT };
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -98,7 +98,7 @@ static void a_missing_barrier_is_counted_as_an_error(void **state)
     gpu_test_open(&gpu, NULL);
     if (!gpu.messenger)
         skip();
-    gpu.messages.quiet = true;
+    gpu.messages->quiet = true;
     struct gpu_test_buffer buffer = gpu_test_buffer_device(&gpu, 256, 0, NULL);
     gpu_test_submit(&gpu, fill_record, &(struct fill){ buffer.buffer, 1 });
     REQUIRE_CMP(gpu_test_take_messages(&gpu).errors, ==, 0);
@@ -115,7 +115,7 @@ static void a_missing_barrier_between_submissions_is_counted_as_an_error(void **
     gpu_test_open(&gpu, NULL);
     if (!gpu.messenger)
         skip();
-    gpu.messages.quiet = true;
+    gpu.messages->quiet = true;
     struct gpu_test_buffer buffer = gpu_test_buffer_device(&gpu, 256, 0, NULL);
     gpu_test_submit_many(&gpu, 2, fill_record, &(struct fill){ buffer.buffer, 1 });
     REQUIRE_CMP(gpu_test_take_messages(&gpu).errors, >=, 1);
@@ -131,7 +131,7 @@ static void a_leaked_object_is_counted_as_an_error(void **state)
     gpu_test_open(&gpu, NULL);
     if (!gpu.messenger)
         skip();
-    gpu.messages.quiet = true;
+    gpu.messages->quiet = true;
     const VkBufferCreateInfo info = { .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                       .size = 16,
                                       .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT };
