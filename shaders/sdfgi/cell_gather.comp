@@ -209,20 +209,32 @@ uint rays_of_visit(uint cascade)
     return emitter_count(cascade) > 0u ? MOST_RAYS : RAYS;
 }
 
-/* Sends a ray of the visits. Those at random come first, and then those towards emitters: neighbouring
- * threads mostly do the same. Returns which surface's ray it is, and which of its rays. */
-vec4 send_ray(uint cascade, uint i, out uint of_surface, out uint ray)
+void keep_ray(uint i, vec4 light)
 {
-    const uint at_random = surface_count * RAYS;
-    const bool to_emitter = i >= at_random;
-    of_surface = to_emitter ? (i - at_random) / EMITTER_RAYS : i / RAYS;
-    ray = to_emitter ? RAYS + (i - at_random) % EMITTER_RAYS : i % RAYS;
-    const uint surface = surfaces[of_surface];
-    const ray_source source = source_of(cascade, surface);
-    if (to_emitter)
-        return send_emitter_ray(cascade, source, ray - RAYS);
-    return send_random_ray(cascade, source,
-                           ray_direction(source.normal, source.visits * RAYS + ray, source.shift));
+    found[i] = sdfgi_half4_encode(sdfgi_half4_round(min(light, vec4(65504.0))));
+}
+
+/* Sends the rays of all surfaces, of which each has `rays`. Those towards emitters have a loop of their own:
+ * software drivers run what is under a condition for all threads in any case, and a loop that begins with its
+ * condition once more than it goes round. */
+void send_rays(uint cascade, uint rays)
+{
+    const uint at_random = surface_count * RAYS, to_emitters = surface_count * (rays - RAYS);
+    uint i = gl_LocalInvocationIndex;
+    do {
+        if (i < at_random) {
+            const uint of_surface = i / RAYS, ray = i % RAYS;
+            const ray_source source = source_of(cascade, surfaces[of_surface]);
+            const vec3 dir = ray_direction(source.normal, source.visits * RAYS + ray, source.shift);
+            keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, dir));
+        }
+        i += THREADS;
+    } while (i < at_random);
+    for (i = gl_LocalInvocationIndex; i < to_emitters; i += THREADS) {
+        const uint of_surface = i / EMITTER_RAYS, ray = i % EMITTER_RAYS;
+        const ray_source source = source_of(cascade, surfaces[of_surface]);
+        keep_ray(of_surface * rays + RAYS + ray, send_emitter_ray(cascade, source, ray));
+    }
 }
 
 /* The mean of what the rays of a surface have found, and of what those towards emitters have. */
@@ -413,11 +425,7 @@ void main()
     for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);
     barrier();
-    for (uint i = lane; i < surface_count * rays; i += THREADS) {
-        uint of_surface, ray;
-        const vec4 light = send_ray(cascade, i, of_surface, ray);
-        found[of_surface * rays + ray] = sdfgi_half4_encode(sdfgi_half4_round(min(light, vec4(65504.0))));
-    }
+    send_rays(cascade, rays);
     barrier();
     for (uint i = lane; i < surface_count; i += THREADS)
         add_visit(cascade, surfaces[i], light_of_rays(i * rays, rays));
