@@ -186,6 +186,7 @@ static struct sdfgi_settings small_settings(void)
     settings.resolution = 32;
     settings.cascades = 1;
     settings.surface_light = SDFGI_SURFACE_LIGHT_PROBES;
+    settings.bounce_feedback = 0.75f;
     settings.ray_count = 125;
     settings.frames_to_converge = 4;
     return settings;
@@ -259,6 +260,8 @@ enum picture {
     PICTURE_AGAIN,
     PART_OF_LIGHT,
     VIEW_CHOSEN,
+    BOUNCES_OFF,
+    BOUNCES_BACK,
     GI_OFF,
     GI_ON,
     PROPERTIES,
@@ -297,6 +300,10 @@ static const struct step steps[] = {
     { .action = CLICK, .widget = "view:solid" },
     { .action = TAKE, .picture = VIEW_CHOSEN },
     { .action = CLICK, .widget = "view:picture" },
+    { .action = CLICK, .widget = "effect:sdfgi_bounce_feedback" },
+    { .action = TAKE, .picture = BOUNCES_OFF },
+    { .action = CLICK, .widget = "effect:sdfgi_bounce_feedback" },
+    { .action = TAKE, .picture = BOUNCES_BACK },
     { .action = CLICK, .widget = "effect:sdfgi_enabled" },
     { .action = TAKE, .picture = GI_OFF },
     { .action = KEY, .key = X_KEY_G },
@@ -419,6 +426,15 @@ static void an_effect_that_is_switched_shows(void **state)
     REQUIRE_CMP(scene_differs(PART_OF_LIGHT, GI_ON), <, 0.05);
 }
 
+static void an_effect_comes_back_as_it_was(void **state)
+{
+    (void)state;
+    const float before = tour.seen[FIRST].settings.bounce_feedback;
+    REQUIRE_TRUE(before > 0 && before < 1);
+    REQUIRE_NEAR(tour.seen[BOUNCES_OFF].settings.bounce_feedback, 0, 0);
+    REQUIRE_NEAR(tour.seen[BOUNCES_BACK].settings.bounce_feedback, before, 0);
+}
+
 static void every_property_is_listed(void **state)
 {
     (void)state;
@@ -470,6 +486,7 @@ int main(void)
         cmocka_unit_test(a_view_that_is_chosen_shows),
         cmocka_unit_test(effects_of_the_host_can_be_left_out),
         cmocka_unit_test(an_effect_that_is_switched_shows),
+        cmocka_unit_test(an_effect_comes_back_as_it_was),
         cmocka_unit_test(every_property_is_listed),
         cmocka_unit_test(properties_follow_their_widgets),
         cmocka_unit_test(tabs_show_different_things),
