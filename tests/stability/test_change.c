@@ -51,7 +51,7 @@ static void room_open(struct room *r, const struct sdfgi_light_desc *lamp)
     light_add_box(&r->t, (double[]){ -out, -out, -out }, (double[]){ out, out, -h }, white, 0);
     place_points(r->points);
     r->lamp = light_create(&r->t, lamp);
-    gi_test_converge(&r->t, 400);
+    gi_test_converge(&r->t, 600);
 }
 
 static double room_look(struct room *r)

@@ -70,8 +70,10 @@ static void change_field(struct fuzz *f, uint32_t row, struct wake_world *after,
                    element = below(f, field.part->count);
     const double before = wake_field_read(&field, &f->device, after, object, element);
     double value = before;
-    while (value == before)
-        value = (double)(float)field.part->values[below(f, field.part->value_count)];
+    while (value == before) {
+        value = field.part->values[below(f, field.part->value_count)];
+        value = field.part->type == WAKE_TYPE_F32 ? (double)(float)value : value; /* as it is read back */
+    }
     wake_field_write(&field, &f->device, after, object, element, value);
     change->object = g->object;
     change->index = object;
