@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SLOTS = 24, MESHES = 3, OPERATIONS = 10000, PER_FRAME = 100 };
+enum { SLOTS = 24, MESHES = 3, OPERATIONS = 10000, PER_FRAME = 250 };
 
 struct slot {
     bool used;

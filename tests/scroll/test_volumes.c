@@ -179,7 +179,7 @@ static void hard_19_a_long_journey_leaves_no_trace(void **state)
     open_scene(&t, scroll_air, &settings, home);
     struct test_random random = { 19 };
     double camera[3] = { home[0], home[1], home[2] };
-    const uint32_t scrolls = scroll_is_full() ? 1000 : 90;
+    const uint32_t scrolls = scroll_is_full() ? 1000 : 40;
     uint32_t checked = 0;
     while (t.gi->volume.state.scroll.scrolls_begun < scrolls) {
         for (int i = 0; i < 3; i++) {
@@ -251,11 +251,11 @@ static void depths_scroll_too(void **state)
     for (int scale = SDFGI_Y_SCALE_50; scale <= last; scale += 2) {
         const struct sdfgi_settings settings = depth_settings((enum sdfgi_y_scale)scale);
         open_world(&t, &settings, home);
-        REQUIRE_CMP(one_step(&t, 1, 1, -1, "depths, all axes"), ==, 0ul);
         if (scroll_is_full()) {
             REQUIRE_CMP(one_step(&t, 1, 0, 0, "depths, +x"), ==, 0ul);
             REQUIRE_CMP(one_step(&t, 0, -1, 0, "depths, -y"), ==, 0ul);
         }
+        REQUIRE_CMP(one_step(&t, 1, 1, -1, "depths, all axes"), ==, 0ul);
         gi_test_close(&t);
     }
 }

@@ -232,7 +232,7 @@ static void more_lamps_than_a_list_takes_lose_nothing(void **state)
     struct sdfgi_settings settings = emitter_settings();
     settings.min_cell_size_m = 0.1f;
     settings.resolution = 64;
-    settings.cell_rays = 128;
+    settings.cell_rays = 64;
     gi_test_open(&t, &settings);
     light_add_box(&t, (double[]){ -3, -1.5, -3 }, (double[]){ 3, -0.975, 3 }, (float[]){ 0.5f, 0.5f, 0.5f },
                   0);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Layouts of equal definition are compatible, so a pipeline made with those of one context runs with those
- * of the next. Equal definitions have the same immutable samplers, so samplers are shared as well. Pipelines of one shader are told apart by its code alone: the library specialises none. */
+ * of the next. Equal definitions have the same immutable samplers, so samplers are shared as well. Pipelines
+ * of one shader are told apart by its code alone: the library specialises none. */
 #include "shared_pipelines.h"
 
 #include "layered_vulkan.h"
