@@ -98,7 +98,8 @@ void load_ray(uint cascade, ivec3 probe, uint slot, uint i)
  * SUM_THREADS threads and not by all: software drivers read it for each thread on its own. */
 const uint SUM_THREADS = 8u, SUM_PARTS = SDFGI_GROUP_PROBE / SUM_THREADS, SUM_TEXELS = 4u;
 
-/* Adds up the parts of all rays, and leaves them in ray_dir: texel by texel, part after part. */
+/* Adds up the parts of all rays, and leaves them in ray_dir, which has just as many places: texel by texel,
+ * part after part. */
 void sum_rays(uint rays)
 {
     const uint part = gl_LocalInvocationIndex / SUM_THREADS, first = gl_LocalInvocationIndex % SUM_THREADS;

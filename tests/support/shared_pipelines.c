@@ -81,15 +81,6 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
     return result;
 }
 
-static VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice device, VkPipeline pipeline,
-                                                   const VkAllocationCallbacks *callbacks)
-{
-    for (uint32_t i = 0; i < shader_count; i++)
-        if (shaders[i].device == device && shaders[i].pipeline == pipeline)
-            return;
-    vkDestroyPipeline(device, pipeline, callbacks);
-}
-
 static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSamplerCreateInfo *info,
                                                      const VkAllocationCallbacks *callbacks, VkSampler *out)
 {
@@ -106,15 +97,20 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSa
     return result;
 }
 
-static VKAPI_ATTR void VKAPI_CALL destroy_sampler(VkDevice device, VkSampler sampler,
-                                                  const VkAllocationCallbacks *callbacks)
-{
-    for (uint32_t i = 0; i < sampler_count; i++)
-        if (samplers[i].device == device && samplers[i].sampler == sampler)
-            return;
-    vkDestroySampler(device, sampler, callbacks);
-}
+/* What is shared stays. */
+#define DESTROY(kind, member, rows, count)                                                                   \
+    static VKAPI_ATTR void VKAPI_CALL destroy_##member(VkDevice device, Vk##kind object,                     \
+                                                       const VkAllocationCallbacks *callbacks)               \
+    {                                                                                                        \
+        for (uint32_t i = 0; i < count; i++)                                                                 \
+            if (rows[i].device == device && rows[i].member == object)                                        \
+                return;                                                                                      \
+        vkDestroy##kind(device, object, callbacks);                                                          \
+    }
+DESTROY(Pipeline, pipeline, shaders, shader_count)
+DESTROY(Sampler, sampler, samplers, sampler_count)
 
+/* clang-format off */
 static const struct layered_function shared[] = {
     LAYERED("vkCreateShaderModule", create_module),
     LAYERED("vkCreateComputePipelines", create_compute),
@@ -123,6 +119,7 @@ static const struct layered_function shared[] = {
     LAYERED("vkDestroySampler", destroy_sampler),
     { NULL, NULL },
 };
+/* clang-format on */
 
 PFN_vkGetInstanceProcAddr shared_pipelines_loader(void)
 {
