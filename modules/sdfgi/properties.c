@@ -108,8 +108,8 @@ static const struct row rows[] = {
         "fine cascades that keep up with faster cameras, and changed geometry that is seen sooner",
         "time of the frames in which cascades step or geometry changes, in proportion",
         "At most so many cells are voxelised or given distances in a frame, once there is anything to "
-        "show. A step of a cascade of 128 cells takes 2,228,224. Where the camera is faster, fine "
-        "cascades wait and coarser ones answer."),
+        "show, or from the start after sdfgi_prepare. A step of a cascade of 128 cells takes 2,228,224. "
+        "Where the camera is faster, fine cascades wait and coarser ones answer."),
     RECREATE(resolution, "sdfgi_resolution", INT, 128, 32, 256, "cells", "32,64,128,256",
         "range at the same cell size, or detail at the same range", "memory and time with the third power",
         "Cells along a side of each cascade, a power of two."),

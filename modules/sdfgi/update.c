@@ -22,7 +22,7 @@ static uint32_t threads_per_ray(const struct gpu_device *device)
     return device->is_cpu ? 1 : SDFGI_GROUP_SURFACES;
 }
 
-static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
+static struct frame_input frame_input(struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
 {
     return (struct frame_input){ .state = &gi->volume.state,
                                  .desc = desc,
@@ -33,6 +33,7 @@ static struct frame_input frame_input(const struct sdfgi *gi, const struct sdfgi
                                  .counters = gi->volume.feedback.counters,
                                  .lists = sdfgi_volume_light_lists(&gi->volume),
                                  .gaps = gi->volume.gaps,
+                                 .starts_in_parts = sdfgi_preparation_keeps(gi),
                                  .threads_per_ray = threads_per_ray(&gi->backend.device) };
 }
 

@@ -30,6 +30,7 @@ struct drive {
     float change;                             /* of light, in the sample cycles that end from now on */
     bool list_grew;                           /* the light lists are empty before the next frame */
     bool emitters_added;                      /* the emitter lists are new in this frame */
+    bool starts_in_parts;                     /* the host has asked for it */
     struct frame frame;                       /* the newest */
 };
 

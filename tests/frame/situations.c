@@ -68,7 +68,7 @@ void show_until_begun(struct show *show, const double step[static 3])
     uint32_t frame = 0;
     do
         move_on(show, step, frame++);
-    while (!show->d.frame.scroll.begins);
+    while (!show->d.frame.scroll.begun);
     show_planned(show);
 }
 

@@ -8,6 +8,16 @@ static void first_frame(struct show *show)
     show_frames(show, 1);
 }
 
+/* A host that has prepared: a cascade of 64^3 a frame, the coarser one first. */
+static void start_in_parts(struct show *show)
+{
+    struct sdfgi_settings settings = drive_settings(2, 64);
+    settings.max_scroll_cells = 524288;
+    show_begin_with(show, &settings);
+    show->d.starts_in_parts = true;
+    show_frames(show, 3);
+}
+
 static void first_frame_without_instances(struct show *show)
 {
     const struct sdfgi_settings settings = drive_settings(1, 32);
@@ -112,6 +122,7 @@ static void the_coordinate_origin_moves(struct show *show)
 
 static const struct situation_row rows[] = {
     { "the_first_frame_makes_everything", first_frame },
+    { "a_start_in_parts_makes_a_cascade_a_frame", start_in_parts },
     { "the_first_frame_without_instances_voxelises_nothing", first_frame_without_instances },
     { "the_first_frame_of_excluded_instances_voxelises_nothing", first_frame_of_excluded_instances },
     { "the_first_frame_without_lights_writes_zeros", first_frame_without_lights },

@@ -31,6 +31,28 @@ static void the_first_frame_does_everything(void **state)
     REQUIRE_CMP(scroll_drive_frame(&drive, (double[]){ 3, 4, 5 }), ==, 0u);
 }
 
+/* The coarsest cascade first, one a frame. Then lookups sample what they do after a start at once. */
+static void a_start_in_parts_keeps_to_the_budget(void **state)
+{
+    (void)state;
+    const double camera[3] = { 3, 4, 5 };
+    struct scroll_drive drive = scroll_drive_begin(128, 4194304), at_once = drive;
+    drive.limits.starts_in_parts = true;
+    scroll_drive_frame(&at_once, camera);
+    for (uint32_t frame = 0; frame < 4; frame++) {
+        REQUIRE_CMP(scroll_drive_frame(&drive, camera), ==, 4194304u);
+        REQUIRE_TRUE(scroll_drive_covers(&drive.cascades.at[3], camera, 55));
+    }
+    REQUIRE_CMP(scroll_drive_frame(&drive, camera), ==, 0u);
+    REQUIRE_TRUE(sdfgi_cascades_rest(&drive.cascades) && drive.scroll.blends_moving == 0);
+    for (uint32_t c = 0; c < 4; c++)
+        for (int k = 0; k < 3; k++) {
+            REQUIRE_CMP(drive.cascades.at[c].origin[k], ==, at_once.cascades.at[c].origin[k]);
+            REQUIRE_NEAR(drive.cascades.at[c].blend_low[k], at_once.cascades.at[c].blend_low[k], 0);
+            REQUIRE_NEAR(drive.cascades.at[c].blend_high[k], at_once.cascades.at[c].blend_high[k], 0);
+        }
+}
+
 static void a_walk_costs_the_same_in_every_frame(void **state)
 {
     (void)state;
@@ -257,6 +279,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_frame_does_everything),
+        cmocka_unit_test(a_start_in_parts_keeps_to_the_budget),
         cmocka_unit_test(a_walk_costs_the_same_in_every_frame),
         cmocka_unit_test(a_flight_stays_within_the_budget),
         cmocka_unit_test(hard_22_a_teleport_is_one_rebuild),

@@ -60,13 +60,14 @@ static void plan_scroll(struct frame *frame, const struct frame_input *input)
 {
     struct volume_state *next = &frame->next;
     const struct scroll_limits limits = { input->settings->max_scroll_cells,
-                                          input->settings->sdf_method == SDFGI_SDF_FLOOD };
+                                          input->settings->sdf_method == SDFGI_SDF_FLOOD,
+                                          input->starts_in_parts };
     const bool nothing_shown = next->accumulation.phase < LIGHTING_RUNNING;
     if (input->desc->cut)
         sdfgi_scroll_cut(&next->scroll, &next->cascades);
     sdfgi_scroll_plan(&next->scroll, &next->cascades, &limits, input->desc->camera_position, nothing_shown,
                       &frame->scroll);
-    if (frame->scroll.begins)
+    if (frame->scroll.begun)
         sdfgi_accumulation_invalidate(&next->accumulation);
     frame->situation.from_nothing = frame->scroll.from_nothing;
     frame->situation.voxels_due = sdfgi_scroll_plan_has(&frame->scroll, PIECE_VOXELS);

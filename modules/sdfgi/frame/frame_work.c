@@ -38,6 +38,7 @@ void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
         clear_counters(&frame->work, CLEARED_CHANGE);
     else if (frame->next.accumulation.frame == 0)
         clear_counters(&frame->work, CLEARED_CYCLE);
+    sdfgi_stage_empty_lists(&stage);
     sdfgi_stage_generate(&stage);
     sdfgi_stage_complete(&stage);
     sdfgi_stage_light(&stage);

@@ -38,7 +38,7 @@ void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t c)
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t c)
 {
     const struct cascade *cascade = &frame->next.cascades.at[c];
-    if (frame->situation.list_grew)
+    if (frame->situation.list_grew && !sdfgi_cell_box_empty(&cascade->valid))
         return RELIST_NEW;
     if (!sdfgi_cascade_completes(cascade))
         return RELIST_NOT;

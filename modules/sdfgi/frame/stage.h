@@ -29,6 +29,8 @@ struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uin
 uint32_t sdfgi_stage_begin_group(const struct plan_stage *stage);
 void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first);
 
+/* Light lists of cascades whose rebuild begins: no entry of them may be read until it completes. */
+void sdfgi_stage_empty_lists(const struct plan_stage *stage);
 /* Stages 3 and 4: voxels and distances that are due. */
 void sdfgi_stage_generate(const struct plan_stage *stage);
 /* Stages 5 to 7 for cascades whose change completes, or whose light list was lost. */

@@ -92,6 +92,26 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
     work->units = stage->input->extent.probes * stage->input->extent.cycle_samples * count;
 }
 
+static void empty_list(const struct plan_stage *stage, uint32_t c)
+{
+    static const uint32_t counters[] = { SDFGI_COUNTER_LIGHT_CELLS, SDFGI_COUNTER_LIGHT_DIRTY };
+    for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (counters[i] + c), 4);
+    clear_blocks(stage, c);
+    sdfgi_stage_forget_seen(stage, c);
+}
+
+void sdfgi_stage_empty_lists(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++) {
+        const struct change *change = &frame->next.cascades.at[c].change;
+        if ((frame->scroll.begun >> c & 1) && change->cause == CHANGE_REBUILD &&
+            change->stage != CHANGE_COMPLETES)
+            empty_list(stage, c);
+    }
+}
+
 /* Probes and light cells of a cascade. The order of passes is such that neighbours touch nothing in common:
  * no barrier comes between them. */
 static void complete_cascade(const struct plan_stage *stage, uint32_t c)

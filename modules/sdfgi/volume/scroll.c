@@ -108,7 +108,8 @@ static void begin(struct run *run, struct cascade *cascade)
     } else if (outdated) {
         sdfgi_change_begin_rebuild(cascade, resolution, run->scroll->camera);
     }
-    run->plan->begins = run->plan->begins || cascade->change.cause != CHANGE_NONE;
+    if (cascade->change.cause != CHANGE_NONE)
+        run->plan->begun |= 1u << (cascade - run->cascades->at);
 }
 
 /* Decides which cascades may scroll: they share the budget from the coarsest on, which may always scroll.
@@ -259,11 +260,11 @@ static void advance(struct run *run, uint32_t c, uint64_t *budget)
 
 /* The cells that all changes together may do in this frame. The camera's pace with HEADROOM calls for so
  * many, in whole layers, so that one frame costs as much as the next. It is a slice at least. If a change
- * hurries, it is all that the setting allows; if nothing is shown yet, there is no limit. */
+ * hurries, it is all that the setting allows; if nothing is shown yet, there may be no limit. */
 static uint64_t frame_budget(const struct run *run)
 {
     const double limit = (double)run->limits->max_cells, layer = (double)layer_cells(run->cascades);
-    if (run->plan->from_nothing)
+    if (run->plan->from_nothing && !run->limits->starts_in_parts)
         return UINT64_MAX;
     if (any_hurries(run))
         return run->limits->max_cells;
@@ -332,6 +333,8 @@ void sdfgi_scroll_plan(struct scroll *scroll, struct cascades *cascades, const s
     /* A teleport says nothing of the camera's speed: later frames do not keep its pace. */
     if (plan->from_nothing)
         scroll->pace = 0;
+    if (plan->from_nothing && limits->starts_in_parts)
+        sdfgi_scroll_cut(scroll, cascades);
     advance_all(&run, frame_budget(&run));
     for (uint32_t c = 0; c < cascades->count; c++)
         if (sdfgi_cascade_completes(&cascades->at[c]))

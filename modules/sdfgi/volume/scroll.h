@@ -7,9 +7,9 @@
  * cells and light. In that frame the valid region becomes the whole cascade again.
  *
  * Each frame does as much as keeps all cascades just ahead of the camera, near ones first, so that work is
- * even from frame to frame. A frame never exceeds the budget, except while nothing is shown yet, or for
- * distances by a flood, which cannot be cut. Where the camera is faster than the budget allows, fine cascades
- * wait and coarser ones answer. */
+ * even from frame to frame. A frame never exceeds the budget, except while nothing is shown yet, if the host
+ * has not asked for a start in parts, or for distances by a flood, which cannot be cut. Where the camera is
+ * faster than the budget allows, fine cascades wait and coarser ones answer. */
 #ifndef SDFGI_SCROLL_H
 #define SDFGI_SCROLL_H
 
@@ -48,13 +48,14 @@ struct scroll_plan {
     uint32_t piece_count;
     uint64_t cells;    /* voxelised or given distances */
     bool from_nothing; /* no cascade was complete before this frame */
-    bool begins;       /* a change begins */
+    uint32_t begun;    /* a bit per cascade whose change begins */
 };
 
 /* What of the settings matters here. */
 struct scroll_limits {
-    uint64_t max_cells; /* in a frame */
-    bool flood;         /* distances cannot be cut: a cascade's are made at once */
+    uint64_t max_cells;   /* in a frame */
+    bool flood;           /* distances cannot be cut: a cascade's are made at once */
+    bool starts_in_parts; /* `max_cells` holds while nothing is shown yet, too */
 };
 
 void sdfgi_scroll_init(struct scroll *scroll);

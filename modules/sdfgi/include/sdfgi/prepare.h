@@ -39,6 +39,10 @@ struct sdfgi_prepare_desc {
  * on, and for settings marked "re-create" while GI is on: the volumes in force go on until then. Both are
  * held meanwhile. Settings are as prepared if they agree in all that is marked "re-create".
  *
+ * Updates with what has been prepared keep to sdfgi_max_scroll_cells_per_frame even where nothing is shown
+ * yet, at the start and after a teleport: with the defaults a cascade a frame, the coarsest first. Without,
+ * such an update makes all cascades.
+ *
  * What has been prepared is kept: from then on switching off keeps the volumes as they are, light included,
  * and switching on goes on from there, with what changed meanwhile. Lookups are black until the next
  * sdfgi_update. sdfgi_release_prepared ends that. To prepare other settings releases volumes
