@@ -8,7 +8,7 @@
  *
  *     missing weight   m = min(p, max(W - w, 0)), and 0 once the cycle is complete
  *     estimate         E = (S + m P) / (w + m)
- *     change           c = |E - P| / (max(E, P) + a little)
+ *     change           c = |E - P| / (max(E, P) + a little), the largest of the channels
  *
  * At the end of a cycle E becomes P, w + m becomes p, and S becomes 0. Every cycle repeats the directions of
  * the one before, so the estimates of a static scene converge exactly.
@@ -71,6 +71,9 @@ const float INVISIBLE_CHANGE = 1.0 / 256.0;
 /* A deviation falls by no more than a quarter in a cycle, because after a cycle in which light changed, it
  * cannot be told from the change and comes out too small. */
 const float DEVIATION_KEPT = 0.75;
+/* A fraction of the brightest channel. Channels of a light cell share an exponent: one of a quarter of the
+ * brightest is rounded by up to 0.8 % of itself, and light goes round in circles that wide. */
+const float WEAKEST_CHANNEL = 0.25;
 /* Light cells read at most this many times what is displayed, and at least its inverse. */
 const float MAX_GAIN = 8.0;
 
@@ -100,10 +103,12 @@ uint filter_state(probe_history history)
     return args.without_history != 0u ? min(state, PROBE_WARMING_UP) : state;
 }
 
-/* Relative difference of two colours, at most 1. */
+/* Relative difference of two colours, at most 1. No channel counts as weaker than WEAKEST_CHANNEL. */
 float texel_change(vec3 estimate, vec3 previous)
 {
-    const vec3 change = abs(estimate - previous) / (max(estimate, previous) + sdfgi_frame.dark);
+    const vec3 larger = max(estimate, previous);
+    const float weakest = WEAKEST_CHANNEL * max(larger.r, max(larger.g, larger.b));
+    const vec3 change = abs(estimate - previous) / (max(larger, weakest) + sdfgi_frame.dark);
     return min(max(change.r, max(change.g, change.b)), 1.0);
 }
 

@@ -34,6 +34,14 @@ static void a_circle_of_roundings_is_an_end(void **state)
     (void)state;
     REQUIRE_CMP(cycles_until_done(0.00169f, 1, 0.00169f), ==, 9u);
     REQUIRE_CMP(cycles_until_done(0.5f, 0.5f, 0.0016f), <, 30u);
+    REQUIRE_CMP(cycles_until_done(0.0064f, 1, 0.0064f), ==, 33u);
+}
+
+/* A room with a loop gain of 0.99 fills slowly: that is no circle. It is below 1/256 after 67 cycles. */
+static void light_that_creeps_is_waited_for(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(cycles_until_done(0.0077f, 0.99f, 0), >=, 67u);
 }
 
 static void light_that_keeps_changing_never_converges(void **state)
@@ -55,6 +63,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_that_fades_out_converges_at_the_threshold),
         cmocka_unit_test(a_circle_of_roundings_is_an_end),
+        cmocka_unit_test(light_that_creeps_is_waited_for),
         cmocka_unit_test(light_that_keeps_changing_never_converges),
         cmocka_unit_test(nothing_has_converged_before_a_cycle_has_ended),
     };
