@@ -91,18 +91,11 @@ static bool take_step(struct tour *tour, const struct step *step, const struct h
     return false;
 }
 
-static void note_progress(struct tour *tour, const struct sdfgi_report *report)
-{
-    const struct sdfgi_progress *prepared = &report->prepared;
-    if (report->active && tour->made.total == 0)
-        tour->made = *prepared;
-    tour->half_made += !report->active && prepared->made > 0 && prepared->made < prepared->total;
-}
-
 static bool follow(void *user, const struct host_frame *frame)
 {
     struct tour *tour = user;
-    note_progress(tour, frame->report);
+    if (frame->report->active && tour->made.total == 0)
+        tour->made = frame->report->prepared;
     if (!tour->opened)
         x_window_open(&tour->x);
     tour->opened = true;

@@ -33,7 +33,7 @@ struct tour {
     struct host_overlay_frame now;
     uint64_t held[PICTURES_MAX]; /* device memory of GI when a picture was taken */
     bool listed[PROPERTIES_MAX]; /* properties that the panel has shown */
-    uint32_t bars, half_made;    /* frames that showed progress, and those in which some of GI was made */
+    uint32_t bars;               /* frames that showed progress */
     struct sdfgi_progress made;  /* when GI was on for the first time */
 };
 
