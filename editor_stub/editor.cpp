@@ -94,13 +94,25 @@ bool font_upload(editor &e)
 
 /* ---- Laying it out */
 
-void show_summary(const editor_frame &frame)
+/* How much of what GI needs has been made, while it is made ahead of the switch. */
+void show_progress(panel &panel, const sdfgi_progress &prepared)
+{
+    char text[64];
+    snprintf(text, sizeof text, "GI: %u of %u pipelines and buffers", prepared.made, prepared.total);
+    ImGui::ProgressBar(static_cast<float>(prepared.made) / static_cast<float>(prepared.total), ImVec2(-1, 0),
+                       text);
+    panel_place_add(panel, "progress", "GI");
+}
+
+void show_summary(panel &panel, const editor_frame &frame)
 {
     const double frame_ms = 1e3 * frame.frame_s, gpu_ms = 1e-6 * static_cast<double>(frame.gpu_ns);
     ImGui::TextWrapped("%.1f ms a frame, %.1f ms on the GPU, light %s", frame_ms, gpu_ms,
                        !frame.report->active     ? "off"
                        : frame.report->converged ? "converged"
                                                  : "on its way");
+    if (!frame.report->active && frame.report->prepared.total > 0)
+        show_progress(panel, frame.report->prepared);
     if (frame.error)
         panel_warning("refused: %s", frame.error);
 }
@@ -134,7 +146,7 @@ void show_window(panel &panel, editor_frame &frame)
     ImGui::SetNextWindowSize(ImVec2(std::min(460.0f, 0.65f * display.x), display.y - 16), ImGuiCond_Once);
     ImGui::SetNextWindowBgAlpha(0.92f);
     if (ImGui::Begin("sdfgi", &frame.open)) {
-        show_summary(frame);
+        show_summary(panel, frame);
         panel_effects(panel, frame);
         if (ImGui::BeginTabBar("tabs")) {
             show_tabs(panel, frame);

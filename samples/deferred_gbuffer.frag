@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: MIT
- * The G-buffer: albedo, normal, and what surfaces emit, where the light of the picture is added up. */
+ * The G-buffer: base colour and metal, normal, roughness, and what surfaces emit, where the light of the
+ * picture is added up. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "sample_push.glsl"
 
 layout(location = 0) in vec3 normal_in;
-layout(location = 0) out vec4 albedo;
+layout(location = 0) out vec4 color_metal;
 layout(location = 1) out vec4 normal;
-layout(location = 2) out vec4 radiance;
+layout(location = 2) out float roughness;
+layout(location = 3) out vec4 radiance;
 
 void main()
 {
-    albedo = base_color;
+    color_metal = base_color;
     normal = vec4(normalize(normal_in), 0.0);
+    roughness = glow.a;
     radiance = vec4(glow.rgb, 1.0);
 }

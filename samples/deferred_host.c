@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Teaches: how a deferred renderer gets global illumination. It draws depths, normals and albedo, and a
- * compute pass lights them. libsdfgi makes a picture of indirect light in between: no shader of the renderer
- * includes anything. What it asks for stands between the lines `GI begins` and `GI ends`, here and in
- * deferred_shade.comp, and a test counts them. */
+ * Teaches: how a deferred renderer gets global illumination. It draws depths, normals and materials, and a
+ * compute pass lights them. libsdfgi makes pictures of indirect light and of reflections in between: no
+ * shader of the renderer includes anything. What it asks for stands between the lines `GI begins` and `GI
+ * ends`, here and in deferred_shade.comp, and a test counts them. */
 /* GI begins */
 #include <sdfgi/sdfgi.h>
 /* GI ends */
@@ -18,17 +18,31 @@
 #include "deferred_shade_spirv.h"
 #include "sample_mesh_spirv.h"
 
-enum { BINDINGS = 7, GROUP = 8 };
+enum { BINDINGS = 6, GROUP = 8 };
 
 struct renderer {
+    struct sample_gpu *gpu;
     struct sample_scene scene;
     struct sample_drawing drawing;
-    struct sample_image colors[3], depth; /* albedo, normal, radiance */
-    struct sample_image indirect;
+    struct sample_image colors[4], depth; /* base colour and metal, normal, roughness, radiance */
+    struct sample_image black;
     struct sample_pass pass;
-    struct sample_set set;
+    struct sample_set set, light;
     struct sample_pipeline gbuffer, shade;
 };
+
+/* From the first frame on, what is there of the two pictures takes the place of black. */
+static void show_light(const struct renderer *r, VkImageView irradiance, VkImageView reflection)
+{
+    const VkImageView views[] = { irradiance, reflection };
+    for (uint32_t i = 0; i < 2 && r->gpu->frame == 0; i++) {
+        const struct sample_binding picture = { .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                                .view = views[i],
+                                                .layout = VK_IMAGE_LAYOUT_GENERAL };
+        if (views[i])
+            sample_set_replace(r->gpu, &r->light, i, &picture);
+    }
+}
 
 /* GI begins */
 static void print_message(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
@@ -92,11 +106,12 @@ static void add_object(sdfgi *gi, const struct renderer *r, const struct sample_
                                     .index_offset = own->first_index * sizeof(uint16_t),
                                     .vertex_count = own->vertex_count,
                                     .triangle_count = own->index_count / 3 };
-    struct sdfgi_material_desc material = { 0 };
+    struct sdfgi_material_desc material = { .smoothness = 1 - matter->glow[3] };
     struct sdfgi_instance_desc placed = { 0 };
     for (int i = 0; i < 3; i++) {
         mesh.bounds_min[i] = own->low[i], mesh.bounds_max[i] = own->high[i];
-        material.albedo[i] = matter->base_color[i], material.emission[i] = matter->glow[i];
+        material.albedo[i] = matter->base_color[i] * (1 - matter->base_color[3]);
+        material.emission[i] = matter->glow[i];
         memcpy(placed.transform.basis + 3 * i, object->matrix + 4 * i, 3 * sizeof(float));
         placed.transform.translation[i] = object->matrix[12 + i];
     }
@@ -105,34 +120,33 @@ static void add_object(sdfgi *gi, const struct renderer *r, const struct sample_
     SAMPLE_CHECK(sdfgi_instance_create(gi, &placed, &(sdfgi_instance){ 0 }));
 }
 
-/* Between G-buffer and lighting. While GI is off the picture stays as it was cleared. */
-static void gather(sdfgi *gi, VkCommandBuffer cmd, const struct renderer *r)
+/* Between G-buffer and lighting. The first frame tells which pictures light is in; black while GI is off. */
+static void resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd, const struct renderer *r)
 {
-    struct sdfgi_gather_desc desc = { .depth = r->depth.view,
-                                      .normal = r->colors[1].view,
-                                      .output = r->indirect.view,
-                                      .width = r->depth.width,
-                                      .height = r->depth.height,
-                                      .background_depth = 1 };
+    struct sdfgi_resolve_desc desc = { .background_depth = 1 };
+    struct sdfgi_view_images images;
+    desc.depth = r->depth.view, desc.normal = r->colors[1].view, desc.roughness = r->colors[2].view;
     memcpy(desc.inverse_view_projection, r->scene.view.world_from_clip, sizeof desc.inverse_view_projection);
-    SAMPLE_CHECK(sdfgi_gather(gi, cmd, &desc));
+    SAMPLE_CHECK(sdfgi_view_resolve(gi, view, cmd, &desc));
+    sdfgi_view_get_images(view, &images);
+    if (sdfgi_is_active(gi))
+        show_light(r, images.diffuse, images.reflection);
 }
 /* GI ends */
 
 static void make_images(struct renderer *r, struct sample_gpu *gpu, uint32_t width, uint32_t height)
 {
-    const VkFormat formats[] = { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SFLOAT,
+    const VkFormat formats[] = { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UNORM,
                                  VK_FORMAT_R16G16B16A16_SFLOAT };
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         r->colors[i] = sample_image_make(gpu, width, height, formats[i],
                                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                             (i == 2 ? VK_IMAGE_USAGE_STORAGE_BIT : 0) |
+                                             (i == 3 ? VK_IMAGE_USAGE_STORAGE_BIT : 0) |
                                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     r->depth = sample_image_make(gpu, width, height, VK_FORMAT_D32_SFLOAT,
                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    r->indirect = sample_image_make(gpu, width, height, VK_FORMAT_R16G16B16A16_SFLOAT,
-                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                        VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    r->black = sample_image_make(gpu, width, height, VK_FORMAT_R8G8B8A8_UNORM,
+                                 VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
 }
 
 static struct sample_binding sampled(const struct sample_image *image, VkImageLayout layout)
@@ -142,7 +156,7 @@ static struct sample_binding sampled(const struct sample_image *image, VkImageLa
                                     .layout = layout };
 }
 
-static void make_set(struct renderer *r, struct sample_gpu *gpu)
+static void make_sets(struct renderer *r, struct sample_gpu *gpu)
 {
     const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const struct sample_binding bindings[BINDINGS] = {
@@ -152,15 +166,17 @@ static void make_set(struct renderer *r, struct sample_gpu *gpu)
         sampled(&r->colors[1], read),
         sampled(&r->depth, read),
         { .type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-          .view = r->colors[2].view,
+          .view = r->colors[3].view,
           .layout = VK_IMAGE_LAYOUT_GENERAL },
-        sampled(&r->indirect, VK_IMAGE_LAYOUT_GENERAL),
     };
+    const struct sample_binding black = sampled(&r->black, VK_IMAGE_LAYOUT_GENERAL);
     r->set = sample_set_make(gpu, bindings, BINDINGS);
+    r->light = sample_set_make(gpu, (const struct sample_binding[]){ black, black }, 2);
 }
 
 static void make_renderer(struct renderer *r, struct sample_gpu *gpu, const struct sample_options *options)
 {
+    r->gpu = gpu;
     sample_scene_make(&r->scene, (float)options->width / (float)options->height);
     VkBufferUsageFlags usage = 0;
     /* GI begins */
@@ -168,10 +184,12 @@ static void make_renderer(struct renderer *r, struct sample_gpu *gpu, const stru
     /* GI ends */
     r->drawing = sample_drawing_make(gpu, &r->scene, usage);
     make_images(r, gpu, options->width, options->height);
-    r->pass = sample_pass_make(gpu, r->colors, 3, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, &r->depth);
-    memcpy(r->pass.clear[2].color.float32, r->scene.view.sky, sizeof r->scene.view.sky);
-    make_set(r, gpu);
-    r->gbuffer.layout = r->shade.layout = sample_layout_make(gpu, &r->set.layout, 1);
+    r->pass = sample_pass_make(gpu, r->colors, 4, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, &r->depth);
+    memcpy(r->pass.clear[3].color.float32, r->scene.view.sky, sizeof r->scene.view.sky);
+    make_sets(r, gpu);
+    const VkDescriptorSetLayout layouts[] = { r->set.layout, r->light.layout };
+    r->gbuffer.layout = sample_layout_make(gpu, layouts, 1);
+    r->shade.layout = sample_layout_make(gpu, layouts, 2);
     const struct sample_code vertex = SAMPLE_CODE(sample_mesh_vert),
                              fragment = SAMPLE_CODE(deferred_gbuffer_frag),
                              shade = SAMPLE_CODE(deferred_shade_comp);
@@ -192,23 +210,24 @@ static void draw_gbuffer(const struct renderer *r, VkCommandBuffer cmd)
 
 static void shade(const struct renderer *r, VkCommandBuffer cmd)
 {
-    const struct sample_image *radiance = &r->colors[2];
+    const struct sample_image *radiance = &r->colors[3];
+    const VkDescriptorSet sets[] = { r->set.set, r->light.set };
     sample_image_barrier(cmd, radiance, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, r->shade.pipeline);
-    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, r->shade.layout, 0, 1, &r->set.set, 0, NULL);
+    vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, r->shade.layout, 0, 2, sets, 0, NULL);
     vkCmdDispatch(cmd, (radiance->width + GROUP - 1) / GROUP, (radiance->height + GROUP - 1) / GROUP, 1);
     sample_image_barrier(cmd, radiance, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 }
 
-/* Black, and in the layout that it keeps. */
-static void clear_indirect(const struct renderer *r, VkCommandBuffer cmd)
+/* In the layout that it keeps. */
+static void clear_black(const struct renderer *r, VkCommandBuffer cmd)
 {
     const VkClearColorValue black = { .float32 = { 0 } };
     const VkImageSubresourceRange all = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
     const VkImageLayout general = VK_IMAGE_LAYOUT_GENERAL;
-    sample_image_barrier(cmd, &r->indirect, VK_IMAGE_LAYOUT_UNDEFINED, general);
-    vkCmdClearColorImage(cmd, r->indirect.image, general, &black, 1, &all);
-    sample_image_barrier(cmd, &r->indirect, general, general);
+    sample_image_barrier(cmd, &r->black, VK_IMAGE_LAYOUT_UNDEFINED, general);
+    vkCmdClearColorImage(cmd, r->black.image, general, &black, 1, &all);
+    sample_image_barrier(cmd, &r->black, general, general);
 }
 
 int main(int argc, char **argv)
@@ -233,29 +252,32 @@ int main(int argc, char **argv)
     for (int i = 0; i < SAMPLE_OBJECTS; i++)
         add_object(gi, &r, &r.scene.objects[i]);
     add_lights(gi, &r.scene.view);
+    const struct sdfgi_view_desc picture = { .width = options.width, .height = options.height };
+    sdfgi_view *view;
+    SAMPLE_CHECK(sdfgi_view_create(gi, &picture, &view));
     /* GI ends */
     bool settled = false;
     while ((window || !settled) && gpu.frame < options.frames && sample_window_acquire(window, &gpu)) {
         const VkCommandBuffer cmd = sample_frame_begin(&gpu);
         if (gpu.frame == 0)
-            clear_indirect(&r, cmd);
+            clear_black(&r, cmd);
         draw_gbuffer(&r, cmd);
         /* GI begins */
         const float *eye = r.scene.view.eye;
         const struct sdfgi_frame_desc frame = { .camera_position = { eye[0], eye[1], eye[2] } };
         struct sdfgi_report report;
         SAMPLE_CHECK(sdfgi_update(gi, cmd, &frame));
-        gather(gi, cmd, &r);
+        resolve(gi, view, cmd, &r);
         sdfgi_get_report(gi, &report);
         settled = !report.active || report.converged;
         /* GI ends */
         shade(&r, cmd);
-        sample_window_show(window, &gpu, &r.colors[2]);
+        sample_window_show(window, &gpu, &r.colors[3]);
     }
     SAMPLE_CHECK(vkDeviceWaitIdle(gpu.device));
     printf("%s after %llu frames\n", settled ? "settled" : "stopped", (unsigned long long)gpu.frame);
     if (options.out)
-        sample_picture_write(&gpu, &r.colors[2], options.out);
+        sample_picture_write(&gpu, &r.colors[3], options.out);
     /* GI begins */
     sdfgi_destroy(gi);
     /* GI ends */

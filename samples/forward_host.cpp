@@ -84,8 +84,11 @@ static void add_objects(sdfgi *gi, const sample_scene &scene, const sample_drawi
         std::copy_n(own.low, 3, mesh.bounds_min);
         std::copy_n(own.high, 3, mesh.bounds_max);
         sdfgi_material_desc material = {};
-        std::copy_n(scene.materials[object.material].base_color, 3, material.albedo);
-        std::copy_n(scene.materials[object.material].glow, 3, material.emission);
+        const sample_material &matter = scene.materials[object.material];
+        std::transform(matter.base_color, matter.base_color + 3, material.albedo,
+                       [&](float color) { return color * (1 - matter.base_color[3]); });
+        std::copy_n(matter.glow, 3, material.emission);
+        material.smoothness = 1 - matter.glow[3];
         sdfgi_instance_desc placed = {};
         for (int column = 0; column < 3; column++)
             std::copy_n(object.matrix + 4 * column, 3, placed.transform.basis + 3 * column);

@@ -6,7 +6,7 @@
 #include "sample_push.glsl"
 /* GI begins */
 #define SDFGI_SET 1
-#include "sdfgi.glsl"
+#include "sdfgi_reflection.glsl"
 /* GI ends */
 
 layout(location = 0) in vec3 normal_in;
@@ -16,9 +16,12 @@ layout(location = 0) out vec4 radiance;
 void main()
 {
     const vec3 normal = normalize(normal_in);
-    vec3 irradiance = lamp_irradiance(position, normal);
+    const float metal = base_color.a, roughness = glow.a;
+    vec3 irradiance = lamp_irradiance(position, normal), reflection = vec3(0.0);
     /* GI begins */
-    irradiance += sdfgi_irradiance(position, normal, eye.xyz - position);
+    const sdfgi_surface_light light = sdfgi_lighting(position, normal, eye.xyz - position, roughness);
+    irradiance += light.irradiance;
+    reflection += light.reflection;
     /* GI ends */
-    radiance = vec4(base_color.rgb / PI * irradiance + glow.rgb, 1.0);
+    radiance = vec4(base_color.rgb * mix(irradiance / PI, reflection, metal) + glow.rgb, 1.0);
 }

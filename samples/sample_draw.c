@@ -115,6 +115,21 @@ static VkDescriptorSetLayout set_layout_make(struct sample_gpu *gpu, const struc
     return made;
 }
 
+void sample_set_replace(struct sample_gpu *gpu, const struct sample_set *set, uint32_t binding,
+                        const struct sample_binding *by)
+{
+    const VkDescriptorBufferInfo buffer = { by->buffer, 0, VK_WHOLE_SIZE };
+    const VkDescriptorImageInfo image = { set->sampler, by->view, by->layout };
+    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                         .dstSet = set->set,
+                                         .dstBinding = binding,
+                                         .descriptorCount = 1,
+                                         .descriptorType = by->type,
+                                         .pBufferInfo = &buffer,
+                                         .pImageInfo = &image };
+    vkUpdateDescriptorSets(gpu->device, 1, &write, 0, NULL);
+}
+
 struct sample_set sample_set_make(struct sample_gpu *gpu, const struct sample_binding *bindings,
                                   uint32_t count)
 {
@@ -125,19 +140,9 @@ struct sample_set sample_set_make(struct sample_gpu *gpu, const struct sample_bi
                                                .descriptorSetCount = 1,
                                                .pSetLayouts = &made.layout };
     SAMPLE_CHECK(vkAllocateDescriptorSets(gpu->device, &take, &made.set));
-    const VkSampler sampler = sampler_make(gpu);
-    for (uint32_t i = 0; i < count; i++) {
-        const VkDescriptorBufferInfo buffer = { bindings[i].buffer, 0, VK_WHOLE_SIZE };
-        const VkDescriptorImageInfo image = { sampler, bindings[i].view, bindings[i].layout };
-        const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                             .dstSet = made.set,
-                                             .dstBinding = i,
-                                             .descriptorCount = 1,
-                                             .descriptorType = bindings[i].type,
-                                             .pBufferInfo = &buffer,
-                                             .pImageInfo = &image };
-        vkUpdateDescriptorSets(gpu->device, 1, &write, 0, NULL);
-    }
+    made.sampler = sampler_make(gpu);
+    for (uint32_t i = 0; i < count; i++)
+        sample_set_replace(gpu, &made, i, &bindings[i]);
     return made;
 }
 
@@ -199,9 +204,9 @@ static const VkPipelineDepthStencilStateCreateInfo depth_test = {
     .depthWriteEnable = VK_TRUE,
     .depthCompareOp = VK_COMPARE_OP_LESS
 };
-static const VkPipelineColorBlendAttachmentState plain[SAMPLE_MAX_COLORS] = { { .colorWriteMask = 15 },
-                                                                              { .colorWriteMask = 15 },
-                                                                              { .colorWriteMask = 15 } };
+static const VkPipelineColorBlendAttachmentState plain[SAMPLE_MAX_COLORS] = {
+    { .colorWriteMask = 15 }, { .colorWriteMask = 15 }, { .colorWriteMask = 15 }, { .colorWriteMask = 15 }
+};
 
 VkPipeline sample_mesh_pipeline_make(struct sample_gpu *gpu, const struct sample_pass *pass,
                                      VkPipelineLayout layout, struct sample_code vertex,

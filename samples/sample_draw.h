@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-enum { SAMPLE_MAX_COLORS = 3, SAMPLE_MAX_BINDINGS = 8, SAMPLE_MAX_SETS = 2, SAMPLE_PUSH_BYTES = 96 };
+enum { SAMPLE_MAX_COLORS = 4, SAMPLE_MAX_BINDINGS = 8, SAMPLE_MAX_SETS = 2, SAMPLE_PUSH_BYTES = 96 };
 
 /* A render pass with a framebuffer. All images are cleared, and are in `after` when it ends. */
 struct sample_pass {
@@ -35,11 +35,16 @@ struct sample_binding {
 struct sample_set {
     VkDescriptorSetLayout layout;
     VkDescriptorSet set;
+    VkSampler sampler; /* of all its pictures */
 };
 
 /* Bindings count from 0. Sampled images are read between texels, and white beyond their edges. */
 struct sample_set sample_set_make(struct sample_gpu *gpu, const struct sample_binding *bindings,
                                   uint32_t count);
+
+/* Puts another picture in the place of one, in a set that no command buffer has bound yet. */
+void sample_set_replace(struct sample_gpu *gpu, const struct sample_set *set, uint32_t binding,
+                        const struct sample_binding *by);
 
 struct sample_code {
     const uint32_t *words;

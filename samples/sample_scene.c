@@ -70,16 +70,19 @@ static struct sample_object place(uint32_t mesh, uint32_t material, vec3 at, vec
 /* Base colours are multiples of 1/255, which pictures of 8 bits hold. */
 static void make_objects(struct sample_scene *s)
 {
-    const struct sample_material grey = { .base_color = { 0.6f, 0.6f, 0.6f, 1 } },
-                                 red = { .base_color = { 0.8f, 0.2f, 0.2f, 1 } },
-                                 white = { .base_color = { 0.8f, 0.8f, 0.8f, 1 } },
-                                 lit = { .base_color = { 0.2f, 0.2f, 0.2f, 1 }, .glow = { 0, 0.2f, 0.6f } };
+    const struct sample_material grey = { { 0.6f, 0.6f, 0.6f, 0 }, { 0, 0, 0, 1 } },
+                                 red = { { 0.8f, 0.2f, 0.2f, 0 }, { 0, 0, 0, 1 } },
+                                 white = { { 0.8f, 0.8f, 0.8f, 0 }, { 0, 0, 0, 1 } },
+                                 lit = { { 0.2f, 0.2f, 0.2f, 0 }, { 0, 0.2f, 0.6f, 1 } },
+                                 metal = { { 0.8f, 0.8f, 0.8f, 1 }, { 0, 0, 0, 0.04f } };
     s->materials[0] = grey, s->materials[1] = red, s->materials[2] = white, s->materials[3] = lit;
+    s->materials[4] = metal;
     s->objects[0] = place(0, 0, (vec3){ 0, 0, 0 }, (vec3){ 8, 1, 6 }, 0, 0);
     s->objects[1] = place(0, 1, (vec3){ -2, 1.5f, 0 }, (vec3){ 3, 1, 6 }, -90, 0);
     s->objects[2] = place(0, 2, (vec3){ 0, 1.5f, -3 }, (vec3){ 8, 1, 3 }, 0, 90);
     s->objects[3] = place(1, 2, (vec3){ 0, 0, 0 }, (vec3){ 0.8f, 1, 1.2f }, 0, 0);
     s->objects[4] = place(1, 3, (vec3){ 2.5f, 0, -2.2f }, (vec3){ 0.4f, 0.8f, 0.4f }, 0, 0);
+    s->objects[5] = place(1, 4, (vec3){ -0.4f, 0, 1.6f }, (vec3){ 1.6f, 0.2f, 1 }, 0, 0);
 }
 
 /* A perspective of Vulkan's: +Y down, depth from 0 to 1. */
@@ -90,6 +93,13 @@ static void look(vec3 eye, vec3 at, float fov_deg, float aspect, mat4 clip_from_
     glm_perspective(glm_rad(fov_deg), aspect, 0.1f, 40, projection);
     projection[1][1] *= -1;
     glm_mat4_mul(projection, view, clip_from_world);
+}
+
+/* cglm's own wants 16-byte addresses. */
+static void four(vec3 first, float last, float out[static 4])
+{
+    memcpy(out, first, 3 * sizeof *out);
+    out[3] = last;
 }
 
 static void make_view(struct sample_view *v, float aspect)
@@ -106,11 +116,11 @@ static void make_view(struct sample_view *v, float aspect)
     memcpy(v->clip_from_world, clip, sizeof clip);
     memcpy(v->world_from_clip, inverse, sizeof inverse);
     memcpy(v->lamp_clip_from_world, lamp_clip, sizeof lamp_clip);
-    glm_vec4(eye, 1, v->eye);
-    glm_vec4(lamp, cosf(glm_rad(inner_deg)), v->lamp_position);
-    glm_vec4(direction, cosf(glm_rad(outer_deg)), v->lamp_direction);
-    glm_vec4_copy((vec4){ 250, 235, 212, 0 }, v->lamp_intensity);
-    glm_vec4_copy((vec4){ 0.02f, 0.03f, 0.05f, 0 }, v->sky);
+    four(eye, 1, v->eye);
+    four(lamp, cosf(glm_rad(inner_deg)), v->lamp_position);
+    four(direction, cosf(glm_rad(outer_deg)), v->lamp_direction);
+    four((vec3){ 250, 235, 212 }, 0, v->lamp_intensity);
+    four((vec3){ 0.02f, 0.03f, 0.05f }, 0, v->sky);
 }
 
 void sample_scene_make(struct sample_scene *scene, float aspect)

@@ -14,8 +14,8 @@
 extern "C" {
 #endif
 
-enum { SAMPLE_MAX_VERTICES = 64, SAMPLE_MAX_INDICES = 128, SAMPLE_MESHES = 2, SAMPLE_OBJECTS = 5 };
-enum { SAMPLE_MATERIALS = 4, SAMPLE_SHADOW_SIDE = 1024 };
+enum { SAMPLE_MAX_VERTICES = 64, SAMPLE_MAX_INDICES = 128, SAMPLE_MESHES = 2, SAMPLE_OBJECTS = 6 };
+enum { SAMPLE_MATERIALS = 5, SAMPLE_SHADOW_SIDE = 1024 };
 
 struct sample_vertex {
     int8_t normal[4]; /* signed normalised */
@@ -28,8 +28,8 @@ struct sample_mesh {
 };
 
 struct sample_material {
-    float base_color[4]; /* linear */
-    float glow[4];       /* radiance, W/(m^2 sr) */
+    float base_color[4]; /* linear; a: share of metal */
+    float glow[4];       /* radiance, W/(m^2 sr); a: roughness */
 };
 
 struct sample_object {
@@ -62,7 +62,8 @@ struct sample_scene {
     struct sample_view view;
 };
 
-/* A grey floor, a red wall, a white one, and a block that keeps the lamp's light off a part of the floor. */
+/* A grey floor, a red wall, a white one, a block that keeps the lamp's light off a part of the floor, and a
+ * plate of smooth metal. */
 void sample_scene_make(struct sample_scene *scene, float aspect);
 
 /* The scene on a device. */

@@ -79,10 +79,18 @@ static bool view_change(const struct run_scene *from, const struct gltf_scene *s
 {
     if (from->environment && from->sky)
         return base_text_error(error, error_size, "--sky and --environment: give one of them");
-    return (!from->environment || view_option_environment(from->environment, view, error, error_size)) &&
-           (!from->sky || view_option_sky(from->sky, view, error, error_size)) &&
-           (!from->sun || view_option_sun(from->sun, view, error, error_size)) &&
-           (!from->camera || view_option_camera(from->camera, scene, aspect, view, error, error_size));
+    const struct {
+        const char *name, *text;
+        view_option *read;
+    } options[] = { { "--environment", from->environment, view_option_environment },
+                    { "--sky", from->sky, view_option_sky },
+                    { "--sun", from->sun, view_option_sun } };
+    char reason[CLI_ERROR_BYTES];
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (options[i].text && !options[i].read(options[i].text, view, reason, sizeof reason))
+            return base_text_error(error, error_size, "%s %s", options[i].name, reason);
+    return !from->camera || view_option_camera(from->camera, scene, aspect, view, reason, sizeof reason) ||
+           base_text_error(error, error_size, "--camera %s", reason);
 }
 
 struct gltf_scene *run_load_scene(const char *command, const struct run_scene *from, double aspect,

@@ -188,3 +188,22 @@ bool json_read_object(const struct json_place *place, const cJSON *object, const
     }
     return check_required(place, object, name, fields, count);
 }
+
+/* ---- Names of files --------------------------------------------------------------------------------- */
+
+char *json_read_file_name(const struct json_place *place, const cJSON *item, const char *name)
+{
+    if (!cJSON_IsString(item) || !item->valuestring[0]) {
+        json_fail(place, name, "expected the name of a file");
+        return NULL;
+    }
+    const char *const slash = strrchr(place->path, '/');
+    const int folder = slash && item->valuestring[0] != '/' ? (int)(slash + 1 - place->path) : 0;
+    const size_t size = (size_t)folder + strlen(item->valuestring) + 1;
+    char *const path = malloc(size);
+    if (path)
+        snprintf(path, size, "%.*s%s", folder, place->path, item->valuestring);
+    else
+        json_fail(place, name, "out of memory");
+    return path;
+}

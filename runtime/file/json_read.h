@@ -16,7 +16,7 @@ enum json_type {
     JSON_FLOAT3,  /* float[3], each in [minimum, maximum] */
     JSON_DOUBLE3, /* double[3], each in [minimum, maximum] */
     JSON_CHOICE,  /* uint32_t: index of the string among `choices` */
-    JSON_ANY,     /* const cJSON *: an object, an array or null, for the caller to read */
+    JSON_ANY,     /* const cJSON *: any value, for the caller to read */
 };
 
 struct json_field {
@@ -45,6 +45,10 @@ cJSON *json_load(const struct json_place *place);
  * theirs. */
 bool json_read_object(const struct json_place *place, const cJSON *object, const char *name,
                       const struct json_field *fields, uint32_t count);
+
+/* The path of the file that the string `item` names: beside the file of `place`, unless it begins with "/".
+ * NULL with a message on failure. For free(). */
+char *json_read_file_name(const struct json_place *place, const cJSON *item, const char *name);
 
 /* Writes "path: name: ..." into the error; returns false. */
 __attribute__((format(printf, 3, 4))) bool json_fail(const struct json_place *place, const char *name,

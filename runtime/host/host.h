@@ -267,7 +267,7 @@ struct host_overlay_vulkan {
 /* What an overlay sees before a frame, and what it may change. */
 struct host_overlay_frame {
     bool open;                         /* F1 opens and closes it */
-    struct sdfgi_settings settings;    /* in force; may be changed */
+    struct sdfgi_settings settings;    /* asked for; may be changed. GI that is off is prepared first */
     enum sdfgi_debug_view debug;       /* what is shown; may be changed */
     struct host_effects possible;      /* what the picture may have */
     struct host_effects left_out;      /* may be changed */

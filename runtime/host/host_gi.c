@@ -3,6 +3,7 @@
  * and draws with the library's descriptor set. */
 #include "host_internal.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 struct host_gi {
     struct host_device *device;
     sdfgi *context;
+    pthread_t thread;     /* whose messages are told: one that prepares has none of its own */
     struct sdfgi_log log; /* of the host's caller */
     char last_error[160]; /* the library's own words about its last error */
 };
@@ -17,6 +19,8 @@ struct host_gi {
 static void message_received(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
 {
     struct host_gi *gi = user;
+    if (!pthread_equal(gi->thread, pthread_self()))
+        return;
     /* An error comes with a result that says so: whoever gets that prints it, and prints it once. */
     if (level == SDFGI_LOG_ERROR)
         snprintf(gi->last_error, sizeof(gi->last_error), "%s", text);
@@ -194,6 +198,7 @@ struct host_gi *host_gi_create(struct host_device *device, const struct host_sce
     if (!gi)
         return NULL;
     gi->device = device;
+    gi->thread = pthread_self();
     gi->log = desc->log;
     if (!context_create(gi, desc, frames_in_flight) || !scene_register(gi, scene)) {
         host_gi_destroy(gi);

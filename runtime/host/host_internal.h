@@ -3,6 +3,7 @@
 #ifndef HOST_INTERNAL_H
 #define HOST_INTERNAL_H
 
+#include <stdatomic.h>
 #include <vulkan/vulkan.h>
 
 #include "host.h"
@@ -37,7 +38,7 @@ struct host_device {
     VkFormat hdr_format;     /* RGBA32F where it can be blended, else RGBA16F */
     uint64_t timestamp_mask; /* valid bits of the queue's timestamps; 0: none */
     struct host_device_info info;
-    uint32_t validation_count;
+    atomic_uint validation_count; /* GI may be prepared by another thread */
     char error[256];
 };
 
@@ -394,7 +395,7 @@ struct host_renderer {
     struct host_targets targets;
     struct host_slot slots[HOST_SLOTS];
     VkDescriptorPool pool;
-    VkDescriptorSet environment_set; /* none if there is no environment */
+    VkDescriptorSet environment_set;                             /* none if there is no environment */
     VkDescriptorSet post_sets[HOST_EYES], debug_sets[HOST_EYES]; /* of the passes that follow */
     VkSampler nearest;
     struct host_buffer exposure;

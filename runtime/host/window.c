@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * `sdfgi view`: a window with a camera that flies.
  *
- * G switches global illumination, F2 walks through the parts of the light, V and Shift V through the debug
- * views, of which 1 to 9 are the first; 0 is the picture. F1 opens an overlay, if there is one, which may
- * take keys and mouse for itself. Escape closes. host_fly.h has the camera's keys. */
+ * G switches global illumination, which is prepared first. F2 walks through the parts of the light, V and
+ * Shift V through the debug views, of which 1 to 9 are the first; 0 is the picture. F1 opens an overlay, if
+ * there is one, which may take keys and mouse for itself. Escape closes. host_fly.h has the camera's keys. */
 #include "host_fly.h"
+#include "host_prepare.h"
 #include "host_swapchain.h"
 
 #include <math.h>
@@ -20,16 +21,17 @@ struct window {
     struct host_renderer *renderer;
     struct host_swapchain swapchain;
     VkPipeline tonemap;
-    struct sdfgi_settings settings;
+    struct sdfgi_settings settings, wanted; /* in force, and what the user asks for */
+    struct host_prepare prepare;
     struct host_fly camera;
     struct host_camera led;      /* where desc->camera leads */
     uint32_t frame;              /* how many have been drawn */
     uint32_t shown;              /* index into parts */
     enum sdfgi_debug_view debug; /* shown instead; SDFGI_DEBUG_VIEW_COUNT: none */
-    bool toggle_gi, swapchain_stale;
+    bool swapchain_stale;
     struct host_overlay_frame overlay; /* of the last frame */
     bool overlay_begun;
-    char overlay_error[256];
+    char settings_error[256]; /* why what was asked for last was refused; "": it was not */
     double time_s, title_time_s;
     uint32_t title_frames;
 };
@@ -55,7 +57,7 @@ static void key_received(GLFWwindow *glfw, int key, int scancode, int action, in
     if (key == GLFW_KEY_F1)
         window->overlay.open = window->overlay_begun && !window->overlay.open;
     if (key == GLFW_KEY_G)
-        window->toggle_gi = true;
+        window->wanted.enabled = !window->wanted.enabled;
     if (key == GLFW_KEY_F2)
         window->shown = (window->shown + 1) % HOST_COUNT(parts);
     if (key == GLFW_KEY_V)
@@ -96,24 +98,6 @@ static bool overlay_begin(struct window *window)
     return !overlay || window->overlay_begun || host_fail(window->device, "%s", error);
 }
 
-/* Takes over what the user changed. Settings that the library refuses, for want of memory say, leave those
- * before in force. */
-static void overlay_apply(struct window *window)
-{
-    struct host_overlay_frame *frame = &window->overlay;
-    window->debug = frame->debug;
-    host_renderer_leave_out(window->renderer, &frame->left_out);
-    if (memcmp(&frame->settings, &window->settings, sizeof(frame->settings)) == 0)
-        return;
-    if (host_renderer_set_settings(window->renderer, &frame->settings)) {
-        window->settings = frame->settings;
-        frame->error = NULL;
-        return;
-    }
-    snprintf(window->overlay_error, sizeof(window->overlay_error), "%s", window->device->error);
-    frame->error = window->overlay_error;
-}
-
 static void overlay_step(struct window *window, double frame_s)
 {
     struct host_overlay_frame *frame = &window->overlay;
@@ -121,7 +105,8 @@ static void overlay_step(struct window *window, double frame_s)
     if (!window->overlay_begun)
         return;
     host_gi_get_report(window->renderer->gi, &report);
-    frame->settings = window->settings;
+    frame->settings = window->wanted;
+    frame->error = window->settings_error[0] ? window->settings_error : NULL;
     frame->debug = window->debug;
     frame->possible = host_renderer_possible_effects(window->renderer);
     frame->report = &report;
@@ -129,7 +114,39 @@ static void overlay_step(struct window *window, double frame_s)
     frame->frame_s = frame_s;
     window->desc->overlay->frame(window->desc->overlay->user, frame);
     frame->report = NULL;
-    overlay_apply(window);
+    window->wanted = frame->settings;
+    window->debug = frame->debug;
+    host_renderer_leave_out(window->renderer, &frame->left_out);
+}
+
+/* ---- Settings --------------------------------------------------------------------------------------- */
+
+static bool settings_equal(const struct sdfgi_settings *a, const struct sdfgi_settings *b)
+{
+    return memcmp(a, b, sizeof(*a)) == 0;
+}
+
+/* Settings that the library refuses, for want of memory say, leave those before in force. */
+static void settings_apply(struct window *window)
+{
+    window->settings_error[0] = '\0';
+    if (host_renderer_set_settings(window->renderer, &window->wanted)) {
+        window->settings = window->wanted;
+        return;
+    }
+    snprintf(window->settings_error, sizeof(window->settings_error), "%s", window->device->error);
+    window->wanted = window->settings;
+}
+
+/* What the user asks for takes effect at once, but for the switch from off to on: what that needs is made
+ * beside the frames first, so that none of them waits for it. */
+static void settings_follow(struct window *window)
+{
+    const bool switches_on = window->wanted.enabled && !window->settings.enabled;
+    const bool ready = switches_on ? host_prepare_step(&window->prepare, &window->wanted)
+                                   : host_prepare_stop(&window->prepare);
+    if (ready && !settings_equal(&window->wanted, &window->settings))
+        settings_apply(window);
 }
 
 /* ---- Frame ------------------------------------------------------------------------------------------ */
@@ -254,28 +271,32 @@ static bool draw(struct window *window)
     return true;
 }
 
+static const char *gi_state(const struct window *window, char *text, size_t size)
+{
+    struct sdfgi_report report;
+    if (!window->prepare.runs)
+        return window->settings_error[0] ? "refused" : window->settings.enabled ? "on" : "off";
+    host_gi_get_report(window->renderer->gi, &report);
+    const struct sdfgi_progress *made = &report.prepared;
+    snprintf(text, size, "%u %% made", made->total > 0 ? 100 * made->made / made->total : 0);
+    return text;
+}
+
 static void show_title(struct window *window)
 {
     const double now_s = glfwGetTime();
-    char title[160];
+    char title[160], state[32];
     window->title_frames++;
     if (now_s - window->title_time_s < 0.25)
         return;
     snprintf(title, sizeof(title), "sdfgi - %.1f ms a frame, %.1f ms on the GPU - GI %s - %s",
              1e3 * (now_s - window->title_time_s) / window->title_frames,
-             1e-6 * (double)window->renderer->times.frame_ns, window->settings.enabled ? "on" : "off",
+             1e-6 * (double)window->renderer->times.frame_ns, gi_state(window, state, sizeof(state)),
              shows_debug(window) ? sdfgi_debug_view_name(window->debug)
                                  : host_aov_name(parts[window->shown]));
     glfwSetWindowTitle(window->glfw, title);
     window->title_time_s = now_s;
     window->title_frames = 0;
-}
-
-static bool toggle_gi(struct window *window)
-{
-    window->toggle_gi = false;
-    window->settings.enabled = !window->settings.enabled;
-    return host_renderer_set_settings(window->renderer, &window->settings);
 }
 
 static bool step(struct window *window)
@@ -284,8 +305,6 @@ static bool step(struct window *window)
     host_fly_step(&window->camera, window->glfw, fmin(frame_s, 0.1), !window->overlay.takes_keys,
                   !window->overlay.takes_mouse);
     window->time_s = now_s;
-    if (window->toggle_gi && !toggle_gi(window))
-        return false;
     if (window->swapchain_stale && !follow_size(window))
         return false;
     if (window->swapchain.image_count == 0) {
@@ -298,6 +317,7 @@ static bool step(struct window *window)
         return true;
     }
     overlay_step(window, frame_s);
+    settings_follow(window);
     if (!draw(window))
         return false;
     show_title(window);
@@ -327,6 +347,8 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
     if (!window->renderer)
         return false;
     host_renderer_get_settings(window->renderer, &window->settings);
+    window->wanted = window->settings;
+    window->prepare.gi = host_gi_context(window->renderer->gi);
     window->debug = desc->debug ? *desc->debug : SDFGI_DEBUG_VIEW_COUNT;
     host_fly_init(&window->camera, &desc->view->camera, window->scene->radius);
     window->swapchain_stale = true;
@@ -337,6 +359,7 @@ static bool renderer_open(struct window *window, const struct host_window_desc *
 
 static void renderer_close(struct window *window)
 {
+    host_prepare_finish(&window->prepare);
     vkDeviceWaitIdle(window->device->device);
     if (window->overlay_begun)
         window->desc->overlay->end(window->desc->overlay->user);

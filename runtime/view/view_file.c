@@ -2,6 +2,7 @@
 #include "view_file.h"
 
 #include "file/json_read.h"
+#include "view_option.h"
 
 #include <base/vec.h>
 #include <stdio.h>
@@ -13,7 +14,7 @@ static const double position_max_m = 1.5e11;
 /* Radiance, irradiance and intensity; leaves room for products in float. */
 static const double light_max = 1e20;
 
-enum { LIGHTS_MAX = 4096 };
+enum { LIGHTS_MAX = 4096, REASON_BYTES = 256 };
 
 /* ---- Camera ----------------------------------------------------------------------------------------- */
 
@@ -61,13 +62,23 @@ static bool read_camera(const struct json_place *place, const cJSON *json, struc
     return true;
 }
 
-/* ---- Sky and sun ------------------------------------------------------------------------------------ */
+/* ---- Sky, environment and sun ----------------------------------------------------------------------- */
 
-static bool read_sky(const struct json_place *place, const cJSON *json, struct host_sky *sky)
+/* A string is what the option of the same name takes. */
+static bool read_text(const struct json_place *place, const char *text, const char *name, view_option *read,
+                      struct host_view *view)
 {
-    memset(sky, 0, sizeof *sky);
+    char reason[REASON_BYTES];
+    return read(text, view, reason, sizeof reason) || json_fail(place, name, "%s", reason);
+}
+
+static bool read_sky(const struct json_place *place, const cJSON *json, struct host_view *view)
+{
+    struct host_sky *const sky = &view->sky;
     if (!json || cJSON_IsNull(json))
         return true;
+    if (cJSON_IsString(json))
+        return read_text(place, json->valuestring, "sky", view_option_sky, view);
     if (cJSON_GetObjectItemCaseSensitive(json, "radiance")) {
         const struct json_field uniform[] = { { "radiance", JSON_FLOAT3, sky->horizon, 0, light_max,
                                                 .required = true } };
@@ -85,16 +96,32 @@ static bool read_sky(const struct json_place *place, const cJSON *json, struct h
     return json_read_object(place, json, "sky", JSON_FIELDS(gradient));
 }
 
+static bool read_environment(const struct json_place *place, const cJSON *json, const cJSON *sky,
+                             struct host_view *view)
+{
+    if (!json || cJSON_IsNull(json))
+        return true;
+    if (sky && !cJSON_IsNull(sky))
+        return json_fail(place, "environment", "and sky: give one of them");
+    char *const path = json_read_file_name(place, json, "environment");
+    const bool complete = path && read_text(place, path, "environment", view_option_environment, view);
+    free(path);
+    return complete;
+}
+
 static bool has_direction(const float direction[3])
 {
     double copy[3] = { direction[0], direction[1], direction[2] };
     return base_vec3d_normalize(copy);
 }
 
-static bool read_sun(const struct json_place *place, const cJSON *json, struct host_sun *sun)
+static bool read_sun(const struct json_place *place, const cJSON *json, struct host_view *view)
 {
+    struct host_sun *const sun = &view->sun;
     if (!json || cJSON_IsNull(json))
         return true;
+    if (cJSON_IsString(json))
+        return read_text(place, json->valuestring, "sun", view_option_sun, view);
     const struct json_field fields[] = {
         { "direction", JSON_FLOAT3, sun->direction, -1e6, 1e6, .required = true },
         { "irradiance", JSON_FLOAT3, sun->irradiance, 0, light_max, .required = true },
@@ -182,11 +209,12 @@ static bool read_lights(const struct json_place *place, const cJSON *json, struc
 
 static bool read_view(const struct json_place *place, const cJSON *json, struct host_view *view)
 {
-    const cJSON *camera = NULL, *sky = NULL, *sun = NULL, *fog = NULL, *lights = NULL;
+    const cJSON *camera = NULL, *sky = NULL, *environment = NULL, *sun = NULL, *fog = NULL, *lights = NULL;
     uint32_t materials = HOST_MATERIALS_GLTF;
     const struct json_field fields[] = {
         { "camera", JSON_ANY, &camera, .required = true },
         { "sky", JSON_ANY, &sky, .required = false },
+        { "environment", JSON_ANY, &environment, .required = false },
         { "sun", JSON_ANY, &sun, .required = false },
         { "fog", JSON_ANY, &fog, .required = false },
         { "lights", JSON_ANY, &lights, .required = false },
@@ -198,9 +226,9 @@ static bool read_view(const struct json_place *place, const cJSON *json, struct 
     if (!json_read_object(place, json, "", JSON_FIELDS(fields)))
         return false;
     view->materials = (enum host_materials)materials;
-    return read_camera(place, camera, &view->camera) && read_sky(place, sky, &view->sky) &&
-           read_sun(place, sun, &view->sun) && read_fog(place, fog, &view->fog) &&
-           read_lights(place, lights, view);
+    return read_camera(place, camera, &view->camera) && read_sky(place, sky, view) &&
+           read_environment(place, environment, sky, view) && read_sun(place, sun, view) &&
+           read_fog(place, fog, &view->fog) && read_lights(place, lights, view);
 }
 
 bool view_file_load(const char *path, struct host_view *view, char *error, size_t error_size)

@@ -50,25 +50,32 @@ static void floats_from(const double *values, float out[3])
         out[i] = (float)values[i];
 }
 
+static void environment_drop(struct host_view *view)
+{
+    free(view->environment.rgb);
+    view->environment = (struct host_environment){ NULL, 0, 0 };
+}
+
 bool view_option_sky(const char *text, struct host_view *view, char *error, size_t error_size)
 {
     double v[NUMBERS_MAX] = { 0 };
     const int count = numbers_read(text, v);
     if (strcmp(text, "none") == 0 || strcmp(text, "day") == 0) {
         view->sky = text[0] == 'd' ? view_day_sky : (struct host_sky){ { 0 }, { 0 }, { 0 } };
+        environment_drop(view);
         return true;
     }
     if ((count != 1 && count != 3 && count != 9) || !are_between(v, count, 0, light_max))
-        return base_text_error(
-            error, error_size,
-            "--sky is \"%s\", expected none, day, one radiance, R,G,B, or three colours for "
-            "zenith, horizon and ground, from 0 to %g",
-            text, light_max);
+        return base_text_error(error, error_size,
+                               "is \"%s\", expected none, day, one radiance, R,G,B, or three colours for "
+                               "zenith, horizon and ground, from 0 to %g",
+                               text, light_max);
     if (count == 1)
         v[1] = v[2] = v[0];
     floats_from(v, view->sky.zenith);
     floats_from(count == 9 ? v + 3 : v, view->sky.horizon);
     floats_from(count == 9 ? v + 6 : v, view->sky.ground);
+    environment_drop(view);
     return true;
 }
 
@@ -84,7 +91,7 @@ bool view_option_sun(const char *text, struct host_view *view, char *error, size
     if ((count != 3 && count != 6) || !are_between(v, 3, -1e6, 1e6) || !base_vec3d_normalize(direction) ||
         !are_between(v + 3, 3, 0, light_max))
         return base_text_error(error, error_size,
-                               "--sun is \"%s\", expected none, day, the way the light travels as X,Y,Z, or "
+                               "is \"%s\", expected none, day, the way the light travels as X,Y,Z, or "
                                "that and its irradiance as X,Y,Z,R,G,B",
                                text);
     view->sun = view_day_sun;
@@ -138,11 +145,10 @@ bool view_option_camera(const char *text, const struct gltf_scene *scene, double
     else if (known)
         view_camera_from_file(known, &view->camera);
     else if ((count != 6 && count != 7) || !camera_place(v, count, &view->camera))
-        return base_text_error(
-            error, error_size,
-            "--camera is \"%s\", expected auto, X,Y,Z,LX,LY,LZ with the angle of view in "
-            "degrees if wanted, or one of the scene's %u cameras",
-            text, scene->camera_count);
+        return base_text_error(error, error_size,
+                               "is \"%s\", expected auto, X,Y,Z,LX,LY,LZ with the angle of view in "
+                               "degrees if wanted, or one of the scene's %u cameras",
+                               text, scene->camera_count);
     return true;
 }
 
@@ -166,7 +172,7 @@ bool view_option_environment(const char *path, struct host_view *view, char *err
     const enum image_format format = image_format_from_path(path);
     if (format == IMAGE_FORMAT_COUNT || format == IMAGE_PNG)
         return base_text_error(error, error_size,
-                               "--environment is \"%s\", expected a picture of radiance: "
+                               "is \"%s\", expected a picture of radiance: "
                                ".hdr, .exr or .pfm",
                                path);
     if (!image_read(&image, path, error, error_size))
@@ -176,7 +182,7 @@ bool view_option_environment(const char *path, struct host_view *view, char *err
     image_finish(&image);
     if (!rgb)
         return base_text_error(error, error_size, "%s: out of memory", path);
-    free(view->environment.rgb);
+    environment_drop(view);
     view->environment = environment;
     view->sky = (struct host_sky){ { 0 }, { 0 }, { 0 } };
     if (memcmp(&view->sun, &view_day_sun, sizeof view->sun) == 0)

@@ -90,21 +90,10 @@ static bool read_points(const struct json_place *place, const cJSON *json, struc
 
 /* ---- Whole files ------------------------------------------------------------------------------------ */
 
-/* `name`, taken from the folder in which the path's file is. */
 static bool read_view_name(const struct json_place *place, const cJSON *json, struct walk_path *walk)
 {
-    if (!json)
-        return true;
-    if (!cJSON_IsString(json) || !json->valuestring[0])
-        return json_fail(place, "view", "expected the name of a file");
-    const char *slash = strrchr(place->path, '/');
-    const int folder = slash && json->valuestring[0] != '/' ? (int)(slash + 1 - place->path) : 0;
-    const size_t size = (size_t)folder + strlen(json->valuestring) + 1;
-    walk->view = malloc(size);
-    if (!walk->view)
-        return json_fail(place, "view", "out of memory");
-    snprintf(walk->view, size, "%.*s%s", folder, place->path, json->valuestring);
-    return true;
+    walk->view = json ? json_read_file_name(place, json, "view") : NULL;
+    return !json || walk->view;
 }
 
 static bool read_walk(const struct json_place *place, const cJSON *json, struct walk_path *walk)

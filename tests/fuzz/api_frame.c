@@ -245,6 +245,69 @@ static enum sdfgi_result stale_handle(struct api_world *w)
     }
 }
 
+/* What no instance may be. */
+static void spoil_instance(struct api_world *w, struct sdfgi_instance_desc *desc)
+{
+    switch (api_below(w, 5)) {
+    case 0:
+        desc->mesh.id = stale_id(w, &w->meshes);
+        break;
+    case 1:
+        desc->material.id = stale_id(w, &w->materials);
+        break;
+    case 2:
+        desc->transform.basis[api_below(w, 9)] = no_float(w);
+        break;
+    case 3:
+        desc->transform.translation[api_below(w, 3)] = (double)no_float(w);
+        break;
+    default:
+        desc->mobility = (enum sdfgi_mobility)2;
+    }
+}
+
+/* One that is wrong among those that are not, wherever it stands: none is made, and no handle is written. */
+static enum sdfgi_result wrong_instances(struct api_world *w)
+{
+    const uint32_t before = w->t->gi->scene.instances.count;
+    struct sdfgi_instance_desc descs[API_INSTANCES + 1],
+        last = { .transform = api_random_transform(&w->random) };
+    sdfgi_instance out[API_INSTANCES + 1];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < API_INSTANCES; i++)
+        if (w->scene.instances[i].live)
+            last = descs[count++] = w->scene.instances[i].desc;
+    const uint32_t at = api_below(w, count + 1);
+    descs[count] = last;
+    spoil_instance(w, &descs[at]);
+    for (uint32_t i = 0; i <= count; i++)
+        out[i].id = 77;
+    const enum sdfgi_result result = sdfgi_instances_create(w->t->gi, count + 1, descs, out);
+    REQUIRE_CMP(w->t->gi->scene.instances.count, ==, before);
+    for (uint32_t i = 0; i <= count; i++)
+        REQUIRE_CMP(out[i].id, ==, 77u);
+    return result;
+}
+
+/* A handle that is stale, or there twice, among those that are live: none goes. */
+static enum sdfgi_result wrong_destruction(struct api_world *w)
+{
+    const uint32_t before = w->t->gi->scene.instances.count;
+    sdfgi_instance handles[API_INSTANCES + 1];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < API_INSTANCES; i++)
+        if (w->scene.instances[i].live)
+            handles[count++] = w->scene.instances[i].handle;
+    const uint32_t at = api_below(w, count + 1);
+    const bool stale = at == count || api_below(w, 2);
+    handles[count].id = at == count ? 0 : handles[at].id;
+    if (stale)
+        handles[at].id = stale_id(w, &w->instances);
+    const enum sdfgi_result result = sdfgi_instances_destroy(w->t->gi, count + 1, handles);
+    REQUIRE_CMP(w->t->gi->scene.instances.count, ==, before);
+    return result;
+}
+
 static enum sdfgi_result wrong_settings(struct api_world *w)
 {
     struct sdfgi_settings s = w->scene.settings, found;
@@ -295,7 +358,8 @@ static enum sdfgi_result wrong_numbers(struct api_world *w)
 void api_break_rule(struct api_world *w)
 {
     static enum sdfgi_result (*const rules[])(struct api_world *) = {
-        wrong_material, wrong_mesh, wrong_light, wrong_transform, stale_handle, wrong_settings, wrong_numbers,
+        wrong_material, wrong_mesh,      wrong_light,       wrong_transform, stale_handle,
+        wrong_settings, wrong_instances, wrong_destruction, wrong_numbers,
     };
     const enum sdfgi_result result = rules[api_below(w, sizeof rules / sizeof *rules)](w);
     REQUIRE_CMP((int)result, ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);

@@ -156,11 +156,12 @@ static void toggle_material(struct api_world *w)
     w->scene.materials[slot].live = false;
 }
 
-static void create_instance(struct api_world *w, uint32_t slot)
+/* What is to be in a slot. False if the mesh or the material that it draws is not there. */
+static bool describe_instance(struct api_world *w, uint32_t slot)
 {
     const uint32_t mesh = api_below(w, API_MESHES), material = api_below(w, API_MATERIALS);
     if (!w->scene.meshes[mesh].live || !w->scene.materials[material].live)
-        return;
+        return false;
     w->scene.instances[slot].mesh = mesh;
     w->scene.instances[slot].material = material;
     w->scene.instances[slot].desc = (struct sdfgi_instance_desc){
@@ -169,6 +170,13 @@ static void create_instance(struct api_world *w, uint32_t slot)
         .transform = api_random_transform(&w->random),
         .mobility = api_below(w, 8) == 0 ? SDFGI_EXCLUDED : SDFGI_STATIC,
     };
+    return true;
+}
+
+static void create_instance(struct api_world *w, uint32_t slot)
+{
+    if (!describe_instance(w, slot))
+        return;
     require_ok(
         sdfgi_instance_create(w->t->gi, &w->scene.instances[slot].desc, &w->scene.instances[slot].handle));
     w->scene.instances[slot].live = true;
@@ -187,6 +195,46 @@ static void change_instance(struct api_world *w)
         *transform = api_random_transform(&w->random);
         require_ok(sdfgi_instance_set_transform(w->t->gi, w->scene.instances[slot].handle, transform));
     }
+}
+
+static void create_instances(struct api_world *w)
+{
+    struct sdfgi_instance_desc descs[API_INSTANCES];
+    sdfgi_instance handles[API_INSTANCES];
+    uint32_t slots[API_INSTANCES], count = 0;
+    for (uint32_t i = 0; i < API_INSTANCES; i++)
+        if (!w->scene.instances[i].live && api_below(w, 2) && describe_instance(w, i)) {
+            descs[count] = w->scene.instances[i].desc;
+            slots[count++] = i;
+        }
+    require_ok(sdfgi_instances_create(w->t->gi, count, count ? descs : NULL, count ? handles : NULL));
+    for (uint32_t i = 0; i < count; i++) {
+        w->scene.instances[slots[i]].handle = handles[i];
+        w->scene.instances[slots[i]].live = true;
+    }
+}
+
+static void destroy_instances(struct api_world *w)
+{
+    sdfgi_instance handles[API_INSTANCES];
+    uint32_t slots[API_INSTANCES], count = 0;
+    for (uint32_t i = 0; i < API_INSTANCES; i++)
+        if (w->scene.instances[i].live && api_below(w, 4) == 0) {
+            handles[count] = w->scene.instances[i].handle;
+            slots[count++] = i;
+        }
+    require_ok(sdfgi_instances_destroy(w->t->gi, count, count ? handles : NULL));
+    for (uint32_t i = 0; i < count; i++)
+        instance_gone(w, slots[i]);
+}
+
+/* Many come at once, or go. */
+static void change_instances(struct api_world *w)
+{
+    if (api_below(w, 2))
+        create_instances(w);
+    else
+        destroy_instances(w);
 }
 
 static void change_light(struct api_world *w)
@@ -301,10 +349,11 @@ static const struct {
     { "mesh", 8, toggle_mesh },
     { "settings", 2, change_settings },
     { "material", 8, toggle_material },
+    { "instances", 12, change_instances },
     { "camera", 10, move_camera },
     { "invalidate", 3, invalidate },
     { "reset", 1, begin_anew },
-    { "wrong call", 15, api_break_rule },
+    { "wrong call", 30, api_break_rule },
     { "frame", 30, api_frame },
 };
 

@@ -376,6 +376,10 @@ def view_seeds():
         "punctual_scale": 1, "emissive_scale": 2, "materials": "lambert", "default_albedo": [0.5, 0.5, 0.5]}))
     add("view", "valid_uniform_sky",
         json.dumps({"camera": camera, "sky": {"radiance": [1, 1, 1]}, "sun": None, "fog": None}))
+    add("view", "valid_text", json.dumps({"camera": camera, "sky": "1,2,3,4,5,6,7,8,9", "sun": "0,-1,0,1,2,3"}))
+    add("view", "broken_sky_of_two_numbers", json.dumps({"camera": camera, "sky": "1,2"}))
+    add("view", "broken_environment_and_sky",
+        json.dumps({"camera": camera, "environment": "a.hdr", "sky": "day"}))
     add("view", "broken_hidden_by_a_zero", json.dumps({"camera": camera}) + "\0{}")
     add("view", "broken_looks_along_up", json.dumps({"camera": {**camera, "look_at": [0, 9, 5]}}))
     add("view", "broken_key_given_twice", '{"camera":%s,"camera":0}' % json.dumps(camera))

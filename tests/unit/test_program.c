@@ -240,6 +240,36 @@ static void quiet_commands_print_nothing_and_report(void **state)
 }
 
 #ifdef SDFGI_WITH_RAYCAST
+static void assert_traces(const char *arguments, const char *picture)
+{
+    char line[256];
+    snprintf(line, sizeof line, "reference tiny.gltf --quiet --size 8x8 --spp 2 --out %s %s", picture,
+             arguments);
+    const struct run run = run_program("", line);
+    assert_string_equal(run.err, "");
+    assert_int_equal(run.code, 0);
+}
+
+#define CAMERA "{\"camera\":{\"position\":[0,0,5],\"look_at\":[0,1,0]}"
+
+/* What a view file says is what options say, and options go over it. */
+static void options_go_over_the_view_file(void **state)
+{
+    (void)state;
+    files_write_triangle("tiny.gltf");
+    files_write_text("plain.json", CAMERA "}");
+    files_write_text("map.json", CAMERA ",\"environment\":\"two.pfm\",\"sun\":\"0,-1,-1\"}");
+    files_write_text("sky.json", CAMERA ",\"sky\":\"2\"}");
+    assert_traces("--view map.json", "map.pfm");
+    assert_traces("--view plain.json --environment two.pfm --sun 0,-1,-1", "options.pfm");
+    assert_traces("--view sky.json --environment two.pfm --sun 0,-1,-1", "over.pfm");
+    run_in_folder("cmp map.pfm options.pfm && cmp map.pfm over.pfm");
+    assert_traces("--view sky.json", "sky.pfm");
+    assert_traces("--view map.json --sky 2 --sun none", "bare.pfm");
+    run_in_folder("cmp sky.pfm bare.pfm && ! cmp -s sky.pfm map.pfm");
+    run_in_folder("rm -f map.* options.pfm over.pfm sky.* bare.pfm plain.json tiny.gltf");
+}
+
 /* A scene is loaded first, so that these cannot be among the rows above. */
 static void wrong_parts_of_a_view_are_named(void **state)
 {
@@ -347,6 +377,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_picture_compared_with_itself_has_no_error),
         cmocka_unit_test(quiet_commands_print_nothing_and_report),
 #ifdef SDFGI_WITH_RAYCAST
+        cmocka_unit_test(options_go_over_the_view_file),
         cmocka_unit_test(wrong_parts_of_a_view_are_named),
 #endif
         cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),

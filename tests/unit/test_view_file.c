@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <modules/gltf/gltf_scene.h>
+#include <stdio.h>
 #include <string.h>
 
 #define CAMERA "\"camera\":{\"position\":[0,1,2],\"look_at\":[0,0,0],\"yfov_deg\":60}"
@@ -94,6 +95,47 @@ static void a_uniform_sky_has_three_equal_colours(void **state)
     view_file_finish(&view);
 }
 
+static void sky_and_sun_may_be_text_as_on_the_command_line(void **state)
+{
+    (void)state;
+    assert_true(load("{" CAMERA ",\"sky\":\"1,2,3\",\"sun\":\"0,-2,0,5,6,7\"}"));
+    assert_true(view.sky.zenith[1] == 2 && view.sky.ground[2] == 3);
+    assert_true(view.sun.enabled && view.sun.direction[1] == -1 && view.sun.irradiance[2] == 7);
+    assert_true(load("{" CAMERA ",\"sky\":\"day\",\"sun\":\"day\"}"));
+    assert_memory_equal(&view.sky, &view_day_sky, sizeof view.sky);
+    assert_true(view.sun.enabled && view.sun.irradiance[0] == view_day_sun.irradiance[0]);
+    assert_true(load("{" CAMERA ",\"sky\":\"none\",\"sun\":\"none\"}"));
+    assert_true(view.sky.zenith[0] == 0 && !view.sun.enabled);
+}
+
+static void write_map(void)
+{
+    static const float texels[2 * 3] = { 1, 2, 3, 4, 5, 6 };
+    uint8_t file[64];
+    const int head = snprintf((char *)file, sizeof file, "PF\n2 1\n-1\n");
+    memcpy(file + head, texels, sizeof texels);
+    files_write("map.pfm", file, (size_t)head + sizeof texels);
+}
+
+/* The tests' folder is not the one they run in. */
+static void an_environment_lies_beside_the_file(void **state)
+{
+    (void)state;
+    char text[512];
+    write_map();
+    assert_true(load("{" CAMERA ",\"environment\":\"map.pfm\",\"sun\":\"day\"}"));
+    assert_int_equal(view.environment.width, 2);
+    assert_true(view.environment.rgb[1] == 2 && view.environment.rgb[5] == 6);
+    assert_true(view.sky.horizon[0] == 0 && view.sun.enabled);
+    view_file_finish(&view);
+    snprintf(text, sizeof text, "{" CAMERA ",\"sky\":null,\"environment\":\"%s\"}", files_path("map.pfm"));
+    assert_true(load(text));
+    assert_int_equal(view.environment.width, 2);
+    view_file_finish(&view);
+    assert_true(load("{" CAMERA ",\"environment\":null}"));
+    assert_null(view.environment.rgb);
+}
+
 static void fog_needs_a_density_alone(void **state)
 {
     (void)state;
@@ -107,6 +149,7 @@ static void fog_needs_a_density_alone(void **state)
 static void what_is_wrong_is_named_in_one_line(void **state)
 {
     (void)state;
+    write_map();
     static const char *const cases[][2] = {
         { "", "line 1" },
         { "{\n" CAMERA ",\n}", "line 3" },
@@ -136,6 +179,15 @@ static void what_is_wrong_is_named_in_one_line(void **state)
         { "{" CAMERA ",\"sky\":{\"zenith\":[1,0,0]}}", "sky.horizon: is missing" },
         { "{" CAMERA ",\"sky\":{\"radiance\":[1,0,0],\"zenith\":[1,0,0]}}", "sky.zenith: unknown key" },
         { "{" CAMERA ",\"sky\":7}", "sky: expected an object" },
+        { "{" CAMERA ",\"sky\":\"blue\"}", "sky: is \"blue\", expected none, day" },
+        { "{" CAMERA ",\"sky\":\"1,2\"}", "sky: is \"1,2\"" },
+        { "{" CAMERA ",\"sun\":\"0,0,0\"}", "sun: is \"0,0,0\", expected none, day" },
+        { "{" CAMERA ",\"environment\":{}}", "environment: expected the name of a file" },
+        { "{" CAMERA ",\"environment\":\"\"}", "environment: expected the name of a file" },
+        { "{" CAMERA ",\"environment\":\"map.png\"}", "expected a picture of radiance" },
+        { "{" CAMERA ",\"environment\":\"gone.hdr\"}", "gone.hdr" },
+        { "{" CAMERA ",\"environment\":\"map.pfm\",\"sky\":\"day\"}", "environment: and sky" },
+        { "{" CAMERA ",\"environment\":\"map.pfm\",\"sun\":\"1\"}", "sun: is \"1\"" },
         { "{" CAMERA ",\"sun\":{\"direction\":[0,0,0],\"irradiance\":[1,1,1]}}", "sun.direction: has no" },
         { "{" CAMERA ",\"sun\":{\"direction\":[0,-1,0]}}", "sun.irradiance: is missing" },
         { "{" CAMERA ",\"fog\":0.1}", "fog: expected an object" },
@@ -165,6 +217,7 @@ static void what_is_wrong_is_named_in_one_line(void **state)
         if (!strstr(error, cases[i][1]) || strchr(error, '\n'))
             fail_msg("\"%s\" does not say \"%s\"", error, cases[i][1]);
         assert_null(view.lights);
+        assert_null(view.environment.rgb);
     }
     assert_false(view_file_load("no-such-folder/view.json", &view, error, sizeof error));
     assert_non_null(strstr(error, "no-such-folder/view.json"));
@@ -222,6 +275,8 @@ int main(void)
         cmocka_unit_test(an_orthographic_camera_of_a_scene_is_taken),
         cmocka_unit_test(every_key_reaches_its_field),
         cmocka_unit_test(a_uniform_sky_has_three_equal_colours),
+        cmocka_unit_test(sky_and_sun_may_be_text_as_on_the_command_line),
+        cmocka_unit_test(an_environment_lies_beside_the_file),
         cmocka_unit_test(fog_needs_a_density_alone),
         cmocka_unit_test(what_is_wrong_is_named_in_one_line),
         cmocka_unit_test(every_truncation_is_refused),

@@ -1,256 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * The window of `sdfgi view` and its panel, by key and by mouse: what is pressed shows. */
+#include "tour.h"
+
 #include "require.h"
-#include "x_window.h"
 
-#include "cli/view_editor.h"
-
-#include <editor.h>
-#include <modules/gltf/gltf_scene.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-/* Frames from a picture that is recorded to one that is seen, and from an input to the frame that has it. */
-enum { UNTIL_SEEN = 4, UNTIL_HEARD = 2 };
-/* The panel covers the left; SCENE is the first column beside it. */
-enum { WIDTH = 440, HEIGHT = 300, SCENE = 310, PANEL_X = 150, PANEL_Y = 250, SETTLES = 300 };
-
-/* What a user does, one thing after another. */
-enum action { SETTLE, KEY, SCROLL, CLICK, DRAG, TAKE };
-
-struct step {
-    enum action action;
-    enum x_key key;
-    int picture;
-    const char *widget;
-};
-
-enum { PICTURES_MAX = 24, PROPERTIES_MAX = 64 };
-
-struct tour {
-    const struct step *steps;
-    uint32_t count, at, waited;
-    struct x_window x;
-    bool opened;
-    const char *missing; /* a widget that was not there */
-    struct x_picture pictures[PICTURES_MAX];
-    struct view_editor editor;
-    struct host_overlay panel;
-    struct host_overlay_frame seen[PICTURES_MAX]; /* of the frame when a picture was taken */
-    struct host_overlay_frame now;
-    bool listed[PROPERTIES_MAX]; /* properties that the panel has shown */
-};
-
-/* ---- Steps */
-
-static void point_at(struct tour *tour, const char *name)
-{
-    float place[2];
-    if (editor_find(tour->editor.editor, name, place))
-        x_window_point(&tour->x, place[0], place[1]);
-    else
-        tour->missing = name;
-}
-
-/* Points, presses, lets go, and moves away, so that no tooltip stays. */
-static void click(struct tour *tour, const char *widget)
-{
-    if (tour->waited == 1)
-        point_at(tour, widget);
-    else if (tour->waited == 1 + UNTIL_HEARD || tour->waited == 1 + 2 * UNTIL_HEARD)
-        x_window_button(&tour->x, tour->waited == 1 + UNTIL_HEARD);
-    else if (tour->waited == 1 + 3 * UNTIL_HEARD)
-        x_window_point(&tour->x, WIDTH - 8, HEIGHT - 8);
-}
-
-/* Holds the button down from a widget, or from the scene, to somewhere else. */
-static void drag(struct tour *tour, const char *widget)
-{
-    if (tour->waited == 1 && widget)
-        point_at(tour, widget);
-    else if (tour->waited == 1)
-        x_window_point(&tour->x, WIDTH - 40, HEIGHT - 40);
-    else if (tour->waited == 1 + UNTIL_HEARD || tour->waited == 1 + 3 * UNTIL_HEARD)
-        x_window_button(&tour->x, tour->waited == 1 + UNTIL_HEARD);
-    else if (tour->waited == 1 + 2 * UNTIL_HEARD)
-        x_window_point(&tour->x, WIDTH - 8, HEIGHT - 8);
-}
-
-/* Turns the wheel over the panel until the widget is in sight. */
-static bool scroll(struct tour *tour, const char *widget)
-{
-    float place[2];
-    if (tour->waited == 1)
-        x_window_point(&tour->x, PANEL_X, PANEL_Y);
-    if (tour->waited <= UNTIL_HEARD)
-        return false;
-    if (editor_find(tour->editor.editor, widget, place))
-        return true;
-    if (tour->waited % UNTIL_HEARD == 0)
-        x_window_wheel(&tour->x);
-    return false;
-}
-
-/* True once the step is done. */
-static bool take_step(struct tour *tour, const struct step *step, const struct host_frame *frame)
-{
-    tour->waited++;
-    switch (step->action) {
-    case SETTLE:
-        return tour->waited > UNTIL_HEARD && frame->report->converged;
-    case KEY:
-        if (tour->waited == 1)
-            x_window_press(&tour->x, step->key);
-        return tour->waited > UNTIL_HEARD;
-    case SCROLL:
-        return scroll(tour, step->widget);
-    case CLICK:
-        click(tour, step->widget);
-        return tour->waited > 3 * UNTIL_HEARD;
-    case DRAG:
-        drag(tour, step->widget);
-        return tour->waited > 4 * UNTIL_HEARD;
-    case TAKE:
-        if (tour->waited <= UNTIL_SEEN)
-            return false;
-        tour->pictures[step->picture] = x_window_capture(&tour->x);
-        tour->seen[step->picture] = tour->now;
-        return true;
-    }
-    return false;
-}
-
-static bool follow(void *user, const struct host_frame *frame)
-{
-    struct tour *tour = user;
-    if (!tour->opened)
-        x_window_open(&tour->x);
-    tour->opened = true;
-    if (tour->at == tour->count)
-        tour->waited++;
-    else if (take_step(tour, &tour->steps[tour->at], frame)) {
-        tour->at++;
-        tour->waited = 0;
-    }
-    /* What fails is said once the window is closed: another one cannot be opened beside it. */
-    return !tour->missing && tour->waited < SETTLES;
-}
-
-/* ---- The panel, and what it sees */
-
-static void list_properties(struct tour *tour)
-{
-    const struct sdfgi_property_info *info;
-    float place[2];
-    for (uint32_t i = 0; i < PROPERTIES_MAX && (info = sdfgi_property_get_info(i)); i++) {
-        char name[96];
-        snprintf(name, sizeof name, "property:%s", info->name);
-        tour->listed[i] = tour->listed[i] || editor_find(tour->editor.editor, name, place);
-    }
-}
-
-static bool begin(void *user, struct GLFWwindow *window, const struct host_overlay_vulkan *vulkan,
-                  char *error, size_t error_size)
-{
-    struct tour *tour = user;
-    return tour->panel.begin(tour->panel.user, window, vulkan, error, error_size);
-}
-
-static void show(void *user, struct host_overlay_frame *frame)
-{
-    struct tour *tour = user;
-    tour->panel.frame(tour->panel.user, frame);
-    tour->now = *frame;
-    list_properties(tour);
-}
-
-static void record(void *user, VkCommandBuffer cmd)
-{
-    struct tour *tour = user;
-    tour->panel.record(tour->panel.user, cmd);
-}
-
-static void end(void *user)
-{
-    struct tour *tour = user;
-    tour->panel.end(tour->panel.user);
-}
-
-/* ---- Tours */
-
-static struct sdfgi_settings small_settings(void)
-{
-    struct sdfgi_settings settings;
-    sdfgi_settings_default(&settings);
-    settings.enabled = true;
-    settings.resolution = 32;
-    settings.cascades = 1;
-    settings.surface_light = SDFGI_SURFACE_LIGHT_PROBES;
-    settings.bounce_feedback = 0.75f;
-    settings.ray_count = 125;
-    settings.frames_to_converge = 4;
-    return settings;
-}
-
-/* Opens a window and does all steps, of which the last closes it. */
-static void run_tour(struct tour *tour, const struct step *steps, uint32_t count)
-{
-    char error[512] = "";
-    struct host_view view;
-    host_view_default(&view);
-    view.camera = (struct host_camera){
-        .position = { 0.4, 1, 1.6 }, .look_at = { 0.4, 0.2, 0 }, .up = { 0, 1, 0 }, .yfov_rad = 1.4f
-    };
-    view.emissive_scale = 0;
-    for (int i = 0; i < 3; i++)
-        view.sky.zenith[i] = view.sky.horizon[i] = view.sky.ground[i] = 1;
-    view.fog = (struct host_fog){ .density = 0.3f, .albedo = { 0.9f, 0.9f, 0.9f } };
-    const struct sdfgi_settings settings = small_settings();
-    struct gltf_scene *scene = gltf_scene_load(SOURCE_ROOT "/tests/fault/room.gltf", error, sizeof error);
-    REQUIRE_TRUE(scene != NULL);
-    *tour = (struct tour){ .steps = steps, .count = count };
-    tour->panel = view_editor_overlay(&tour->editor);
-    const struct host_overlay overlay = { begin, show, record, end, tour };
-    const struct host_window_desc desc = { .gltf = scene,
-                                           .view = &view,
-                                           .settings = &settings,
-                                           .lookups = { HOST_LOOKUP_QUARTER, HOST_LOOKUP_QUARTER },
-                                           .width = WIDTH,
-                                           .height = HEIGHT,
-                                           .overlay = &overlay,
-                                           .progress = follow,
-                                           .validation = true,
-                                           .user = tour };
-    const bool ran = host_window_run(&desc, error, sizeof error);
-    if (!ran)
-        require_fail(__FILE__, __LINE__, "the window: %s", error);
-    if (tour->missing)
-        require_fail(__FILE__, __LINE__, "no widget %s in the panel", tour->missing);
-    gltf_scene_destroy(scene);
-    x_window_close(&tour->x);
-}
-
-/* Writes what the pictures of a tour show, where somebody wants to look at them. */
-static void save_pictures(const struct tour *tour)
-{
-    const char *folder = getenv("SDFGI_TEST_PICTURES");
-    for (int i = 0; folder && i < PICTURES_MAX; i++) {
-        const struct x_picture *p = &tour->pictures[i];
-        char path[512];
-        snprintf(path, sizeof path, "%s/%02d.ppm", folder, i);
-        FILE *file = p->pixels ? fopen(path, "wb") : NULL;
-        if (!file)
-            continue;
-        fprintf(file, "P6 %u %u 255\n", p->width, p->height);
-        for (uint32_t k = 0; k < p->width * p->height; k++)
-            for (int shift = 16; shift >= 0; shift -= 8)
-                fputc((int)(p->pixels[k] >> shift & 255), file);
-        fclose(file);
-    }
-}
 
 /* One window for all tests: a start of the program takes longer than what they do in it. */
 enum picture {
+    BEFORE,
+    STOPPED,
     FIRST,
     PANEL_OPEN,
     FOG_LEFT_OUT,
@@ -279,7 +38,14 @@ enum picture {
 };
 
 static const struct step steps[] = {
+    { .action = KEY, .key = X_KEY_F1 },
+    { .action = TAKE, .picture = BEFORE },
+    { .action = KEY, .key = X_KEY_G },
+    { .action = KEY, .key = X_KEY_G },
+    { .action = TAKE, .picture = STOPPED },
+    { .action = KEY, .key = X_KEY_G },
     { .action = SETTLE },
+    { .action = KEY, .key = X_KEY_F1 },
     { .action = TAKE, .picture = FIRST },
     { .action = KEY, .key = X_KEY_F1 },
     { .action = TAKE, .picture = PANEL_OPEN },
@@ -345,8 +111,8 @@ static struct tour tour;
 static int go_through_the_tour(void **state)
 {
     (void)state;
-    run_tour(&tour, steps, sizeof steps / sizeof *steps);
-    save_pictures(&tour);
+    tour_run(&tour, steps, sizeof steps / sizeof *steps);
+    tour_save(&tour);
     /* The last key may close the window before its step is done. */
     REQUIRE_CMP(tour.at + 1, >=, tour.count);
     REQUIRE_CMP(tour.waited, <, (uint32_t)SETTLES);
@@ -372,6 +138,25 @@ static double panel_differs(enum picture a, enum picture b)
 }
 
 /* ---- Tests */
+
+/* A frame at least comes between the key and the switch, and says how far it is. */
+static void g_prepares_before_it_switches_on(void **state)
+{
+    (void)state;
+    REQUIRE_TRUE(!tour.seen[BEFORE].settings.enabled && tour.seen[FIRST].settings.enabled);
+    REQUIRE_CMP(tour.bars, >, 0u);
+    REQUIRE_CMP(tour.made.total, >, 30u);
+    REQUIRE_CMP(tour.made.made, ==, tour.made.total);
+    REQUIRE_CMP(scene_differs(BEFORE, FIRST), >, 0.3);
+}
+
+static void gi_that_is_off_holds_nothing(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(tour.held[FIRST], >, tour.held[BEFORE] + (1u << 20));
+    REQUIRE_CMP(tour.held[STOPPED], ==, tour.held[BEFORE]);
+    REQUIRE_CMP(tour.held[GI_OFF], ==, tour.held[BEFORE]);
+}
 
 /* V walks on and Shift V back, a digit chooses, 0 is the picture, F2 a part of the light. The panel is open.
  */
@@ -481,6 +266,8 @@ static void the_mouse_turns_the_camera_beside_the_panel_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(g_prepares_before_it_switches_on),
+        cmocka_unit_test(gi_that_is_off_holds_nothing),
         cmocka_unit_test(keys_choose_what_is_shown),
         cmocka_unit_test(f1_opens_and_closes_the_panel),
         cmocka_unit_test(a_view_that_is_chosen_shows),
