@@ -127,9 +127,10 @@ struct gpu_device {
     struct gpu_allocator allocator;         /* NULL: each object gets memory of its own. Set it after init */
     VkPhysicalDeviceMemoryProperties memory;
     VkPhysicalDeviceLimits limits;
-    VkQueueFlags queue_flags; /* of the queue family; 0: there is no such family */
-    uint32_t timestamp_bits;  /* of it; 0: no timestamps */
-    bool is_cpu;              /* a software driver: few threads run at once */
+    VkQueueFlags queue_flags;          /* of the queue family; 0: there is no such family */
+    uint32_t timestamp_bits;           /* of it; 0: no timestamps */
+    bool is_cpu;                       /* a software driver: few threads run at once */
+    VkPhysicalDeviceFeatures features; /* that it has: which of them the host enabled, nobody can ask */
 };
 
 /* Loads functions of an instance; false if one is missing. */

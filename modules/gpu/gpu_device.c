@@ -54,6 +54,7 @@ VkResult gpu_device_init(struct gpu_device *device, VkInstance instance, VkPhysi
     device->fn.GetPhysicalDeviceProperties(physical, &properties);
     device->limits = properties.limits;
     device->is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    device->fn.GetPhysicalDeviceFeatures(physical, &device->features);
     load_queue_family(device, physical, queue_family);
     return VK_SUCCESS;
 }

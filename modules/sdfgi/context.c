@@ -171,6 +171,13 @@ void sdfgi_destroy(sdfgi *gi)
 
 /* ---- Settings */
 
+/* The raster voxeliser draws, and stores from its shaders. */
+static bool can_voxelize_by_raster(const struct gpu_device *device)
+{
+    return (device->queue_flags & VK_QUEUE_GRAPHICS_BIT) && device->features.fragmentStoresAndAtomics &&
+           device->features.vertexPipelineStoresAndAtomics;
+}
+
 static enum sdfgi_result check_settings(struct sdfgi *gi, const struct sdfgi_settings *settings)
 {
     char error[160];
@@ -185,6 +192,12 @@ static enum sdfgi_result check_settings(struct sdfgi *gi, const struct sdfgi_set
             "cells are flattened along Y",
             100 * sdfgi_settings_y_scale(settings));
         return SDFGI_ERROR_INVALID_ARGUMENT;
+    }
+    if (settings->voxelizer == SDFGI_VOXELIZER_RASTER && !can_voxelize_by_raster(&gi->backend.device)) {
+        sdfgi_message_log(&gi->backend.hooks, SDFGI_MESSAGE_UNSUPPORTED_DEVICE,
+                          "sdfgi_set_settings: sdfgi_voxelizer is raster, which needs a queue family with "
+                          "graphics, fragmentStoresAndAtomics and vertexPipelineStoresAndAtomics");
+        return SDFGI_ERROR_UNSUPPORTED;
     }
     return SDFGI_OK;
 }

@@ -53,7 +53,7 @@ enum sdfgi_result sdfgi_get_requirements(VkInstance instance, VkPhysicalDevice p
     /* Not vkGetPhysicalDeviceFeatures2, which an instance made for Vulkan 1.0 may not use. */
     VkPhysicalDeviceFeatures features;
     fn.GetPhysicalDeviceFeatures(physical, &features);
-    /* Only the raster voxeliser stores from fragment shaders; devices without it use the compute one. */
+    /* Only the raster voxeliser stores from these shaders: sdfgi_set_settings refuses it without them. */
     r->features.fragmentStoresAndAtomics = features.fragmentStoresAndAtomics;
     r->features.vertexPipelineStoresAndAtomics = features.vertexPipelineStoresAndAtomics;
     check_limits(&properties.limits, r);

@@ -106,6 +106,32 @@ static void a_zeroed_descriptor_means_defaults(void **state)
 
 /* ---- Settings */
 
+/* Devices and queue families that are not there in tests. */
+static void what_a_device_cannot_do_is_refused(void **state)
+{
+    (void)state;
+    struct gpu_device *device = &t.gi->backend.device;
+    const struct gpu_device before = *device;
+    struct sdfgi_settings s;
+    sdfgi_get_settings(t.gi, &s);
+    s.voxelizer = SDFGI_VOXELIZER_RASTER;
+    device->queue_flags = VK_QUEUE_COMPUTE_BIT;
+    REQUIRE_REFUSED(sdfgi_set_settings(t.gi, &s), SDFGI_ERROR_UNSUPPORTED, UNSUPPORTED_DEVICE);
+    *device = before;
+    device->features.fragmentStoresAndAtomics = VK_FALSE;
+    REQUIRE_REFUSED(sdfgi_set_settings(t.gi, &s), SDFGI_ERROR_UNSUPPORTED, UNSUPPORTED_DEVICE);
+    *device = before;
+    device->features.vertexPipelineStoresAndAtomics = VK_FALSE;
+    REQUIRE_REFUSED(sdfgi_set_settings(t.gi, &s), SDFGI_ERROR_UNSUPPORTED, UNSUPPORTED_DEVICE);
+    *device = before;
+    sdfgi_get_settings(t.gi, &s);
+    s.enabled = true;
+    s.resolution = 64;
+    device->limits.maxStorageBufferRange = 1000;
+    REQUIRE_INVALID(sdfgi_set_settings(t.gi, &s));
+    *device = before;
+}
+
 static void settings_out_of_range_are_refused(void **state)
 {
     (void)state;
@@ -475,6 +501,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(create_refuses_bad_descriptors),
         cmocka_unit_test(a_zeroed_descriptor_means_defaults),
+        cmocka_unit_test(what_a_device_cannot_do_is_refused),
         cmocka_unit_test(settings_out_of_range_are_refused),
         cmocka_unit_test(materials_are_checked),
         cmocka_unit_test(more_than_4096_materials_are_refused),

@@ -168,7 +168,8 @@ static enum resource too_large(const struct backend *backend, const struct exten
     return (enum resource)i;
 }
 
-static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent)
+static enum sdfgi_result check_sizes(const struct backend *backend, const struct extent *extent,
+                                     const char *caller)
 {
     struct extent most = *extent;
     sdfgi_extent_set_emits(&most);
@@ -177,8 +178,9 @@ static enum sdfgi_result check_sizes(const struct backend *backend, const struct
         return SDFGI_OK;
     return sdfgi_message_invalid(
         &backend->hooks,
-        "%s exceeds the device's maxStorageBufferRange: lower sdfgi_resolution or sdfgi_cascades",
-        sdfgi_resource_row(resource)->name);
+        "%s: %s takes %llu bytes, maxStorageBufferRange is %u: lower sdfgi_resolution or sdfgi_cascades",
+        caller, sdfgi_resource_row(resource)->name, (unsigned long long)sdfgi_resource_size(resource, &most),
+        backend->device.limits.maxStorageBufferRange);
 }
 
 /* Light lists may grow as far as all that grows with them fits the device's buffers. */
@@ -201,7 +203,7 @@ enum sdfgi_result sdfgi_resources_begin(struct backend *backend, const struct sd
                                         bool emits, const char *caller, struct resources **out)
 {
     struct extent extent = sdfgi_extent_from_settings(settings);
-    const enum sdfgi_result fits = check_sizes(backend, &extent);
+    const enum sdfgi_result fits = check_sizes(backend, &extent, caller);
     if (fits != SDFGI_OK)
         return fits;
     limit_light_cells(backend, &extent);
