@@ -474,26 +474,6 @@ static void frames_are_checked(void **state)
     REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
 }
 
-/* ---- Before a device exists */
-
-static void estimates_are_checked(void **state)
-{
-    (void)state;
-    struct sdfgi_memory memory = { .total_bytes = 77 };
-    struct sdfgi_settings settings = gi_test_settings();
-    settings.resolution = 100;
-    REQUIRE_CMP((int)sdfgi_estimate_memory(&settings, 2, &memory), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
-    REQUIRE_CMP((int)sdfgi_estimate_memory(NULL, 9, &memory), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
-    REQUIRE_CMP(memory.total_bytes, ==, 77ul);
-}
-
-static void every_memory_category_has_a_name(void **state)
-{
-    (void)state;
-    for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
-        REQUIRE_TRUE(sdfgi_memory_category_name((enum sdfgi_memory_category)i)[0] != 0);
-}
-
 int main(void)
 {
     if (!gpu_test_available())
@@ -515,8 +495,6 @@ int main(void)
         cmocka_unit_test(skies_are_checked),
         cmocka_unit_test(messages_name_function_object_field_value_and_limit),
         cmocka_unit_test(frames_are_checked),
-        cmocka_unit_test(estimates_are_checked),
-        cmocka_unit_test(every_memory_category_has_a_name),
     };
     return cmocka_run_group_tests(tests, open_disabled, close_context);
 }

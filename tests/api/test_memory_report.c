@@ -86,6 +86,24 @@ static void longest_lists_need_at_most_100_mib_a_cascade(void **state)
     REQUIRE_CMP(total, <=, settings.cascades * (UINT64_C(100) << 20));
 }
 
+static void estimates_are_checked(void **state)
+{
+    (void)state;
+    struct sdfgi_memory memory = { .total_bytes = 77 };
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 100;
+    REQUIRE_CMP((int)sdfgi_estimate_memory(&settings, 2, &memory), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_CMP((int)sdfgi_estimate_memory(NULL, 9, &memory), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_CMP(memory.total_bytes, ==, 77ul);
+}
+
+static void every_memory_category_has_a_name(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SDFGI_MEMORY_CATEGORY_COUNT; i++)
+        REQUIRE_TRUE(sdfgi_memory_category_name((enum sdfgi_memory_category)i)[0] != 0);
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -95,6 +113,8 @@ int main(void)
         cmocka_unit_test(the_estimate_holds_for_every_choice),
         cmocka_unit_test(defaults_need_at_most_64_mib_a_cascade),
         cmocka_unit_test(longest_lists_need_at_most_100_mib_a_cascade),
+        cmocka_unit_test(estimates_are_checked),
+        cmocka_unit_test(every_memory_category_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
