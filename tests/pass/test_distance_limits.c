@@ -112,7 +112,8 @@ static void hard_06_a_full_cascade_has_no_light_cells(void **state)
 }
 
 /* The invalidated cells of MASKS are cleared all the same. */
-static const enum resource written_by_groups[] = { RESOURCE_LIGHT, RESOURCE_LIGHT_CELLS, RESOURCE_RAYS };
+static const enum resource written_by_groups[] = { RESOURCE_LIGHT, RESOURCE_LIGHT_CELLS, RESOURCE_RAYS,
+                                                   RESOURCE_SURFACES, RESOURCE_GATHERED };
 enum { WRITTEN = sizeof written_by_groups / sizeof *written_by_groups, CANARY = 0xa5 };
 
 static void write_canaries(struct gi_test *t)
@@ -146,6 +147,7 @@ static void hard_59_work_of_no_group_writes_nothing(void **state)
     static struct sdfgi_report report;
     struct sdfgi_settings settings = gi_test_settings();
     settings.resolution = 32;
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     struct test_mesh mesh = all_layers(4, 128);
     pass_scene_open(&pass_context, &settings, &mesh);
     test_mesh_destroy(&mesh);
@@ -158,14 +160,15 @@ static void hard_59_work_of_no_group_writes_nothing(void **state)
     REQUIRE_CMP(sdfgi_light_create(pass_context.gi, &lamp, &light), ==, SDFGI_OK);
     const double low[3] = { -1, -1, -1 }, high[3] = { 1, 1, 1 };
     REQUIRE_CMP(sdfgi_invalidate_box(pass_context.gi, low, high), ==, SDFGI_OK); /* lists what is dirty */
-    bool direct = false, traced = false;
+    bool direct = false, traced = false, gathered = false;
     for (int frame = 0; frame < 4; frame++) {
         gi_test_update(&pass_context, 1);
         sdfgi_get_report(pass_context.gi, &report);
         direct = direct || report.passes[PASS_LIGHT_DIRECT].ran;
         traced = traced || report.passes[PASS_PROBE_TRACE].ran;
+        gathered = gathered || report.passes[PASS_CELL_GATHER].ran;
     }
-    REQUIRE_TRUE(direct && traced);
+    REQUIRE_TRUE(direct && traced && gathered);
     HARD_CASE_AT_MOST(59, "bytes written by no group", canaries_lost(&pass_context), 0);
 }
 

@@ -289,8 +289,17 @@ static void hard_10_few_grazing_rays_run_out_of_steps(void **state)
     HARD_CASE_AT_MOST(10, "grazing rays that run out of steps, share", (double)capped / RAYS, 1e-3);
 }
 
+/* As if every cell had something near: rays walk from cell to cell. */
+static void forget_distances(void)
+{
+    const struct gpu_buffer *buffer = &pass_context.gi->volume.resources->buffers[RESOURCE_DISTANCE];
+    void *zero = test_array_alloc(buffer->size, 1);
+    gpu_test_buffer_write(&pass_context.gpu, buffer->handle, 0, buffer->size, zero);
+    free(zero);
+}
+
 /* A box in the lowest corner of the first cascade. The way from there to the highest corner of the last
- * crosses more cells than a ray has steps. */
+ * crosses more cells than a ray has steps, as none of them is known to be empty. */
 static void open_corner(uint32_t resolution, uint32_t cascades)
 {
     struct sdfgi_settings settings = gi_test_settings();
@@ -302,15 +311,7 @@ static void open_corner(uint32_t resolution, uint32_t cascades)
     struct test_mesh box = test_mesh_box((double[]){ low, low, low }, half, test_rotation_none);
     pass_scene_open(&pass_context, &settings, &box);
     test_mesh_destroy(&box);
-}
-
-/* As if every cell had something near: rays walk from cell to cell. */
-static void forget_distances(void)
-{
-    const struct gpu_buffer *buffer = &pass_context.gi->volume.resources->buffers[RESOURCE_DISTANCE];
-    void *zero = test_array_alloc(buffer->size, 1);
-    gpu_test_buffer_write(&pass_context.gpu, buffer->handle, 0, buffer->size, zero);
-    free(zero);
+    forget_distances();
 }
 
 static uint64_t caps_reported(void)
@@ -336,7 +337,6 @@ static void hard_10_shadow_rays_without_steps_are_hits_and_reported(void **state
 {
     (void)state;
     open_corner(64, 8);
-    forget_distances();
     require_caps_are_hits();
     REQUIRE_CMP(caps_reported(), ==, 0ul); /* no probe looks along the few ways that are so long */
     const struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL,
@@ -348,12 +348,27 @@ static void hard_10_shadow_rays_without_steps_are_hits_and_reported(void **state
     HARD_CASE_AT_LEAST(10, "shadow rays without steps that are reported", caps_reported(), 1);
 }
 
+/* 1,740 m from the box: all rays to it would be reported. EFFECTS row 9. */
+static void lamp_out_of_range_calls_for_no_ray(void **state)
+{
+    (void)state;
+    open_corner(64, 8);
+    struct sdfgi_light_desc lamp = { .type = SDFGI_LIGHT_POINT, .range_m = 1000, .casts_shadow = true };
+    for (int k = 0; k < 3; k++)
+        lamp.position[k] = lamp.intensity[k] = 1000;
+    sdfgi_light light;
+    REQUIRE_CMP(sdfgi_light_create(pass_context.gi, &lamp, &light), ==, SDFGI_OK);
+    REQUIRE_CMP(caps_reported(), ==, 0ul);
+    lamp.range_m = 0;
+    REQUIRE_CMP(sdfgi_light_update(pass_context.gi, light, &lamp), ==, SDFGI_OK);
+    REQUIRE_CMP(caps_reported(), >, 0ul);
+}
+
 /* Every ray of this light would be reported. EFFECTS row 9. */
 static void light_that_casts_no_shadow_calls_for_no_ray(void **state)
 {
     (void)state;
     open_corner(64, 8);
-    forget_distances();
     struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL,
                                     .direction = { -1, -1, -1 },
                                     .intensity = { 1, 1, 1 } };
@@ -376,7 +391,6 @@ static void hard_10_probes_rays_without_steps_are_reported(void **state)
     if (!getenv("SDFGI_TEST_FULL"))
         skip();
     open_corner(128, 5);
-    forget_distances();
     HARD_CASE_AT_LEAST(10, "rays of probes without steps that are reported", caps_reported(), 1);
 }
 
@@ -420,7 +434,7 @@ static void no_light_comes_from_beyond_a_thin_wall(void **state)
         if (rays[i].direction[0] < 0) /* the ray comes from that side */
             REQUIRE_CMP(rays[i].light_cell, ==, 33.0f);
     }
-    printf("%u of %u rays find a light cell\n", found, RAYS);
+    HARD_CASE_AT_LEAST(64, "rays along a wall that find a light cell, share", (double)found / RAYS, 0.5);
     HARD_CASE_AT_MOST(64, "rays that read light beyond a wall", beyond, 0);
 }
 
@@ -474,6 +488,7 @@ int main(void)
         cmocka_unit_test(hard_10_few_grazing_rays_run_out_of_steps),
         cmocka_unit_test(hard_10_shadow_rays_without_steps_are_hits_and_reported),
         cmocka_unit_test(light_that_casts_no_shadow_calls_for_no_ray),
+        cmocka_unit_test(lamp_out_of_range_calls_for_no_ray),
         cmocka_unit_test(hard_10_probes_rays_without_steps_are_reported),
         cmocka_unit_test(hard_12_no_ray_leaves_a_closed_bumpy_sphere),
         cmocka_unit_test(hard_12_no_ray_slips_through_an_edge),

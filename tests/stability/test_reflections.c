@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Reflections of views where things end: rays that cascades hand over while the camera moves, and pictures of
- * one row (HARD_CASES rows 55 and 69). */
+ * one row (HARD_CASES rows 55 and 69). What a picture shows calls for rays (EFFECTS rows 20 to 22). */
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+
+#include "shaders/shared/constants.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,17 +22,17 @@ struct mirror {
     uint32_t width, height;
 };
 
-/* A level mirror in the plane y = -1, whose pixels cover x and z in [-`half_m`, `half_m`]. All are seen along
- * (1, -1, 0). */
-static void mirror_open(struct mirror *m, struct gi_test *t, uint32_t width, uint32_t height, float half_m)
+/* A level surface in the plane y = -1, whose pixels cover x and z in [-`half_m`, `half_m`]. All are seen
+ * along (1, -1, 0). */
+static void mirror_open_rough(struct mirror *m, struct gi_test *t, uint32_t width, uint32_t height,
+                              float half_m, const float *roughness)
 {
     const uint32_t pixels = width * height;
-    float *depth = calloc(pixels, sizeof *depth), (*normal)[4] = calloc(pixels, sizeof *normal),
-          *roughness = calloc(pixels, sizeof *roughness);
+    float *depth = calloc(pixels, sizeof *depth), (*normal)[4] = calloc(pixels, sizeof *normal);
     const struct sdfgi_view_desc view = { .width = width, .height = height };
     const struct sdfgi_material_desc smooth = { .smoothness = 1 };
     sdfgi_material material;
-    REQUIRE_TRUE(depth && normal && roughness);
+    REQUIRE_TRUE(depth && normal);
     for (uint32_t i = 0; i < pixels; i++) {
         depth[i] = 0.5f;
         normal[i][1] = 1;
@@ -51,6 +53,14 @@ static void mirror_open(struct mirror *m, struct gi_test *t, uint32_t width, uin
     };
     free(depth);
     free(normal);
+}
+
+/* The same, a mirror everywhere. */
+static void mirror_open(struct mirror *m, struct gi_test *t, uint32_t width, uint32_t height, float half_m)
+{
+    float *roughness = calloc(width * height, sizeof *roughness);
+    REQUIRE_TRUE(roughness != NULL);
+    mirror_open_rough(m, t, width, height, half_m, roughness);
     free(roughness);
 }
 
@@ -167,6 +177,48 @@ static void hard_69_views_of_one_row_reflect(void **state)
     HARD_CASE_AT_MOST(69, "reflections in pictures of one row or pixel, off by", worst, 0.002);
 }
 
+/* ---- What calls for rays */
+
+enum { TILE = SDFGI_GROUP_PIXELS, SURFACE_SIDE = 4 * TILE };
+
+struct tile_work {
+    uint32_t rays[3], unused, tiles[3];
+};
+static_assert(offsetof(struct tile_work, tiles) == SDFGI_TILES_TILES * sizeof(uint32_t),
+              "as in the list of tiles");
+
+/* Groups of the indirect dispatches for a surface that is rough but for some tiles in its first row. */
+static struct tile_work work_of_surface(struct gi_test *t, int smooth_tiles)
+{
+    static float roughness[SURFACE_SIDE * SURFACE_SIDE];
+    static uint16_t texels[SURFACE_SIDE * SURFACE_SIDE][4];
+    struct mirror surface;
+    struct tile_work work;
+    for (int i = 0; i < SURFACE_SIDE * SURFACE_SIDE; i++)
+        roughness[i] = i < TILE * SURFACE_SIDE && i % SURFACE_SIDE < TILE * smooth_tiles ? 0 : 1;
+    mirror_open_rough(&surface, t, SURFACE_SIDE, SURFACE_SIDE, HALF_M, roughness);
+    mirror_read(&surface, texels);
+    gpu_test_buffer_read(&t->gpu, surface.view->tiles.handle, 0, sizeof work, &work);
+    mirror_close(&surface);
+    return work;
+}
+
+/* Both passes are recorded either way, and run over what is in the list. */
+static void rays_are_sent_for_tiles_that_are_smooth(void **state)
+{
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    gi_test_restart(t, &settings);
+    light_set_uniform_sky(t, 1);
+    gi_test_update(t, 2);
+    for (int smooth = 0; smooth < 4; smooth++) {
+        const struct tile_work work = work_of_surface(t, smooth);
+        REQUIRE_CMP(work.tiles[0], ==, (uint32_t)smooth);
+        REQUIRE_CMP(work.rays[0], ==, (uint32_t)(smooth * TILE * TILE / SDFGI_GROUP_LINEAR));
+        REQUIRE_CMP(work.rays[1] * work.rays[2] * work.tiles[1] * work.tiles[2], ==, 1u);
+    }
+}
+
 int main(void)
 {
     if (!gpu_test_available())
@@ -174,6 +226,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_55_reflected_rays_cross_cascades),
         cmocka_unit_test(hard_69_views_of_one_row_reflect),
+        cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
     };
     return cmocka_run_group_tests_name("reflections", tests, light_open, light_close);
 }
