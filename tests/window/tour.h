@@ -7,7 +7,7 @@
 #include "x_window.h"
 
 /* The panel covers the left; SCENE is the first column beside it. */
-enum { WIDTH = 440, HEIGHT = 300, SCENE = 310, PANEL_X = 150, PANEL_Y = 250, SETTLES = 3000 };
+enum { WIDTH = 350, HEIGHT = 300, SCENE = 240, PANEL_X = 120, PANEL_Y = 250, SETTLES = 3000 };
 
 enum action { SETTLE, KEY, SCROLL, CLICK, DRAG, TAKE };
 
