@@ -26,8 +26,9 @@ const extension extensions[] = {
     { draco_extension, with_draco, "build it with -Ddraco=enabled (libdraco-dev)" },
     { meshopt_extension, with_meshopt, "build it with -Dmeshopt=enabled (libmeshoptimizer-dev)" },
     { webp_extension, with_webp, "build it with -Dwebp=enabled (libwebp-dev)" },
-    { "KHR_texture_basisu", false,
-      "Debian 12 has no library for it; give the textures as PNG, JPEG or WebP" },
+    { ktx2_extension, with_ktx2,
+      "build it with -Dktx2=enabled (libktx, which Debian 12 has not), or give the textures as PNG, JPEG or "
+      "WebP" },
 };
 
 const extension *extension_find(const std::string &name)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Images: PNG through libpng, JPEG through stb_image and WebP through libwebp, to 8-bit RGBA (16-bit files
-// keep their upper byte).
+// Images: PNG through libpng, JPEG through stb_image, WebP through libwebp and KTX2 through libktx, to 8-bit
+// RGBA (16-bit files keep their upper byte).
 // stb_image's other formats are not compiled in: glTF does not have them, and they are where its known
 // defects are.
 #include "import.h"
@@ -39,7 +39,7 @@ namespace
 // The shortest code of a JPEG is one bit, and stands for a block of 8 x 8 texels.
 constexpr uint64_t max_jpeg_texels_per_byte = 8 * 64;
 
-enum class codec { png, jpeg, webp };
+enum class codec { png, jpeg, webp, ktx2 };
 
 struct dimensions {
     codec type = codec::jpeg;
@@ -58,8 +58,11 @@ dimensions dimensions_read(const byte_range &file, const std::string &what)
             size.type = codec::webp;
             return size;
         }
-    if (file.size >= 12 && memcmp(file.data + 1, "KTX 20", 6) == 0)
-        fail("%s is a KTX2 image (KHR_texture_basisu), and Debian 12 has no library for these", what.c_str());
+    if constexpr (with_ktx2)
+        if (ktx2_size(file, &size.width, &size.height)) {
+            size.type = codec::ktx2;
+            return size;
+        }
     int width = 0, height = 0, channels = 0;
     if (file.size > INT32_MAX)
         fail("%s is larger than 2 GiB", what.c_str());
@@ -114,8 +117,12 @@ void image_decode(importer &in, gltf_image &image, const byte_range &file, const
         png_decode(image, file, what);
     else if (size.type == codec::jpeg)
         jpeg_decode(image, file, what);
-    else if constexpr (with_webp)
-        webp_decode(image, file, what);
+    if constexpr (with_webp)
+        if (size.type == codec::webp)
+            webp_decode(image, file, what);
+    if constexpr (with_ktx2)
+        if (size.type == codec::ktx2)
+            ktx2_decode(image, file, what);
 }
 
 void image_import(importer &in, size_t index, gltf_image &image)
@@ -137,9 +144,14 @@ void image_import(importer &in, size_t index, gltf_image &image)
 
 int texture_source(const tinygltf::Texture &texture)
 {
-    const auto webp = texture.extensions.find(webp_extension);
-    return with_webp && webp != texture.extensions.end() ? webp->second.Get("source").GetNumberAsInt()
-                                                         : texture.source;
+    constexpr std::pair<const char *, bool> ways[] = { { webp_extension, with_webp },
+                                                       { ktx2_extension, with_ktx2 } };
+    for (const auto &[name, is_built] : ways) {
+        const auto found = texture.extensions.find(name);
+        if (is_built && found != texture.extensions.end())
+            return found->second.Get("source").GetNumberAsInt();
+    }
+    return texture.source;
 }
 
 // Only images that a texture uses are read: a file may carry others in formats that an extension is needed

@@ -64,6 +64,7 @@ constexpr bound joint_bound = { "joints of drawn skins", 16, 1 << 16, UINT64_C(1
 constexpr const char *draco_extension = "KHR_draco_mesh_compression";
 constexpr const char *meshopt_extension = "EXT_meshopt_compression";
 constexpr const char *webp_extension = "EXT_texture_webp";
+constexpr const char *ktx2_extension = "KHR_texture_basisu";
 #ifdef GLTF_WITH_DRACO
 constexpr bool with_draco = true;
 #else
@@ -78,6 +79,11 @@ constexpr bool with_meshopt = false;
 constexpr bool with_webp = true;
 #else
 constexpr bool with_webp = false;
+#endif
+#ifdef GLTF_WITH_KTX2
+constexpr bool with_ktx2 = true;
+#else
+constexpr bool with_ktx2 = false;
 #endif
 
 using bytes = std::vector<unsigned char>;
@@ -209,6 +215,10 @@ void meshopt_unpack(importer &in);
 // webp.cpp: false where the file is not a WebP image.
 bool webp_size(const byte_range &file, uint32_t *width, uint32_t *height);
 void webp_decode(gltf_image &image, const byte_range &file, const std::string &what);
+
+// ktx2.cpp: false where the file is not a KTX2 image.
+bool ktx2_size(const byte_range &file, uint32_t *width, uint32_t *height);
+void ktx2_decode(gltf_image &image, const byte_range &file, const std::string &what);
 
 // material.cpp
 void materials_import(importer &in);

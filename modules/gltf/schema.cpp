@@ -117,11 +117,12 @@ const member image_members[] = {
     { "name", kind::text }, { "uri", kind::text }, { "mimeType", kind::text },
     { "bufferView", kind::index }, end_row };
 
-const member webp_members[] = {
+const member texture_source_members[] = {
     { "source", kind::index, true }, end_row };
 
 const member texture_extensions[] = {
-    { "EXT_texture_webp", kind::object, false, 0, webp_members }, end_row };
+    { "EXT_texture_webp", kind::object, false, 0, texture_source_members },
+    { "KHR_texture_basisu", kind::object, false, 0, texture_source_members }, end_row };
 
 const member texture_members[] = {
     { "name", kind::text }, { "sampler", kind::index }, { "source", kind::index },

@@ -108,3 +108,20 @@ struct gltf_scene *draft_load(const struct draft *d, const char *rest)
     draft_write(d, rest, "draft.glb");
     return file_load("draft.glb");
 }
+
+static struct gltf_scene *load(const char *name, char *error, size_t size)
+{
+    struct gltf_scene *const scene = gltf_scene_load(files_path(name), error, size);
+    if (scene != NULL)
+        scene_check(scene);
+    return scene;
+}
+
+void refused_with(const char *wrong)
+{
+    char error[512];
+    struct gltf_scene *const scene = load("packed.glb", error, sizeof error);
+    gltf_scene_destroy(scene);
+    if (scene != NULL || strstr(error, wrong) == NULL || strchr(error, '\n') != NULL)
+        fail_msg("the message is '%s'; it should hold '%s'", scene == NULL ? error : "(loaded)", wrong);
+}

@@ -58,23 +58,6 @@ static double moment(const float *positions, const float *uv, const uint32_t *in
 }
 #endif
 
-static struct gltf_scene *load(const char *name, char *error, size_t size)
-{
-    struct gltf_scene *const scene = gltf_scene_load(files_path(name), error, size);
-    if (scene != NULL)
-        scene_check(scene);
-    return scene;
-}
-
-static void refused_with(const char *wrong)
-{
-    char error[512];
-    struct gltf_scene *const scene = load("packed.glb", error, sizeof error);
-    gltf_scene_destroy(scene);
-    if (scene != NULL || strstr(error, wrong) == NULL || strchr(error, '\n') != NULL)
-        fail_msg("the message is '%s'; it should hold '%s'", scene == NULL ? error : "(loaded)", wrong);
-}
-
 /* ---- Draco ------------------------------------------------------------------------------------------- */
 
 #define DRACO_REQUIRED                                                                                       \
