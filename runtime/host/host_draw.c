@@ -194,7 +194,6 @@ static void bind_forward(const struct host_renderer *renderer, struct host_draw_
 void host_draw_forward(struct host_renderer *renderer, const struct host_slot *slot)
 {
     const struct host_scene *scene = renderer->scene;
-    const struct host_pipelines *pipelines = &renderer->pipelines;
     const enum host_forward kind = host_forward_kind(renderer, false);
     struct host_draw_context draw = draw_begin(renderer, slot->cmd, kind, renderer->camera.origin);
     struct host_frustum frustum;
@@ -208,7 +207,7 @@ void host_draw_forward(struct host_renderer *renderer, const struct host_slot *s
     for (uint32_t i = 0; i < scene->instance_count; i++) {
         if (!(host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND) &&
             host_frustum_sees(&frustum, &scene->instances[i]))
-            host_draw_instance(renderer, &draw, i, pipelines->opaque[kind][host_instance_cull(scene, i)]);
+            host_draw_instance(renderer, &draw, i, host_forward_pipeline(renderer, kind, i));
     }
 
     /* Depth, normals and albedo of what is behind glass say more than those of the glass. */
@@ -222,6 +221,6 @@ void host_draw_forward(struct host_renderer *renderer, const struct host_slot *s
     for (uint32_t i = 0; i < blended; i++) {
         const uint32_t instance = renderer->blend_order[i];
         host_draw_instance(renderer, &draw, instance,
-                           pipelines->blend[blended_kind][host_instance_cull(scene, instance)]);
+                           host_forward_pipeline(renderer, blended_kind, instance));
     }
 }

@@ -219,10 +219,10 @@ struct host_pipelines {
                                                      for all but forward */
     VkPipelineLayout post_pipeline_layout;
     VkPipeline prepass[HOST_CULL_COUNT];
-    /* Those that the scene needs, once they are wanted. */
-    VkPipeline opaque[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
-    VkPipeline blend[HOST_FORWARD_COUNT][HOST_CULL_COUNT];
+    /* Those that the scene needs, once they are wanted; [whether it is blended][whether it sends rays]. */
+    VkPipeline forward[HOST_FORWARD_COUNT][HOST_CULL_COUNT][2][2];
     bool forward_made[HOST_FORWARD_COUNT];
+    float rays_end; /* the roughness from which on no surface sends rays */
     VkPipeline shadow_solid, shadow_tested;
     VkPipeline sky, exposure, tonemap;
 };
@@ -423,6 +423,8 @@ enum host_forward host_forward_kind(const struct host_renderer *renderer, bool b
 /* Makes those that the scene needs and that are missing. Drivers compile the lookup for long, so that
  * pipelines of the other kind, or for materials that the scene lacks, would cost every start seconds. */
 bool host_forward_prepare(struct host_renderer *renderer);
+VkPipeline host_forward_pipeline(const struct host_renderer *renderer, enum host_forward kind,
+                                 uint32_t instance);
 
 bool host_frustum_sees(const struct host_frustum *frustum, const struct host_instance *instance);
 

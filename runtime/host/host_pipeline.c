@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Pipelines and their layouts. The forward shader exists three times: see enum host_forward. */
+ * Pipelines and their layouts. The forward shader exists four times: see enum host_forward, and with lookups
+ * for materials that are rough everywhere once more, without rays. Rays take most of its time. */
 #include "host_internal.h"
 
 #include "host_exposure_comp.h"
@@ -9,6 +10,8 @@
 #include "host_forward_gathered_fog_frag.h"
 #include "host_forward_gi_frag.h"
 #include "host_forward_gi_fog_frag.h"
+#include "host_forward_gi_rays_frag.h"
+#include "host_forward_gi_rays_fog_frag.h"
 #include "host_prepass_frag.h"
 #include "host_screen_vert.h"
 #include "host_shadow_frag.h"
@@ -19,6 +22,8 @@
 #include "host_sky_fog_frag.h"
 #include "host_surface_vert.h"
 #include "host_tonemap_frag.h"
+
+#include <string.h>
 
 struct shader_code {
     const uint32_t *words;
@@ -259,23 +264,25 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
     return true;
 }
 
-static struct shader_code forward_code(enum host_forward kind, bool fog)
+static struct shader_code forward_code(enum host_forward kind, bool rays, bool fog)
 {
+    const struct shader_code with_rays[2] = { SHADER(host_forward_gi_rays_frag),
+                                              SHADER(host_forward_gi_rays_fog_frag) };
     const struct shader_code codes[HOST_FORWARD_COUNT][2] = {
         [HOST_FORWARD_PLAIN] = { SHADER(host_forward_frag), SHADER(host_forward_fog_frag) },
         [HOST_FORWARD_GI] = { SHADER(host_forward_gi_frag), SHADER(host_forward_gi_fog_frag) },
         [HOST_FORWARD_GATHERED] = { SHADER(host_forward_gathered_frag),
                                     SHADER(host_forward_gathered_fog_frag) },
     };
-    return codes[kind][fog];
+    return rays ? with_rays[fog] : codes[kind][fog];
 }
 
 static bool forward_create(struct host_renderer *renderer, enum host_forward kind, enum host_cull cull,
-                           bool blend, VkPipeline *out)
+                           bool blend, bool rays, VkPipeline *out)
 {
     const struct pipeline_desc desc = {
         .vertex = SHADER(host_surface_vert),
-        .fragment = forward_code(kind, host_fog_exists(renderer->scene)),
+        .fragment = forward_code(kind, rays, host_fog_exists(renderer->scene)),
         .layout = renderer->pipelines.layouts[kind],
         .pass = renderer->passes.forward,
         .vertices = true,
@@ -296,19 +303,48 @@ enum host_forward host_forward_kind(const struct host_renderer *renderer, bool b
                                                                        : HOST_FORWARD_GATHERED;
 }
 
+/* Whether a material sends rays where its pixels look light up. */
+static bool sends_rays(const struct host_pipelines *pipelines, enum host_forward kind,
+                       const struct host_material *material)
+{
+    return kind == HOST_FORWARD_GI && 1 - material->gi.smoothness < pipelines->rays_end;
+}
+
+VkPipeline host_forward_pipeline(const struct host_renderer *renderer, enum host_forward kind,
+                                 uint32_t instance)
+{
+    const struct host_material *material = host_instance_material(renderer->scene, instance);
+    const bool blend = material->flags & HOST_MATERIAL_BLEND;
+    return renderer->pipelines.forward[kind][host_instance_cull(renderer->scene, instance)][blend]
+                                      [sends_rays(&renderer->pipelines, kind, material)];
+}
+
+/* Which materials send rays is a setting, which may change from frame to frame. */
+static void follow_settings(struct host_renderer *renderer)
+{
+    struct sdfgi_settings settings;
+    host_gi_get_settings(renderer->gi, &settings);
+    if (settings.reflection_end != renderer->pipelines.rays_end)
+        memset(renderer->pipelines.forward_made, 0, sizeof renderer->pipelines.forward_made);
+    renderer->pipelines.rays_end = settings.reflection_end;
+}
+
 bool host_forward_prepare(struct host_renderer *renderer)
 {
     struct host_pipelines *p = &renderer->pipelines;
     const struct host_scene *scene = renderer->scene;
     bool *made = &p->forward_made[host_forward_kind(renderer, false)];
+    follow_settings(renderer);
     if (*made)
         return true;
     for (uint32_t i = 0; i < scene->instance_count; i++) {
+        const struct host_material *material = host_instance_material(scene, i);
         const enum host_cull cull = host_instance_cull(scene, i);
-        const bool blend = host_instance_material(scene, i)->flags & HOST_MATERIAL_BLEND;
+        const bool blend = material->flags & HOST_MATERIAL_BLEND;
         const enum host_forward kind = host_forward_kind(renderer, blend);
-        VkPipeline *pipeline = blend ? &p->blend[kind][cull] : &p->opaque[kind][cull];
-        if (!*pipeline && !forward_create(renderer, kind, cull, blend, pipeline))
+        const bool rays = sends_rays(p, kind, material);
+        VkPipeline *pipeline = &p->forward[kind][cull][blend][rays];
+        if (!*pipeline && !forward_create(renderer, kind, cull, blend, rays, pipeline))
             return false;
     }
     *made = true;
@@ -403,10 +439,9 @@ void host_pipelines_finish(struct host_device *device, struct host_pipelines *p)
     VkDevice vk = device->device;
     for (int cull = 0; cull < HOST_CULL_COUNT; cull++) {
         vkDestroyPipeline(vk, p->prepass[cull], NULL);
-        for (int kind = 0; kind < HOST_FORWARD_COUNT; kind++) {
-            vkDestroyPipeline(vk, p->opaque[kind][cull], NULL);
-            vkDestroyPipeline(vk, p->blend[kind][cull], NULL);
-        }
+        for (int kind = 0; kind < HOST_FORWARD_COUNT; kind++)
+            for (int i = 0; i < 4; i++)
+                vkDestroyPipeline(vk, p->forward[kind][cull][i / 2][i % 2], NULL);
     }
     const VkPipeline rest[] = { p->shadow_solid, p->shadow_tested, p->sky, p->exposure, p->tonemap };
     for (size_t i = 0; i < HOST_COUNT(rest); i++)

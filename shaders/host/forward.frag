@@ -13,7 +13,11 @@
 #endif
 #ifdef HOST_GI
 #define SDFGI_SET HOST_SET_GI
+#ifdef HOST_RAYS
 #include "sdfgi_reflection.glsl"
+#else
+#include "sdfgi.glsl"
+#endif
 #endif
 #ifdef HOST_GATHERED
 layout(set = HOST_SET_GI, binding = 0) uniform sampler2D irradiance_image;
@@ -94,12 +98,15 @@ float perceptual_roughness(brdf_surface s)
 void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
 {
     irradiance = reflection = vec3(0.0);
-#if defined(HOST_GI)
+#if defined(HOST_RAYS)
     const vec3 to_eye = -camera_offset(in_position);
     const sdfgi_surface_light light =
         sdfgi_lighting(in_position, s.normal, to_eye, perceptual_roughness(s));
     irradiance = light.irradiance;
     reflection = light.reflection * s.specular * brdf_specular_albedo(s);
+#elif defined(HOST_GI)
+    irradiance = sdfgi_irradiance(in_position, s.normal, -camera_offset(in_position));
+    reflection = irradiance / BRDF_PI * s.specular * brdf_specular_albedo(s);
 #elif defined(HOST_GATHERED)
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
     irradiance = texelFetch(irradiance_image, pixel, 0).rgb;

@@ -74,24 +74,8 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
     return arriving < SDFGI_SURFACE_UNKNOWN ? vec4(sdfgi_rgbe_decode(arriving), 1.0) : vec4(0.0);
 }
 
-/* Light of a light cell along a normal, times weight, in rgb; its weight in a. The axes along which surfaces
- * face are weighed by the squares of the normal's components. */
-vec4 sdfgi_cell_along(uint cascade, uint entry, vec3 normal, uint what)
-{
-    vec4 sum = vec4(0.0);
-    for (uint major = 0u; major < 3u; major++) {
-        const float along = sdfgi_trace_component(normal, int(major));
-        /* Less than a hundredth of the weight: not worth a load. */
-        if (abs(along) < 0.1)
-            continue;
-        const uint axis = 2u * major + (along < 0.0 ? 1u : 0u);
-        sum += along * along * sdfgi_cell_surface(cascade, entry, axis, what);
-    }
-    return sum;
-}
-
-/* The same for a surface that is smaller than a cell, and faces along none of its cell's axes: the surfaces
- * around it stand for it, those that face away excepted. */
+/* Light of a light cell for a surface that is smaller than a cell, times weight, in rgb; its weight in a. The
+ * surface faces along none of its cell's axes: those around it stand for it, those that face away excepted. */
 vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
 {
     vec4 sum = vec4(0.0);
@@ -110,30 +94,55 @@ bool sdfgi_cell_is_light(uint cascade, ivec3 cell)
     return sdfgi_cell_entry(cascade, cell, entry);
 }
 
+/* The bits along the lines of four sub-voxels through one of a cell, for each axis. */
+uvec3 sdfgi_cells_lines(uvec2 bits, uvec3 subvoxel)
+{
+    const uint slice = (subvoxel.z > 1u ? bits.y : bits.x) >> (16u * (subvoxel.z & 1u));
+    const uint y = slice >> subvoxel.x;
+    const uvec2 z = bits >> (subvoxel.x + 4u * subvoxel.y);
+    return uvec3(slice >> (4u * subvoxel.y) & 15u,
+                 (y & 1u) | (y >> 3u & 2u) | (y >> 6u & 4u) | (y >> 9u & 8u),
+                 (z.x & 1u) | (z.x >> 15u & 2u) | (z.y & 1u) << 2u | (z.y >> 13u & 8u));
+}
+
+/* The faces of an occupied cell towards which no sub-voxel of the cell is set, a bit each, seen from a point
+ * in the cell, and how good a way each of them is: the one along the normal, or else the nearest. */
+uint sdfgi_cells_open_faces(uvec2 bits, vec3 normal, vec3 at, out float scores[6])
+{
+    const uvec3 subvoxel = uvec3(ivec3(floor(at * 4.0)) & 3);
+    const uvec3 lines = sdfgi_cells_lines(bits, subvoxel), ahead = lines >> subvoxel,
+                behind = lines & ((uvec3(2u) << subvoxel) - 1u);
+    const vec3 inside = at - floor(at), forward = 2.0 * normal - 1.0 + inside,
+               backward = -2.0 * normal - inside;
+    scores = float[6](forward.x, backward.x, forward.y, backward.y, forward.z, backward.z);
+    return uint(ahead.x == 0u) | uint(behind.x == 0u) << 1u | uint(ahead.y == 0u) << 2u |
+           uint(behind.y == 0u) << 3u | uint(ahead.z == 0u) << 4u | uint(behind.z == 0u) << 5u;
+}
+
 /* Moves a point out of an occupied cell, into a neighbouring light cell. Between the point and the face that
- * it leaves by, no sub-voxel of the cell is set: both are on the same side of a wall in the cell. Of several
- * faces the one along the normal is taken, or else the nearest. */
+ * it leaves by, no sub-voxel of the cell is set: both are on the same side of a wall in the cell. The best
+ * way mostly leads to a light cell, so few are looked at. */
 bool sdfgi_cells_leave(uint cascade, uvec2 bits, vec3 normal, inout vec3 at)
 {
-    const ivec3 cell = ivec3(floor(at)), subvoxel = ivec3(floor(at * 4.0)) & 3;
-    const vec3 inside = at - vec3(cell);
-    float best = -1e9;
-    vec3 result = at;
-    for (uint side = 0u; side < 6u; side++) {
-        const ivec3 unit = sdfgi_axis_direction(side), axis = abs(unit);
-        const bool forward = (side & 1u) == 0u;
-        const ivec3 low = forward ? subvoxel : subvoxel * (1 - axis);
-        const ivec3 high = forward ? max(subvoxel, 3 * axis) : subvoxel;
-        const float along = dot(inside, vec3(axis)), range = forward ? 1.0 - along : along;
-        const float score = 2.0 * dot(normal, vec3(unit)) - range;
-        if (score <= best || (bits & sdfgi_trace_box_bits(uvec3(low), uvec3(high))) != uvec2(0u) ||
-            !sdfgi_cell_is_light(cascade, cell + unit))
-            continue;
-        best = score;
-        result = at + vec3(unit) * (range + SDFGI_CELLS_INSIDE);
+    float scores[6];
+    uint open = sdfgi_cells_open_faces(bits, normal, at, scores);
+    while (open != 0u) {
+        uint best = 6u;
+        float score = -1e9;
+        for (uint side = 0u; side < 6u; side++)
+            if ((open >> side & 1u) != 0u && scores[side] > score) {
+                best = side;
+                score = scores[side];
+            }
+        const ivec3 unit = sdfgi_axis_direction(best);
+        if (sdfgi_cell_is_light(cascade, ivec3(floor(at)) + unit)) {
+            const float along = dot(at - floor(at), vec3(abs(unit)));
+            at += vec3(unit) * (((best & 1u) == 0u ? 1.0 - along : along) + SDFGI_CELLS_INSIDE);
+            return true;
+        }
+        open &= ~(1u << best);
     }
-    at = result;
-    return best > -1e9;
+    return false;
 }
 
 bool sdfgi_cells_is_set(uvec2 bits, vec3 at)
@@ -158,11 +167,11 @@ bool sdfgi_cells_step_out(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout
            !sdfgi_cells_is_set(sdfgi_cell_bits(cascade, ivec3(floor(at))), at);
 }
 
-/* Moves a point into an empty cell, if it is not in one. A point in a set sub-voxel is first moved a little
- * towards the viewer, who is known to be on the open side of the surface. False if there is no way. */
-bool sdfgi_cells_find_open(uint cascade, vec3 normal, vec3 eye, inout vec3 at)
+/* Moves a point into an empty cell, if it is not in one; `bits` are those of its cell. A point in a set
+ * sub-voxel is first moved a little towards the viewer, who is known to be on the open side of the surface.
+ * False if there is no way. */
+bool sdfgi_cells_find_open(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout vec3 at)
 {
-    uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
     if (sdfgi_cells_is_set(bits, at)) {
         at += sdfgi_cells_from_metric(eye) * SDFGI_CELLS_TOWARDS_EYE;
         bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
@@ -177,36 +186,69 @@ bool sdfgi_cells_find_open(uint cascade, vec3 normal, vec3 eye, inout vec3 at)
 
 /* ---- Interpolation */
 
-/* The cells of an interpolation are numbered by the axes along which they differ from the cell that holds the
- * point, a bit each: first that cell, then those that share a face with it, an edge, and a corner. */
-const uint SDFGI_CELLS_ORDER = 0x76534210u;
+/* The light cells of an interpolation, numbered by the axes along which they differ from the cell that holds
+ * the point, a bit each. A weight is 0 where a cell takes no part; its entry then is any. */
+struct sdfgi_cells_cage {
+    uint entries[8];
+    float weights[8];
+};
 
-/* Interpolates the light cells around a point in an empty cell. Those beyond an edge or a corner take part
- * only if a light cell that shares a face with the point's cell leads to them: others may be behind walls. */
-vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, uint what)
+/* The light cells around a point in an empty cell. Those beyond an edge or a corner take part only if a light
+ * cell that shares a face with the point's cell leads to them: others may be behind walls. All blocks are
+ * loaded before any is looked at, and so are the surfaces afterwards: a load that waits for another one takes
+ * most of the time of a lookup. */
+sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at)
 {
     const ivec3 own = ivec3(floor(at));
     const vec3 off = at - vec3(own) - 0.5;
-    const ivec3 side = ivec3(sign(off));
-    uint open = 0u; /* a bit per axis: the neighbour along it is a light cell */
-    vec4 sum = vec4(0.0);
+    const uvec3 here = sdfgi_cell_texel(cascade, own),
+                beside = sdfgi_cell_texel(cascade, own + ivec3(sign(off)));
+    sdfgi_cells_cage cage;
+    uint light = 0u; /* a bit per cell: it is a light cell */
     for (uint i = 0u; i < 8u; i++) {
-        const uint moved = SDFGI_CELLS_ORDER >> (4u * i) & 7u;
-        const bool beyond_face = bitCount(moved) > 1;
-        if (beyond_face && (moved & open) == 0u)
-            continue;
-        const ivec3 axes = ivec3(moved & 1u, moved >> 1u & 1u, moved >> 2u);
-        const vec3 near = mix(1.0 - abs(off), abs(off), vec3(axes));
-        uint entry;
-        if (!sdfgi_cell_entry(cascade, own + axes * side, entry))
-            continue;
-        open |= beyond_face ? 0u : moved;
-        const float weight = near.x * near.y * near.z + SDFGI_CELLS_LEAST_WEIGHT;
-        if (around)
-            sum += weight * sdfgi_cell_around(cascade, entry, normal, what);
-        else
-            sum += weight * sdfgi_cell_along(cascade, entry, normal, what);
+        const uvec3 texel = mix(here, beside, bvec3(i & 1u, i & 2u, i & 4u));
+        const bool is_light = sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel,
+                                                      cage.entries[i]);
+        light |= is_light ? 1u << i : 0u;
     }
+    const uint faces = light & 0x16u, open = faces >> 1u & 3u | faces >> 2u & 4u;
+    for (uint i = 0u; i < 8u; i++) {
+        const bool counts = (light >> i & 1u) != 0u && (bitCount(i) < 2 || (i & open) != 0u);
+        const vec3 near = mix(1.0 - abs(off), abs(off), bvec3(i & 1u, i & 2u, i & 4u));
+        cage.weights[i] = counts ? near.x * near.y * near.z + SDFGI_CELLS_LEAST_WEIGHT : 0.0;
+        cage.entries[i] = counts ? cage.entries[i] : 0u;
+    }
+    return cage;
+}
+
+/* Light of the cells of an interpolation along a normal, times weight, in rgb; its weight in a. The axes along
+ * which surfaces face are weighed by the squares of the normal's components. */
+vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal, uint what)
+{
+    vec4 sum = vec4(0.0);
+    for (uint major = 0u; major < 3u; major++) {
+        const float along = sdfgi_trace_component(normal, int(major));
+        /* Less than a hundredth of the weight: not worth a load. */
+        if (abs(along) < 0.1)
+            continue;
+        const uint axis = 2u * major + (along < 0.0 ? 1u : 0u);
+        vec4 along_axis = vec4(0.0);
+        for (uint i = 0u; i < 8u; i++)
+            along_axis += cage.weights[i] * sdfgi_cell_surface(cascade, cage.entries[i], axis, what);
+        sum += along * along * along_axis;
+    }
+    return sum;
+}
+
+vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, uint what)
+{
+    const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, at);
+    if (!around)
+        return sdfgi_cells_along(cascade, cage, normal, what);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < 8u; i++)
+        if (cage.weights[i] > 0.0)
+            sum += cage.weights[i] * sdfgi_cell_around(cascade, cage.entries[i], normal, what);
     return sum;
 }
 
@@ -222,18 +264,33 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
                high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
-    const bool at_surface = sdfgi_cell_bits(cascade, ivec3(floor(clamp(pos, low, high)))) != uvec2(0u);
+    const vec3 above = SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias * normal,
+               surface = clamp(pos, low, high);
+    vec3 at = clamp(pos + sdfgi_cells_from_metric(above), low, high);
+    const uvec2 surface_bits = sdfgi_cell_bits(cascade, ivec3(floor(surface)));
+    uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
+    const bool at_surface = surface_bits != uvec2(0u);
+    if (!at_surface && bits != uvec2(0u)) {
+        at = surface;
+        bits = surface_bits;
+    }
+    const vec3 first = at;
+    const uvec2 first_bits = bits;
     const int tries = at_surface ? SDFGI_CELLS_TRIES : 2;
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < tries && sum.a <= 0.0; i++) {
-        const float place = at_surface ? float(i) : 0.0;
-        const vec3 above = (place + 1.0) * SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias * normal;
-        const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
-        vec3 at = clamp(pos + sdfgi_cells_from_metric(above + towards), low, high);
-        if (!at_surface && sdfgi_cell_bits(cascade, ivec3(floor(at))) != uvec2(0u))
-            at = clamp(pos, low, high);
-        if (sdfgi_cells_find_open(cascade, normal, eye, at))
+    for (int i = 0; i < tries; i++) {
+        if (sdfgi_cells_find_open(cascade, bits, normal, eye, at))
             sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0, what);
+        if (sum.a > 0.0)
+            break;
+        at = first;
+        bits = first_bits;
+        if (at_surface) {
+            const float place = float(i + 1);
+            const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
+            at = clamp(pos + sdfgi_cells_from_metric((place + 1.0) * above + towards), low, high);
+            bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
+        }
     }
     return sum;
 }

@@ -62,7 +62,7 @@ vec4 sdfgi_lookup(sdfgi_lookup_query query)
         result += rest * weight * light.rgb / light.a;
         rest *= 1.0 - weight;
     }
-    const vec3 sky = sdfgi_sky_around(query.normal);
+    const vec3 sky = outside > 0.0 ? sdfgi_sky_around(query.normal) : vec3(0.0);
     /* What no cascade has answered, although it lies within one, is not outside: the others stand for it. */
     const float answered = 1.0 - rest + outside;
     return answered > 1e-3 ? vec4((result + outside * sky) / answered, 1.0) : vec4(0.0);
