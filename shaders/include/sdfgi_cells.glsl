@@ -74,8 +74,9 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
     return arriving < SDFGI_SURFACE_UNKNOWN ? vec4(sdfgi_rgbe_decode(arriving), 1.0) : vec4(0.0);
 }
 
-/* Light of a light cell for a surface that is smaller than a cell, times weight, in rgb; its weight in a. The
- * surface faces along none of its cell's axes: those around it stand for it, those that face away excepted. */
+/* Light of a light cell for a surface that is smaller than a cell, times weight, in rgb; its weight in a.
+ * The surface faces along none of its cell's axes: those around it stand for it, those that face away
+ * excepted. */
 vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
 {
     vec4 sum = vec4(0.0);
@@ -221,8 +222,8 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at)
     return cage;
 }
 
-/* Light of the cells of an interpolation along a normal, times weight, in rgb; its weight in a. The axes along
- * which surfaces face are weighed by the squares of the normal's components. */
+/* Light of the cells of an interpolation along a normal, times weight, in rgb; its weight in a. The axes
+ * along which surfaces face are weighed by the squares of the normal's components. */
 vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal, uint what)
 {
     vec4 sum = vec4(0.0);
