@@ -5,7 +5,8 @@
  *     #include "sdfgi.glsl"          // needs GL_GOOGLE_include_directive
  *     radiance += albedo / PI * sdfgi_irradiance(position, normal, to_eye);
  *
- * Positions are in metres relative to sdfgi_frame_desc::origin of the last sdfgi_update. */
+ * Positions are in metres relative to sdfgi_frame_desc::origin of the last sdfgi_update. Whatever is passed,
+ * light is finite. */
 #ifndef SDFGI_GLSL
 #define SDFGI_GLSL
 
@@ -23,8 +24,9 @@ vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
     if (sdfgi_frame.cascade_count == 0u)
         return vec3(0.0);
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    const sdfgi_lookup_query query =
-        sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_first_from_position(position), normal, to_eye);
+    const vec3 unit = sdfgi_lookup_unit(normal);
+    const sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_lookup_position(position),
+                                                        unit, sdfgi_lookup_to_eye(to_eye, unit));
     return to_watts * sdfgi_lookup(query).rgb;
 }
 
@@ -41,7 +43,7 @@ sdfgi_air_light sdfgi_light_air(vec3 position, vec3 direction)
     if (sdfgi_frame.cascade_count == 0u)
         return light;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
-    light = sdfgi_air_lookup(sdfgi_first_from_position(position), direction);
+    light = sdfgi_air_lookup(sdfgi_lookup_position(position), sdfgi_lookup_unit(direction));
     light.mean *= scale;
     light.towards *= scale;
     return light;

@@ -128,7 +128,7 @@ bool sdfgi_cells_leave(uint cascade, uvec2 bits, vec3 normal, inout vec3 at)
     float scores[6];
     uint open = sdfgi_cells_open_faces(bits, normal, at, scores);
     while (open != 0u) {
-        uint best = 6u;
+        uint best = uint(findLSB(open)); /* of scores that are no numbers, any */
         float score = -1e9;
         for (uint side = 0u; side < 6u; side++)
             if ((open >> side & 1u) != 0u && scores[side] > score) {

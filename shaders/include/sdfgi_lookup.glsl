@@ -30,6 +30,27 @@ struct sdfgi_lookup_query {
 const uint SDFGI_LOOKUP_SURFACE = 0u; /* irradiance over pi of a surface: light cells answer, else probes */
 const uint SDFGI_LOOKUP_LEAVING = 1u; /* radiance that leaves a surface: light cells answer */
 
+/* Shaders pass what they have, and the normal of a triangle without area is no number. Some unit vector
+ * stands for what is none, the normal for a way to a viewer who is nowhere, and a point far beyond all
+ * cascades for one that is nowhere. */
+vec3 sdfgi_lookup_unit(vec3 direction)
+{
+    const float square = dot(direction, direction);
+    return square > 0.25 && square < 4.0 ? direction : vec3(0.0, 1.0, 0.0);
+}
+
+vec3 sdfgi_lookup_to_eye(vec3 to_eye, vec3 normal)
+{
+    const float square = dot(to_eye, to_eye);
+    return square > 1e-30 && square < 1e30 ? to_eye : normal;
+}
+
+/* In cell space of cascade 0. */
+vec3 sdfgi_lookup_position(vec3 position)
+{
+    return sdfgi_first_from_position(dot(position, position) < 1e30 ? position : vec3(1e15));
+}
+
 /* Light times exposure and weight in rgb, and its weight in a, of one cascade. */
 vec4 sdfgi_lookup_cascade(uint cascade, vec3 pos, sdfgi_lookup_query query)
 {

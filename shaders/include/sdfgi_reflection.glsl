@@ -149,15 +149,17 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
     sdfgi_surface_light result = sdfgi_surface_light(vec3(0.0), vec3(0.0), 0.0);
     if (sdfgi_frame.cascade_count == 0u)
         return result;
-    const vec3 pos = sdfgi_first_from_position(position),
-               dir = sdfgi_reflection_direction(normal, to_eye, roughness);
-    const float share = sdfgi_reflection_ray_share(roughness);
+    const vec3 pos = sdfgi_lookup_position(position), unit = sdfgi_lookup_unit(normal),
+               eye = sdfgi_lookup_to_eye(to_eye, unit);
+    const float rough_or_1 = roughness < 1.0 ? max(roughness, 0.0) : 1.0;
+    const vec3 dir = sdfgi_reflection_direction(unit, eye, rough_or_1);
+    const float share = sdfgi_reflection_ray_share(rough_or_1);
     const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
     if (share > 0.0)
-        ray = sdfgi_reflection_trace(pos, normal, dir);
+        ray = sdfgi_reflection_trace(pos, unit, dir);
     vec3 rough = vec3(0.0), light = ray.light;
-    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, normal, to_eye);
+    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, unit, eye);
     float weight = 1.0;
     /* The surface first, then what the ray hit. One loop, so that drivers compile the lookup once. */
     for (uint i = 0u; i < 3u && weight > 0.0; i++) {
