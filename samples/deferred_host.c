@@ -32,10 +32,10 @@ struct renderer {
 };
 
 /* From the first frame on, what is there of the two pictures takes the place of black. */
-static void show_light(const struct renderer *r, VkImageView irradiance, VkImageView reflection)
+static void show_light(const struct renderer *r, bool lit, VkImageView irradiance, VkImageView reflection)
 {
     const VkImageView views[] = { irradiance, reflection };
-    for (uint32_t i = 0; i < 2 && r->gpu->frame == 0; i++) {
+    for (uint32_t i = 0; i < 2 && lit && r->gpu->frame == 0; i++) {
         const struct sample_binding picture = { .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                                 .view = views[i],
                                                 .layout = VK_IMAGE_LAYOUT_GENERAL };
@@ -65,9 +65,8 @@ static sdfgi *make_gi(const struct sample_gpu *gpu, const struct sample_options 
     sdfgi_settings_default(&settings);
     settings.enabled = options->gi;
     for (uint32_t i = 0; i < options->setting_count; i++)
-        sample_require(
-            sdfgi_settings_set(&settings, options->settings[i][0], options->settings[i][1], NULL, 0),
-            options->settings[i][0]);
+        sample_require(sdfgi_settings_set(&settings, options->names[i], options->values[i], NULL, 0),
+                       options->names[i]);
     const struct sdfgi_desc desc = { .vulkan = { gpu->instance, gpu->physical_device, gpu->device,
                                                  gpu->queue_family, vkGetInstanceProcAddr, NULL,
                                                  VK_API_VERSION_1_2 },
@@ -82,13 +81,10 @@ static sdfgi *make_gi(const struct sample_gpu *gpu, const struct sample_options 
 static void add_lights(sdfgi *gi, const struct sample_view *v)
 {
     const float *at = v->lamp_position, *to = v->lamp_direction, *power = v->lamp_intensity, *s = v->sky;
-    const struct sdfgi_light_desc lamp = { .type = SDFGI_LIGHT_SPOT,
-                                           .position = { at[0], at[1], at[2] },
-                                           .direction = { to[0], to[1], to[2] },
-                                           .intensity = { power[0], power[1], power[2] },
-                                           .inner_angle_rad = acosf(at[3]),
-                                           .outer_angle_rad = acosf(to[3]),
-                                           .casts_shadow = true };
+    struct sdfgi_light_desc lamp = { .type = SDFGI_LIGHT_SPOT, .casts_shadow = true };
+    for (int i = 0; i < 3; i++)
+        lamp.position[i] = at[i], lamp.direction[i] = to[i], lamp.intensity[i] = power[i];
+    lamp.inner_angle_rad = acosf(at[3]), lamp.outer_angle_rad = acosf(to[3]);
     const struct sdfgi_sky sky = { { s[0], s[1], s[2] }, { s[0], s[1], s[2] }, { s[0], s[1], s[2] } };
     SAMPLE_CHECK(sdfgi_light_create(gi, &lamp, &(sdfgi_light){ 0 }));
     SAMPLE_CHECK(sdfgi_set_sky(gi, &sky));
@@ -123,14 +119,13 @@ static void add_object(sdfgi *gi, const struct renderer *r, const struct sample_
 /* Between G-buffer and lighting. The first frame tells which pictures light is in; black while GI is off. */
 static void resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd, const struct renderer *r)
 {
-    struct sdfgi_resolve_desc desc = { .background_depth = 1 };
+    struct sdfgi_resolve_desc desc = { r->depth.view, r->colors[1].view, r->colors[2].view,
+                                       .background_depth = 1 };
     struct sdfgi_view_images images;
-    desc.depth = r->depth.view, desc.normal = r->colors[1].view, desc.roughness = r->colors[2].view;
     memcpy(desc.inverse_view_projection, r->scene.view.world_from_clip, sizeof desc.inverse_view_projection);
     SAMPLE_CHECK(sdfgi_view_resolve(gi, view, cmd, &desc));
     sdfgi_view_get_images(view, &images);
-    if (sdfgi_is_active(gi))
-        show_light(r, images.diffuse, images.reflection);
+    show_light(r, sdfgi_is_active(gi), images.diffuse, images.reflection);
 }
 /* GI ends */
 

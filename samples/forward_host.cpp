@@ -37,9 +37,8 @@ static sdfgi *make_gi(const sample_gpu &gpu, const sample_options &options)
     sdfgi_settings_default(&settings);
     settings.enabled = options.gi;
     for (uint32_t i = 0; i < options.setting_count; i++)
-        sample_require(
-            sdfgi_settings_set(&settings, options.settings[i][0], options.settings[i][1], nullptr, 0),
-            options.settings[i][0]);
+        sample_require(sdfgi_settings_set(&settings, options.names[i], options.values[i], nullptr, 0),
+                       options.names[i]);
     sdfgi_desc desc = {};
     desc.vulkan = { gpu.instance, gpu.physical_device, gpu.device, gpu.queue_family, vkGetInstanceProcAddr,
                     nullptr,      VK_API_VERSION_1_2 };

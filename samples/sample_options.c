@@ -22,10 +22,10 @@ static bool read_setting(struct sample_options *o, const char *text)
     const char *equals = strchr(text, '=');
     if (!equals || o->setting_count == SAMPLE_MAX_SETTINGS)
         return false;
-    char(*setting)[64] = o->settings[o->setting_count++];
-    const int name = snprintf(setting[0], sizeof setting[0], "%.*s", (int)(equals - text), text),
-              value = snprintf(setting[1], sizeof setting[1], "%s", equals + 1);
-    return name < (int)sizeof setting[0] && value < (int)sizeof setting[1];
+    const uint32_t at = o->setting_count++;
+    const int name = snprintf(o->names[at], sizeof o->names[at], "%.*s", (int)(equals - text), text),
+              value = snprintf(o->values[at], sizeof o->values[at], "%s", equals + 1);
+    return name < (int)sizeof o->names[at] && value < (int)sizeof o->values[at];
 }
 
 static bool read_number(const char *text, char end_with, uint32_t most, uint32_t *out)

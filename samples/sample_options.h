@@ -13,13 +13,13 @@ extern "C" {
 enum { SAMPLE_MAX_SETTINGS = 16 };
 
 struct sample_options {
-    const char *out;                           /* picture's file; NULL: none */
-    bool gi;                                   /* --gi on or off */
-    bool window;                               /* --window */
-    uint32_t width, height;                    /* --size WxH */
-    uint32_t frames;                           /* --frames N: as many at most */
-    uint32_t setting_count;                    /* --set NAME=VALUE, as often as wanted */
-    char settings[SAMPLE_MAX_SETTINGS][2][64]; /* names and values */
+    const char *out;        /* picture's file; NULL: none */
+    bool gi;                /* --gi on or off */
+    bool window;            /* --window */
+    uint32_t width, height; /* --size WxH */
+    uint32_t frames;        /* --frames N: as many at most */
+    uint32_t setting_count; /* --set NAME=VALUE, as often as wanted */
+    char names[SAMPLE_MAX_SETTINGS][64], values[SAMPLE_MAX_SETTINGS][64]; /* of those */
 };
 
 /* A wrong command line ends the program with 2, --help with 0. */

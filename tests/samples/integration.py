@@ -9,7 +9,7 @@ import sys
 root = pathlib.Path(sys.argv[1])
 samples = root / "samples"
 guide = (root / "docs" / "integration.md").read_text(encoding="utf-8")
-MAX_GI_LINES, MAX_MINIMAL_LINES = 105, 150
+MAX_GI_LINES, MAX_MINIMAL_LINES = 100, 150
 HOSTS = {"forward": ("forward_host.cpp", "forward_host.frag"),
          "deferred": ("deferred_host.c", "deferred_shade.comp", "deferred_gbuffer.frag")}
 
@@ -100,7 +100,7 @@ def links_that_lead_nowhere():
 
 
 CLAIMS = {
-    "hosts_integrate_the_library_in_about_100_lines": hosts_that_take_too_many_lines,
+    "hosts_integrate_the_library_in_100_lines": hosts_that_take_too_many_lines,
     "all_lines_about_the_library_are_marked": lines_about_the_library_that_are_not_marked,
     "hosts_see_what_is_installed": headers_that_an_installed_copy_lacks,
     "the_guide_tells_every_health_code": codes_that_the_guide_does_not_tell,
