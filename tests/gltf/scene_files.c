@@ -117,6 +117,13 @@ static struct gltf_scene *load(const char *name, char *error, size_t size)
     return scene;
 }
 
+void packed_write(const void *data, size_t size, const char *rest)
+{
+    struct draft d = { 0 };
+    draft_view(&d, data, size);
+    draft_write(&d, rest, "packed.glb");
+}
+
 void refused_with(const char *wrong)
 {
     char error[512];

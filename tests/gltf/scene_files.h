@@ -78,6 +78,8 @@ void png_resize(uint8_t *png, uint32_t width, uint32_t height);
 size_t png_bomb_encode(uint8_t *out, size_t capacity);
 void base64_encode(const uint8_t *data, size_t size, char *out, size_t capacity);
 
+/* Writes packed.glb: `data` is the first buffer view, `rest` as for draft_json. */
+void packed_write(const void *data, size_t size, const char *rest);
 /* Fails unless packed.glb is refused with a message of one line that holds `wrong`. */
 void refused_with(const char *wrong);
 

@@ -15,13 +15,6 @@
     "\"images\":[{\"bufferView\":0,\"mimeType\":\"image/ktx2\"}],\"textures\":[{\"extensions\":"             \
     "{\"KHR_texture_basisu\":{\"source\":0}}}],\"materials\":[{\"emissiveTexture\":{\"index\":0}}]"
 
-static void ktx2_write(const void *data, size_t size)
-{
-    struct draft d = { 0 };
-    draft_view(&d, data, size);
-    draft_write(&d, KTX2_SCENE, "packed.glb");
-}
-
 #ifdef GLTF_WITH_KTX2
 /* Blocks of 4 x 4, so that each has one colour. Formats are those of Vulkan: R8G8B8A8_SRGB. */
 enum { WIDTH = 12, HEIGHT = 8, FORMAT = 43, WIDTH_AT = 20, BEST = 255 };
@@ -77,7 +70,7 @@ static void a_picture_from_ktx2_is_the_one_that_went_in(void **state)
     (void)state;
     size_t size = 0;
     uint8_t *const data = ktx2_encode(true, &size);
-    ktx2_write(data, size);
+    packed_write(data, size, KTX2_SCENE);
     free(data);
     struct gltf_scene *const s = file_load("packed.glb");
     assert_int_equal(s->image_count, 1);
@@ -108,11 +101,11 @@ static void broken_ktx2_is_refused(void **state)
     size_t size = 0;
     uint8_t *const data = ktx2_encode(true, &size);
     for (size_t kept = 1; kept < size; kept += 1 + kept / 16) {
-        ktx2_write(data, kept);
+        packed_write(data, kept, KTX2_SCENE);
         refused_with("images[0]");
     }
     data[WIDTH_AT + 2] = 1;
-    ktx2_write(data, size);
+    packed_write(data, size, KTX2_SCENE);
     free(data);
     refused_with("the limits are 1 and");
 }
@@ -122,7 +115,7 @@ static void texels_that_are_not_compressed_are_refused(void **state)
     (void)state;
     size_t size = 0;
     uint8_t *const data = ktx2_encode(false, &size);
-    ktx2_write(data, size);
+    packed_write(data, size, KTX2_SCENE);
     free(data);
     refused_with("not one of KHR_texture_basisu");
 }
@@ -130,7 +123,7 @@ static void texels_that_are_not_compressed_are_refused(void **state)
 static void without_libktx_the_message_names_the_option(void **state)
 {
     (void)state;
-    ktx2_write("\253KTX 20", 7);
+    packed_write("\253KTX 20", 7, KTX2_SCENE);
     refused_with("KHR_texture_basisu, which this build does not have: build it with -Dktx2=enabled");
 }
 #endif

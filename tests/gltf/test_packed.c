@@ -336,13 +336,6 @@ static void without_meshoptimizer_the_message_names_the_option(void **state)
     "[{\"bufferView\":0,\"mimeType\":\"image/webp\"}],\"textures\":[{\"extensions\":{\"EXT_texture_webp\":"  \
     "{\"source\":0}}}],\"materials\":[{\"emissiveTexture\":{\"index\":0}}]"
 
-static void webp_write(const void *data, size_t size)
-{
-    struct draft d = { 0 };
-    draft_view(&d, data, size);
-    draft_write(&d, WEBP_SCENE, "packed.glb");
-}
-
 #ifdef GLTF_WITH_WEBP
 static const uint8_t texels[16] = { 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 10, 20, 30, 40 };
 
@@ -352,7 +345,7 @@ static void a_picture_from_webp_is_the_one_that_went_in(void **state)
     uint8_t *data = NULL;
     const size_t size = WebPEncodeLosslessRGBA(texels, 2, 2, 8, &data);
     assert_true(size > 0);
-    webp_write(data, size);
+    packed_write(data, size, WEBP_SCENE);
     WebPFree(data);
     struct gltf_scene *const s = file_load("packed.glb");
     assert_int_equal(s->image_count, 1);
@@ -385,7 +378,7 @@ static void broken_webp_is_refused(void **state)
     uint8_t *data = NULL;
     const size_t size = WebPEncodeLosslessRGBA(texels, 2, 2, 8, &data);
     for (size_t kept = 1; kept + 2 < size; kept++) {
-        webp_write(data, kept);
+        packed_write(data, kept, WEBP_SCENE);
         refused_with("images[0]");
     }
     /* Lossless: after "VP8L", its size and a signature, 14 bits each of width - 1 and height - 1. */
@@ -393,7 +386,7 @@ static void broken_webp_is_refused(void **state)
     data[22] = 0xff;
     data[23] = 0xff;
     data[24] |= 0x0f;
-    webp_write(data, size);
+    packed_write(data, size, WEBP_SCENE);
     WebPFree(data);
     refused_with("more than 67108864 texels");
 }
@@ -401,7 +394,7 @@ static void broken_webp_is_refused(void **state)
 static void without_webp_the_message_names_the_option(void **state)
 {
     (void)state;
-    webp_write("RIFF", 4);
+    packed_write("RIFF", 4, WEBP_SCENE);
     refused_with("EXT_texture_webp, which this build does not have: build it with -Dwebp=enabled");
 }
 #endif
