@@ -139,7 +139,7 @@ static const struct row rows[] = {
         "takes over. At or above that there is no blend: rays stop at once."),
     LOOKUPS(reflection_end, "sdfgi_reflection_end", FLOAT, 0.7, 0, 1, "roughness", "",
         "rays for rougher surfaces: reflections that follow what is near",
-        "a ray for each pixel that is smoother, and noise on the roughest",
+        "rays for pixels that are smoother, and noise on the roughest",
         "Surfaces of this roughness and above send no rays: they reflect their irradiance. 0 switches rays "
         "off, and views make no reflections then."),
     RECREATE(sdf_method, "sdfgi_sdf_method", ENUM, SDFGI_SDF_EXACT, 0, 1, "", "exact,flood",

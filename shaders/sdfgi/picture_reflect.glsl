@@ -70,6 +70,14 @@ bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
     return sdfgi_reflection_ray_share(roughness) > 0.0;
 }
 
+/* Pixels from ray to ray, along each axis. Where irradiance takes over, fewer rays will do: the filter's
+ * second run takes the mean of squares all around, and noise that is left counts as little as rays do. */
+int picture_ray_step(float roughness)
+{
+    const float share = sdfgi_reflection_ray_share(roughness);
+    return int(args.ray_step) * (share < 0.5 ? (share < 0.125 ? 4 : 2) : 1);
+}
+
 /* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
  * the square that the filter looks at, differs in roughness by a fifth, or leans by more than the lobe is
  * wide: 2 alpha. */

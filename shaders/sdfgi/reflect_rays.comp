@@ -84,7 +84,7 @@ void reflect_pixel(ivec2 pixel)
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
     const vec3 face = face_normal(pixel, s),
                dir = off_face(lobe_direction(s.normal, s.to_eye, roughness * roughness,
-                                             pattern_point(pixel / int(args.ray_step))),
+                                             pattern_point(pixel / picture_ray_step(roughness))),
                               face);
     const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), face, dir);
     const vec3 light = scale * sdfgi_reflection_light(ray, dir, rough);

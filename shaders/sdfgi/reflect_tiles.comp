@@ -20,7 +20,7 @@ shared uint is_smooth;
 /* True if a pixel sends a ray of its own. */
 bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
 {
-    const int step = int(args.ray_step);
+    const int step = picture_ray_step(roughness);
     const ivec2 at = pixel & (step - 1);
     if (at == ivec2(0))
         return true;
