@@ -46,14 +46,13 @@ bool picture_position(ivec2 pixel, out vec4 position)
     return depth != args.background_depth;
 }
 
-/* What a pixel shows. False for background, and where position or normal are of no use. */
+/* What a pixel shows. False for background, and where position or normal are of no use. Loads all at once. */
 bool picture_surface_at(ivec2 pixel, out picture_surface s)
 {
     vec4 position;
-    if (!picture_position(pixel, position))
-        return false;
-    const mat4 to_position = picture_to_position();
     const vec3 normal = texelFetch(normal_image, pixel, 0).xyz;
+    const bool is_drawn = picture_position(pixel, position);
+    const mat4 to_position = picture_to_position();
     /* A point on the near plane: the vector to it leads towards the viewer. */
     const vec4 near = to_position * vec4(picture_ndc(pixel), 1.0 - args.background_depth, 1.0);
     s.pos = position.xyz / position.w;
@@ -64,7 +63,7 @@ bool picture_surface_at(ivec2 pixel, out picture_surface s)
     const vec3 down = (to_position[1].xyz - s.pos * to_position[1].w) / (position.w * float(args.height));
     s.pixel_m = 2.0 * sqrt(max(dot(right, right), dot(down, down)));
     const float length2 = dot(normal, normal);
-    return length2 > 1e-20 && picture_is_finite(length2) && picture_is_finite(dot(s.pos, s.pos));
+    return is_drawn && length2 > 1e-20 && picture_is_finite(length2) && picture_is_finite(dot(s.pos, s.pos));
 }
 
 #endif

@@ -80,17 +80,20 @@ int picture_ray_step(float roughness)
 
 /* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
  * the square that the filter looks at, differs in roughness by a fifth, or leans by more than the lobe is
- * wide: 2 alpha. */
+ * wide: 2 alpha. Nothing is loaded under a condition: loads that wait for each other take most time. */
 float picture_likeness(picture_surface s, float roughness, float reach, ivec2 pixel)
 {
+    const ivec2 last = ivec2(args.width, args.height) - 1, at = clamp(pixel, ivec2(0), last);
+    const float other_roughness = picture_roughness(at);
     picture_surface other;
-    float other_roughness;
-    if (!picture_reflects(pixel, other, other_roughness))
-        return 0.0;
+    const bool is_surface = picture_surface_at(at, other);
+    const bool counts = is_surface && at == pixel && sdfgi_reflection_ray_share(other_roughness) > 0.0;
     const float off_plane = abs(dot(other.pos - s.pos, s.normal)) / (reach * s.pixel_m);
     const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, other.normal);
-    return max(1.0 - off_plane, 0.0) * max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
-           max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
+    const float likeness = max(1.0 - off_plane, 0.0) *
+                           max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
+                           max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
+    return counts ? likeness : 0.0;
 }
 
 #endif

@@ -33,14 +33,6 @@ float nearness(ivec2 pixel, ivec2 ray, int step)
     return near.x * near.y;
 }
 
-void add(inout vec4 sum, inout float weights, float weight, vec4 value)
-{
-    if (weight <= 0.0 || value.a < 0.0)
-        return;
-    sum += weight * value;
-    weights += weight;
-}
-
 /* The first run interpolates between rays, which may lie apart; the second begins with pixels. */
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
 {
@@ -50,17 +42,22 @@ vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
     const float reach = float(SDFGI_RAYS_SIDE * step);
     const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
     const bool interpolates = is_first() && ray_step > 1;
-    vec4 sum = vec4(0.0);
-    float weights = 0.0;
-    add(sum, weights, 1.0, before_at(pixel));
-    for (int i = 0; i < SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE && (spread > 0.0 || interpolates); i++) {
+    const vec4 own = before_at(pixel);
+    float weights = own.a < 0.0 ? 0.0 : 1.0;
+    vec4 sum = weights * own;
+    const int taps = spread > 0.0 || interpolates ? SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE : 0;
+    for (int i = 0; i < taps; i++) {
         const ivec2 tap = ivec2(i % SDFGI_RAYS_SIDE, i / SDFGI_RAYS_SIDE) - (SDFGI_RAYS_SIDE / 2 - 1);
         const ivec2 at = center + tap * step;
-        const float near = interpolates ? nearness(pixel, at, ray_step) : 0.0, share = mix(near, 1.0, spread);
-        if (at != pixel && share > 0.0)
-            add(sum, weights, share * picture_likeness(s, roughness, reach, at), before_at(at));
+        const float near = interpolates ? nearness(pixel, at, ray_step) : 0.0;
+        const vec4 value = before_at(at);
+        const float share = at == pixel || value.a < 0.0 ? 0.0 : mix(near, 1.0, spread),
+                    weight = share * picture_likeness(s, roughness, reach, at);
+        /* What nobody wrote may be no number. */
+        sum += weight > 0.0 ? weight * value : vec4(0.0);
+        weights += weight;
     }
-    return weights > 0.0 ? sum / weights : vec4(before_at(pixel).rgb, 0.0);
+    return weights > 0.0 ? sum / weights : vec4(own.rgb, 0.0);
 }
 
 void filter_pixel(ivec2 pixel)
