@@ -108,7 +108,7 @@ static void hard_26_far_away_is_the_same(void **state)
 {
     (void)state;
     static struct gi_test here, there;
-    const struct sdfgi_settings settings = scroll_settings(scroll_resolution());
+    const struct sdfgi_settings settings = scroll_settings(scroll_is_full() ? 128 : 32);
     open_at(&here, &settings, 0);
     float near_light[POINTS][3];
     look(&here, near_light);

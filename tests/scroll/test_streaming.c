@@ -32,9 +32,11 @@ struct world {
 static void open_world(struct world *w, struct gi_test *t, const struct sdfgi_settings *settings)
 {
     const double center[3] = { 0, 0, 0 }, half[3] = { 0.9, 0.35, 0.6 };
-    struct test_mesh meshes[MESHES] = { test_mesh_box(center, half, test_rotation_none),
-                                        test_mesh_sphere(center, 0.8, 2),
-                                        test_mesh_torus(center, 0.9, 0.3, test_rotation_none, 16, 8) };
+    const bool full = scroll_is_full();
+    struct test_mesh meshes[MESHES] = {
+        test_mesh_box(center, half, test_rotation_none), test_mesh_sphere(center, 0.8, full ? 2 : 1),
+        test_mesh_torus(center, 0.9, 0.3, test_rotation_none, full ? 16 : 8, full ? 8 : 5)
+    };
     static const float albedo[MESHES][3] = { { 0.8f, 0.3f, 0.1f },
                                              { 0.2f, 0.6f, 0.7f },
                                              { 0.5f, 0.5f, 0.5f } };
@@ -112,7 +114,7 @@ static void ten_thousand_operations_leave_no_trace(void **state)
     const struct sdfgi_settings settings = scroll_settings(32);
     struct test_random random = { 77 };
     double camera[3] = { 0, 0, 0 };
-    const uint32_t per_frame = scroll_is_full() ? 100 : 250;
+    const uint32_t per_frame = scroll_is_full() ? 100 : 500;
     memset(&w, 0, sizeof w);
     open_world(&w, &walked, &settings);
     scroll_stand(&walked, camera);
@@ -409,7 +411,7 @@ static void a_deleted_instance_loses_its_shadow(void **state)
     (void)state;
     static struct gi_test t;
     static struct world w;
-    struct sdfgi_settings settings = scroll_settings(64);
+    struct sdfgi_settings settings = scroll_settings(scroll_is_full() ? 64 : 32);
     memset(&w, 0, sizeof w);
     open_world(&w, &t, &settings);
     scroll_stand(&t, (double[]){ 0, 0, 0 });
