@@ -148,6 +148,8 @@ static void build_right_angle(struct gi_test *t, const struct right_angle *angle
     settings.cascades = angle->cascades;
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays_per_frame = 1 << 18;
+    if (!getenv("SDFGI_TEST_FULL"))
+        settings.cell_rays = 128;
     gi_test_open(t, &settings);
     light_add_box(t, (double[]){ -40, -1, -40 }, (double[]){ 40, 0.05, 40 }, black, 0);
     double low[3] = { -40, 0.05, -40 }, high[3] = { 40, 40, 40 };
