@@ -56,9 +56,10 @@ static double radiance_under_lamp(const double at[static 3], const void *user)
     return lamp->albedo / PI * lamp->intensity * y / (d2 * sqrt(d2));
 }
 
-static void open_scene(struct gi_test *t)
+/* A volume of 16 m: at 32 cells what lies on surfaces is right, and at 64 probes stand in rooms, too. */
+static void open_scene(struct gi_test *t, uint32_t resolution)
 {
-    const struct sdfgi_settings settings = light_settings(64, 0.25f);
+    const struct sdfgi_settings settings = light_quick_settings(resolution, 16.0f / (float)resolution);
     gi_test_open(t, &settings);
 }
 
@@ -84,7 +85,7 @@ static double stored_radiance_up(struct gi_test *t, const double position[static
 static void require_sunlit_plane(uint32_t suns)
 {
     struct gi_test t;
-    open_scene(&t);
+    open_scene(&t, 32);
     light_add_box(&t, (double[]){ -7, -1, -7 }, (double[]){ 7, -0.05, 7 }, white, 0);
     for (uint32_t i = 0; i < suns; i++) {
         struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, 0.36f, 10.0f / (float)suns);
@@ -119,7 +120,7 @@ static void sunlit_floor_lights_a_ceiling(void **state)
 {
     (void)state;
     struct gi_test t;
-    open_scene(&t);
+    open_scene(&t, 32);
     const struct floor_patch floor = { -7, 7, -7, 7, -2, 0.5 };
     light_add_box(&t, (double[]){ -7, -3, -7 }, (double[]){ 7, -2, 7 }, half_white, 0);
     light_add_box(&t, (double[]){ -1, 1, -1 }, (double[]){ 1, 1.5, 1 }, black, 0);
@@ -142,7 +143,7 @@ static const struct floor_patch wide_floor = { -31, 31, -31, 31, -0.1, 1 };
 
 static void open_wide_floor(struct gi_test *t)
 {
-    struct sdfgi_settings settings = light_settings(32, 0.25f);
+    struct sdfgi_settings settings = light_quick_settings(32, 0.25f);
     settings.cascades = 4;
     settings.normal_bias_cells = 0;
     gi_test_open(t, &settings);
@@ -219,7 +220,7 @@ static void lamp_follows_the_inverse_square(void **state)
     double found[2], exact[2];
     for (int i = 0; i < 2; i++) {
         struct gi_test t;
-        struct sdfgi_settings settings = light_settings(64, 0.25f);
+        struct sdfgi_settings settings = light_quick_settings(64, 0.25f);
         settings.normal_bias_cells = 0;
         gi_test_open(&t, &settings);
         light_add_box(&t, (double[]){ -6, 5, -6 }, (double[]){ 6, 6, 6 }, white, 0);
@@ -264,7 +265,7 @@ static void spot_light_on_a_plane_follows_its_formula(void **state)
     static const float range_m[2] = { 0, 3.6f };
     const double level = -1.5 * 0.0625;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    const struct sdfgi_settings settings = light_quick_settings(32, 0.25f);
     gi_test_open(&t, &settings);
     light_add_box(&t, (double[]){ -3.5, -1, -3.5 }, (double[]){ 3.5, -0.05, 3.5 }, white, 0);
     struct sdfgi_light_desc spot = light_point(-1.6, 3, 0.2, 100);
@@ -289,7 +290,7 @@ static void spot_light_on_a_plane_follows_its_formula(void **state)
 static double far_room_with_lamp(bool casts_shadow)
 {
     struct gi_test t;
-    open_scene(&t);
+    open_scene(&t, 64);
     const double center[3] = { 0, 0, 0 }, half[3] = { 5, 2, 3 };
     light_add(&t, test_mesh_two_rooms(center, half, 0.5, test_rotation_none), 0.5f, 0);
     struct sdfgi_light_desc light = light_point(-2.5, 0.1, 0.2, 100);
@@ -316,7 +317,7 @@ static void hard_48_lamp_inside_a_solid_lights_nothing(void **state)
 {
     (void)state;
     struct gi_test t;
-    open_scene(&t);
+    open_scene(&t, 64);
     light_add_box(&t, (double[]){ -7, -3, -7 }, (double[]){ 7, -2, 7 }, white, 0);
     light_add_box(&t, (double[]){ -1, -1, -1 }, (double[]){ 1, 1, 1 }, half_white, 0);
     const struct sdfgi_light_desc light = light_point(0.05, 0.02, -0.03, 1000);
@@ -350,7 +351,7 @@ static void hard_47_a_lamp_on_a_surface_is_bounded(void **state)
     enum { STEPS = 40 };
     const double level = -1.5 * 0.0625, least_m = 0.125, intensity = 20;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    const struct sdfgi_settings settings = light_quick_settings(32, 0.25f);
     gi_test_open(&t, &settings);
     light_add_box(&t, (double[]){ -3.5, -1, -3.5 }, (double[]){ 3.5, -0.05, 3.5 }, white, 0);
     struct sdfgi_light_desc lamp = light_point(0.125, 2, 0.125, (float)intensity);

@@ -15,7 +15,7 @@ static void empty_scene_is_the_uniform_sky_exactly(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    const struct sdfgi_settings settings = light_quick_settings(32, 0.25f);
     gi_test_open(&t, &settings);
     light_set_uniform_sky(&t, 1);
     gi_test_converge(&t, 60);
@@ -58,7 +58,7 @@ static void empty_scene_follows_a_gradient_sky(void **state)
 {
     (void)state;
     struct gi_test t;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    const struct sdfgi_settings settings = light_quick_settings(32, 0.25f);
     gi_test_open(&t, &settings);
     const struct sdfgi_sky sky = { { 3, 3, 3 }, { 1, 1, 1 }, { 0.2f, 0.2f, 0.2f } };
     REQUIRE_CMP(sdfgi_set_sky(t.gi, &sky), ==, SDFGI_OK);
@@ -81,7 +81,7 @@ static void empty_scene_follows_a_gradient_sky(void **state)
 static void check_plane(enum sdfgi_y_scale y_scale, const float albedo[static 3])
 {
     struct gi_test t;
-    struct sdfgi_settings settings = light_settings(64, 0.25f);
+    struct sdfgi_settings settings = light_quick_settings(64, 0.25f);
     settings.y_scale = y_scale;
     gi_test_open(&t, &settings);
     light_add_box(&t, (double[]){ -20, -1, -20 }, (double[]){ 20, 0.05, 20 }, albedo, 0);
@@ -143,13 +143,11 @@ struct right_angle {
 
 static void build_right_angle(struct gi_test *t, const struct right_angle *angle)
 {
-    struct sdfgi_settings settings = light_settings(32, (float)CELL_M);
+    struct sdfgi_settings settings = light_quick_settings(32, (float)CELL_M);
     settings.y_scale = angle->y_scale;
     settings.cascades = angle->cascades;
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays_per_frame = 1 << 18;
-    if (!getenv("SDFGI_TEST_FULL"))
-        settings.cell_rays = 128;
     gi_test_open(t, &settings);
     light_add_box(t, (double[]){ -40, -1, -40 }, (double[]){ 40, 0.05, 40 }, black, 0);
     double low[3] = { -40, 0.05, -40 }, high[3] = { 40, 40, 40 };
@@ -228,7 +226,7 @@ enum { KERBS = 8, KERB_ROWS = 6, KERB_POINTS = KERBS * KERB_ROWS };
  * the one before it, and each is a little farther off: feet lie anywhere in a sub-voxel. */
 static void build_kerbs(struct gi_test *t, struct gi_test_point points[static KERB_POINTS])
 {
-    const struct sdfgi_settings settings = light_settings(32, 1);
+    const struct sdfgi_settings settings = light_quick_settings(32, 1);
     gi_test_open(t, &settings);
     for (int i = 0; i < KERBS; i++) {
         const double z = 3 * (i - KERBS / 2), ground = -0.07 * i, face = 3 + 0.14 * i;

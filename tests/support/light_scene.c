@@ -4,6 +4,7 @@
 #include "require.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct sdfgi_sky_harmonics light_tinted_sky = { .coefficients = { { 3.5f, 3, 2.5f },
@@ -38,6 +39,14 @@ struct sdfgi_settings light_settings(uint32_t resolution, float cell_m)
     s.min_cell_size_m = cell_m;
     s.ray_count = 125;
     s.frames_to_converge = 4;
+    return s;
+}
+
+struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m)
+{
+    struct sdfgi_settings s = light_settings(resolution, cell_m);
+    if (!getenv("SDFGI_TEST_FULL"))
+        s.cell_rays = 64;
     return s;
 }
 

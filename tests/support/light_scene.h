@@ -13,6 +13,9 @@ int light_close(void **state);
 
 /* Settles in few frames: a cycle of 500 samples in 4 frames. */
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
+/* The same with 64 rays per surface of a light cell, for light that may be a little noisy. With
+ * SDFGI_TEST_FULL=1 as many as by default. */
+struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m);
 
 sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo, float emission);
 /* An axis-aligned box between two corners. */
