@@ -13,6 +13,9 @@
 
 enum { MOST = 256 };
 
+/* The driver's function: a test may have put its own before the loader's. */
+#define DRIVER(device, name) ((PFN_##name)vkGetDeviceProcAddr(device, #name))
+
 struct shader {
     VkDevice device;
     uint32_t *code;
@@ -59,7 +62,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_module(VkDevice device, const VkSha
                                                     const VkAllocationCallbacks *callbacks,
                                                     VkShaderModule *out)
 {
-    const VkResult result = vkCreateShaderModule(device, info, callbacks, out);
+    const VkResult result = DRIVER(device, vkCreateShaderModule)(device, info, callbacks, out);
     for (uint32_t i = 0; i < shader_count; i++)
         if (shaders[i].device == device && shaders[i].module == *out)
             shaders[i].module = VK_NULL_HANDLE;
@@ -76,7 +79,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
     struct shader *shader = shader_of_module(device, infos->stage.module);
     VkResult result = VK_SUCCESS;
     if (!shader->pipeline)
-        result = vkCreateComputePipelines(device, cache, 1, infos, callbacks, &shader->pipeline);
+        result =
+            DRIVER(device, vkCreateComputePipelines)(device, cache, 1, infos, callbacks, &shader->pipeline);
     *out = shader->pipeline;
     return result;
 }
@@ -90,7 +94,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSa
             *out = samplers[i].sampler;
             return VK_SUCCESS;
         }
-    const VkResult result = vkCreateSampler(device, info, callbacks, out);
+    const VkResult result = DRIVER(device, vkCreateSampler)(device, info, callbacks, out);
     REQUIRE_CMP(sampler_count, <, (uint32_t)MOST);
     if (result == VK_SUCCESS)
         samplers[sampler_count++] = (struct sampler){ device, *info, *out };
@@ -105,7 +109,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSa
         for (uint32_t i = 0; i < count; i++)                                                                 \
             if (rows[i].device == device && rows[i].member == object)                                        \
                 return;                                                                                      \
-        vkDestroy##kind(device, object, callbacks);                                                          \
+        DRIVER(device, vkDestroy##kind)(device, object, callbacks);                                          \
     }
 DESTROY(Pipeline, pipeline, shaders, shader_count)
 DESTROY(Sampler, sampler, samplers, sampler_count)
@@ -133,7 +137,7 @@ static void destroy_samplers(VkDevice device)
         if (samplers[i].device != device)
             samplers[kept++] = samplers[i];
         else
-            vkDestroySampler(device, samplers[i].sampler, NULL);
+            DRIVER(device, vkDestroySampler)(device, samplers[i].sampler, NULL);
     sampler_count = kept;
 }
 
@@ -146,7 +150,7 @@ void shared_pipelines_destroy(VkDevice device)
             shaders[kept++] = shaders[i];
             continue;
         }
-        vkDestroyPipeline(device, shaders[i].pipeline, NULL);
+        DRIVER(device, vkDestroyPipeline)(device, shaders[i].pipeline, NULL);
         free(shaders[i].code);
     }
     shader_count = kept;
