@@ -2,12 +2,14 @@
 #include "counting_vulkan.h"
 
 #include "layered_vulkan.h"
+#include "shared_pipelines.h"
 
 #include <vulkan/vulkan.h>
 
 #include <stdatomic.h>
 
 static atomic_uint pipelines, memory, objects;
+static PFN_vkGetDeviceProcAddr below;
 
 struct counting_vulkan counting_vulkan_get(void)
 {
@@ -20,7 +22,8 @@ struct counting_vulkan counting_vulkan_get(void)
         const VkAllocationCallbacks *callbacks, VkPipeline *out)                                             \
     {                                                                                                        \
         pipelines += count;                                                                                  \
-        return vkCreate##kind##Pipelines(device, cache, count, infos, callbacks, out);                       \
+        return ((PFN_vkCreate##kind##Pipelines)below(device, "vkCreate" #kind "Pipelines"))(                 \
+            device, cache, count, infos, callbacks, out);                                                    \
     }
 PIPELINES(Compute)
 PIPELINES(Graphics)
@@ -59,5 +62,12 @@ static const struct layered_function counted[] = {
 
 PFN_vkGetInstanceProcAddr counting_vulkan_loader(void)
 {
+    below = vkGetDeviceProcAddr;
     return layered_vulkan_loader(counted);
+}
+
+PFN_vkGetInstanceProcAddr counting_vulkan_loader_sharing(void)
+{
+    below = shared_pipelines_function;
+    return layered_vulkan_loader_above(counted, below);
 }

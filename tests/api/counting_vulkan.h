@@ -16,5 +16,7 @@ struct counting_vulkan {
 struct counting_vulkan counting_vulkan_get(void);
 
 PFN_vkGetInstanceProcAddr counting_vulkan_loader(void);
+/* Counts what is asked for, and shares pipelines as shared_pipelines.h says: for one thread at a time. */
+PFN_vkGetInstanceProcAddr counting_vulkan_loader_sharing(void);
 
 #endif

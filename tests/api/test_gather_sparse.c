@@ -17,36 +17,52 @@ static const char *const names[] = { "full", "half", "quarter" };
 static const double half_m[3] = { 3, 2, 2.5 }, origin[3] = { 0, 0, 0 };
 static const double wall_m = 0.25;
 
-static void open_context(struct gi_test *t)
+/* All cases share the context, and those of one room its light. */
+static struct gi_test context;
+static struct picture_scene shown;
+static bool shows_room;
+
+static void open_context(void)
 {
     struct sdfgi_settings settings = gi_test_settings();
     settings.ray_count = 125;
     settings.frames_to_converge = 4;
-    gi_test_open(t, &settings);
-    REQUIRE_CMP((int)sdfgi_set_sky(t->gi, &(struct sdfgi_sky){ { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }), ==,
-                (int)SDFGI_OK);
+    gi_test_renew(&context, &settings);
+    picture_scene_finish(&shown);
+    shown = (struct picture_scene){ .count = 0 };
+    shows_room = false;
+    REQUIRE_CMP((int)sdfgi_set_sky(context.gi, &(struct sdfgi_sky){ { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }),
+                ==, (int)SDFGI_OK);
 }
 
-static void add_box(struct picture_scene *scene, struct gi_test *t, const double center[static 3],
-                    const double half[static 3], float albedo, float emission)
+static int close_context(void **state)
 {
-    picture_scene_add(scene, t, test_mesh_box(center, half, test_rotation_none), albedo, emission);
+    (void)state;
+    picture_scene_finish(&shown);
+    gi_test_close(&context);
+    return 0;
 }
 
-enum { ROOM, LAMP, TABLE, FIRST_POST, POSTS = 5 };
+static void add_box(const double center[static 3], const double half[static 3], float albedo, float emission)
+{
+    picture_scene_add(&shown, &context, test_mesh_box(center, half, test_rotation_none), albedo, emission);
+}
+
+enum { ROOM, LAMP, TABLE, FIRST_POST, POSTS = 5, SETTLED = 48 };
 
 /* A room with a lamp below its ceiling, a table, and thin dark posts before the wall that is seen. */
-static void open_room(struct gi_test *t, struct picture_scene *scene)
+static void open_room(void)
 {
-    *scene = (struct picture_scene){ .count = 0 };
-    open_context(t);
-    picture_scene_add(scene, t, test_mesh_room(origin, half_m, wall_m, test_rotation_none), 0.7f, 0);
-    add_box(scene, t, (double[]){ 1, 1.6, 0.5 }, (double[]){ 0.4, 0.1, 0.4 }, 0.5f, 8);
-    add_box(scene, t, (double[]){ -0.8, -1.4, 0.2 }, (double[]){ 0.5, 0.6, 0.4 }, 0.5f, 0);
+    if (shows_room)
+        return;
+    open_context();
+    shows_room = true;
+    picture_scene_add(&shown, &context, test_mesh_room(origin, half_m, wall_m, test_rotation_none), 0.7f, 0);
+    add_box((double[]){ 1, 1.6, 0.5 }, (double[]){ 0.4, 0.1, 0.4 }, 0.5f, 8);
+    add_box((double[]){ -0.8, -1.4, 0.2 }, (double[]){ 0.5, 0.6, 0.4 }, 0.5f, 0);
     for (int i = 0; i < POSTS; i++)
-        add_box(scene, t, (double[]){ -2 + 0.9 * i, -0.2, -1.3 + 0.1 * i }, (double[]){ 0.03, 1.8, 0.03 },
-                0.1f, 0);
-    gi_test_update(t, 60);
+        add_box((double[]){ -2 + 0.9 * i, -0.2, -1.3 + 0.1 * i }, (double[]){ 0.03, 1.8, 0.03 }, 0.1f, 0);
+    gi_test_update(&context, SETTLED);
 }
 
 /* Turned about its own axis by `roll`. */
@@ -112,15 +128,13 @@ static struct difference compare(const struct picture *p, float (*full)[3], floa
     return d;
 }
 
-static struct difference compare_with_full(struct gi_test *t, const struct picture *p,
-                                           enum sdfgi_gather_resolution resolution)
+static struct difference compare_with(float (*full)[3], const struct picture *p,
+                                      enum sdfgi_gather_resolution resolution)
 {
-    float(*full)[3] = picture_gather(t, p, SDFGI_GATHER_FULL);
-    float(*found)[3] = picture_gather(t, p, resolution);
+    float(*found)[3] = picture_gather(&context, p, resolution);
     const struct difference d = compare(p, full, found);
     printf("%ux%u at %s resolution: off by %.4f in the mean, %.4f at most; %u of %u pixels are equal\n",
            p->width, p->height, names[resolution], d.mean, d.worst, d.equal, p->width * p->height);
-    free(full);
     free(found);
     return d;
 }
@@ -131,22 +145,21 @@ static struct difference compare_with_full(struct gi_test *t, const struct pictu
 static void half_and_quarter_equal_full_in_a_room_of_any_size(void **state)
 {
     (void)state;
-    static const uint32_t sizes[][2] = { { 1, 1 }, { 1, 40 }, { 37, 23 }, { 61, 29 }, { 160, 116 } };
-    static struct gi_test t;
-    static struct picture_scene scene;
-    open_room(&t, &scene);
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+    static const uint32_t sizes[][2] = { { 1, 1 }, { 1, 40 }, { 37, 23 }, { 61, 29 }, { 104, 76 } };
+    open_room();
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const struct picture_camera camera = room_camera(sizes[i][0], sizes[i][1]);
+        struct picture p = picture_draw(&shown, &camera, sizes[i][0], sizes[i][1]);
+        float(*full)[3] = picture_gather(&context, &p, SDFGI_GATHER_FULL);
         for (int r = 0; r < 2; r++) {
-            const struct picture_camera camera = room_camera(sizes[i][0], sizes[i][1]);
-            struct picture p = picture_draw(&scene, &camera, sizes[i][0], sizes[i][1]);
-            const struct difference d = compare_with_full(&t, &p, sparse[r]);
+            const struct difference d = compare_with(full, &p, sparse[r]);
             REQUIRE_CMP(d.brightest, >, 0.5);
             REQUIRE_CMP(d.mean, <=, r == 0 ? 0.003 : 0.006);
             REQUIRE_CMP(d.worst, <=, 0.5);
-            picture_finish(&p);
         }
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
+        free(full);
+        picture_finish(&p);
+    }
 }
 
 static bool is_thin(const struct picture *p, uint32_t i)
@@ -160,15 +173,13 @@ static bool is_thin(const struct picture *p, uint32_t i)
 static void thin_things_are_as_at_full_resolution(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    static struct picture_scene scene;
-    open_room(&t, &scene);
+    open_room();
     const struct picture_camera camera = camera_at(
         (double[]){ -0.2, 0.3, 2.3 }, (double[]){ 0.05, -0.12, -1 }, (double[]){ 0, 1, 0 }, 0.02, 0.9, 0.65);
-    struct picture p = picture_draw(&scene, &camera, 91, 67);
-    float(*full)[3] = picture_gather(&t, &p, SDFGI_GATHER_FULL);
+    struct picture p = picture_draw(&shown, &camera, 91, 67);
+    float(*full)[3] = picture_gather(&context, &p, SDFGI_GATHER_FULL);
     for (int r = 0; r < 2; r++) {
-        float(*found)[3] = picture_gather(&t, &p, sparse[r]);
+        float(*found)[3] = picture_gather(&context, &p, sparse[r]);
         uint32_t thin = 0, equal = 0;
         double worst = 0;
         for (uint32_t i = 0; i < p.width * p.height; i++) {
@@ -187,21 +198,19 @@ static void thin_things_are_as_at_full_resolution(void **state)
     }
     free(full);
     picture_finish(&p);
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
 }
 
 /* ---- Edges */
 
 /* Two rooms without a door, of which one has a lamp, seen from above the wall between them. The near plane
  * cuts off the ceiling. */
-static void open_two_rooms(struct gi_test *t, struct picture_scene *scene, double wall)
+static void open_two_rooms(double wall)
 {
-    *scene = (struct picture_scene){ .count = 0 };
-    open_context(t);
-    picture_scene_add(scene, t, test_mesh_two_rooms(origin, half_m, wall, test_rotation_none), 0.7f, 0);
-    add_box(scene, t, (double[]){ 1.5, 1.2, 0 }, (double[]){ 0.4, 0.1, 0.4 }, 0.5f, 8);
-    gi_test_update(t, 60);
+    open_context();
+    picture_scene_add(&shown, &context, test_mesh_two_rooms(origin, half_m, wall, test_rotation_none), 0.7f,
+                      0);
+    add_box((double[]){ 1.5, 1.2, 0 }, (double[]){ 0.4, 0.1, 0.4 }, 0.5f, 8);
+    gi_test_update(&context, SETTLED);
 }
 
 /* How a pixel lies to the wall: -1 in the dark room, 1 in the lit one, 0 in the wall. */
@@ -215,13 +224,12 @@ static int side_of(const struct picture *p, const struct picture_camera *c, uint
 }
 
 /* Brightest pixels of the dark room, of the lit one, and of the dark one at full resolution. */
-static void require_dark(struct gi_test *t, const struct picture_scene *scene,
-                         const struct picture_camera *camera, uint32_t width, uint32_t height, double wall)
+static void require_dark(const struct picture_camera *camera, uint32_t width, uint32_t height, double wall)
 {
-    struct picture p = picture_draw(scene, camera, width, height);
-    float(*full)[3] = picture_gather(t, &p, SDFGI_GATHER_FULL);
+    struct picture p = picture_draw(&shown, camera, width, height);
+    float(*full)[3] = picture_gather(&context, &p, SDFGI_GATHER_FULL);
     for (int r = 0; r < 2; r++) {
-        float(*found)[3] = picture_gather(t, &p, sparse[r]);
+        float(*found)[3] = picture_gather(&context, &p, sparse[r]);
         double dark = 0, dark_full = 0, lit = 0;
         uint32_t pixels = 0;
         for (uint32_t i = 0; i < width * height; i++) {
@@ -251,19 +259,15 @@ static void no_light_crosses_a_wall_seen_edge_on(void **state)
 {
     (void)state;
     static const double walls[] = { 0.25, 0.0625 };
-    static const uint32_t sizes[][2] = { { 37, 23 }, { 53, 41 }, { 96, 64 } };
-    static struct gi_test t;
-    static struct picture_scene scene;
+    static const uint32_t sizes[][2] = { { 37, 23 }, { 53, 41 }, { 72, 48 } };
     for (int w = 0; w < 2; w++) {
-        open_two_rooms(&t, &scene, walls[w]);
+        open_two_rooms(walls[w]);
         for (int i = 0; i < 6; i++) {
             struct picture_camera camera = camera_at((double[]){ 0.1, 6, 0.05 }, (double[]){ 0, -1, 0 },
                                                      (double[]){ 0, 0, -1 }, i / 6.0 * PI, 0.3, 0.2);
             camera.near_m = 5;
-            require_dark(&t, &scene, &camera, sizes[i % 3][0], sizes[i % 3][1], walls[w]);
+            require_dark(&camera, sizes[i % 3][0], sizes[i % 3][1], walls[w]);
         }
-        picture_scene_finish(&scene);
-        gi_test_close(&t);
     }
 }
 
@@ -290,15 +294,13 @@ static void spoil(struct picture *p)
 static void background_and_useless_normals_give_0_and_spoil_nothing(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    static struct picture_scene scene;
-    open_room(&t, &scene);
+    open_room();
     const struct picture_camera camera = room_camera(61, 29);
-    struct picture p = picture_draw(&scene, &camera, 61, 29);
-    float(*clean)[3] = picture_gather(&t, &p, SDFGI_GATHER_FULL);
+    struct picture p = picture_draw(&shown, &camera, 61, 29);
+    float(*clean)[3] = picture_gather(&context, &p, SDFGI_GATHER_FULL);
     spoil(&p);
     for (int r = SDFGI_GATHER_FULL; r <= SDFGI_GATHER_QUARTER; r++) {
-        float(*found)[3] = picture_gather(&t, &p, (enum sdfgi_gather_resolution)r);
+        float(*found)[3] = picture_gather(&context, &p, (enum sdfgi_gather_resolution)r);
         for (uint32_t i = 0; i < p.width * p.height; i++) {
             const bool useless = i % 11 == 0 || i % 7 == 0 || i % 13 == 0 || i % 17 == 0 || i % 19 == 0;
             if (useless)
@@ -310,20 +312,18 @@ static void background_and_useless_normals_give_0_and_spoil_nothing(void **state
     }
     memset(p.depth, 0, p.width * p.height * sizeof *p.depth);
     for (int r = SDFGI_GATHER_FULL; r <= SDFGI_GATHER_QUARTER; r++) {
-        float(*found)[3] = picture_gather(&t, &p, (enum sdfgi_gather_resolution)r);
+        float(*found)[3] = picture_gather(&context, &p, (enum sdfgi_gather_resolution)r);
         for (uint32_t i = 0; i < p.width * p.height; i++)
             REQUIRE_CMP((double)found[i][1], ==, 0.0);
         free(found);
     }
     free(clean);
     picture_finish(&p);
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
 }
 
-static double brightest(struct gi_test *t, const struct picture *p, enum sdfgi_gather_resolution resolution)
+static double brightest(const struct picture *p, enum sdfgi_gather_resolution resolution)
 {
-    float(*found)[3] = picture_gather(t, p, resolution);
+    float(*found)[3] = picture_gather(&context, p, resolution);
     double most = 0;
     for (uint32_t i = 0; i < p->width * p->height; i++)
         most = fmax(most, (double)found[i][1]);
@@ -335,28 +335,24 @@ static double brightest(struct gi_test *t, const struct picture *p, enum sdfgi_g
 static void more_light_than_half_floats_hold_is_cut_or_scaled(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    static struct picture_scene scene;
-    scene = (struct picture_scene){ .count = 0 };
-    open_context(&t);
+    open_context();
     const float sky = 1e6f;
-    REQUIRE_CMP((int)sdfgi_set_sky(t.gi, &(struct sdfgi_sky){ { sky, sky, sky }, { sky, sky, sky }, { 0 } }),
-                ==, (int)SDFGI_OK);
-    add_box(&scene, &t, (double[]){ 0, -3, 0 }, (double[]){ 5, 1, 5 }, 0.5f, 0);
-    t.frame.exposure = 1e-4f;
-    gi_test_update(&t, 20);
+    REQUIRE_CMP(
+        (int)sdfgi_set_sky(context.gi, &(struct sdfgi_sky){ { sky, sky, sky }, { sky, sky, sky }, { 0 } }),
+        ==, (int)SDFGI_OK);
+    add_box((double[]){ 0, -3, 0 }, (double[]){ 5, 1, 5 }, 0.5f, 0);
+    context.frame.exposure = 1e-4f;
+    gi_test_update(&context, 20);
     const struct picture_camera camera =
         camera_at((double[]){ 0, 0, 0 }, (double[]){ 0.2, -1, 0 }, (double[]){ 0, 0, -1 }, 0, 0.3, 0.2);
-    struct picture p = picture_draw(&scene, &camera, 37, 23);
+    struct picture p = picture_draw(&shown, &camera, 37, 23);
     for (int r = SDFGI_GATHER_FULL; r <= SDFGI_GATHER_QUARTER; r++) {
         p.desc.scale = 0;
-        REQUIRE_CMP(brightest(&t, &p, (enum sdfgi_gather_resolution)r), ==, 65504.0);
+        REQUIRE_CMP(brightest(&p, (enum sdfgi_gather_resolution)r), ==, 65504.0);
         p.desc.scale = 1e-4f;
-        REQUIRE_NEAR(brightest(&t, &p, (enum sdfgi_gather_resolution)r) / (100 * PI), 1, 0.02);
+        REQUIRE_NEAR(brightest(&p, (enum sdfgi_gather_resolution)r) / (100 * PI), 1, 0.02);
     }
     picture_finish(&p);
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
 }
 
 /* ---- Repetition */
@@ -364,28 +360,25 @@ static void more_light_than_half_floats_hold_is_cut_or_scaled(void **state)
 static void the_same_picture_comes_out_the_same_to_the_bit(void **state)
 {
     (void)state;
-    static struct gi_test t;
-    static struct picture_scene scene;
-    open_room(&t, &scene);
-    const struct picture_camera camera = room_camera(160, 116);
-    struct picture p = picture_draw(&scene, &camera, 160, 116);
+    open_room();
+    gi_test_update(&context, 1); /* the report counts gathers from here on */
+    const struct picture_camera camera = room_camera(104, 76);
+    struct picture p = picture_draw(&shown, &camera, 104, 76);
     for (int r = 0; r < 2; r++) {
-        float(*first)[3] = picture_gather(&t, &p, sparse[r]);
+        float(*first)[3] = picture_gather(&context, &p, sparse[r]);
         for (int i = 0; i < 4; i++) {
-            float(*again)[3] = picture_gather(&t, &p, sparse[r]);
+            float(*again)[3] = picture_gather(&context, &p, sparse[r]);
             REQUIRE_CMP(memcmp(first, again, p.width * p.height * sizeof *first), ==, 0);
             free(again);
         }
         free(first);
     }
     static struct sdfgi_report report;
-    sdfgi_get_report(t.gi, &report);
+    sdfgi_get_report(context.gi, &report);
     REQUIRE_CMP(report.passes[PASS_GATHER_SPARSE].dispatches, ==, 10u);
     REQUIRE_CMP(report.passes[PASS_GATHER_SPARSE].work, ==, (uint64_t)10 * p.width * p.height);
     REQUIRE_CMP(report.passes[PASS_GATHER].dispatches, ==, 0u);
     picture_finish(&p);
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
 }
 
 int main(void)
@@ -395,10 +388,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_and_quarter_equal_full_in_a_room_of_any_size),
         cmocka_unit_test(thin_things_are_as_at_full_resolution),
-        cmocka_unit_test(no_light_crosses_a_wall_seen_edge_on),
         cmocka_unit_test(background_and_useless_normals_give_0_and_spoil_nothing),
-        cmocka_unit_test(more_light_than_half_floats_hold_is_cut_or_scaled),
         cmocka_unit_test(the_same_picture_comes_out_the_same_to_the_bit),
+        cmocka_unit_test(no_light_crosses_a_wall_seen_edge_on),
+        cmocka_unit_test(more_light_than_half_floats_hold_is_cut_or_scaled),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, close_context);
 }

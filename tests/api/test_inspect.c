@@ -247,7 +247,7 @@ static void coincident_emitters_keep_their_colour(void **state)
     struct test_mesh mesh = { 0 };
     for (int i = 0; i < QUADS; i++) {
         struct test_mesh quad =
-            test_mesh_plane((double[]){ 0.1, 0.1, 0.1 }, (double[]){ 0, 0, 1.5 }, (double[]){ 1.5, 0, 0 }, 1);
+            test_mesh_plane((double[]){ 0.1, 0.1, 0.1 }, (double[]){ 0, 0, 0.4 }, (double[]){ 0.4, 0, 0 }, 1);
         test_mesh_append(&mesh, &quad);
         test_mesh_destroy(&quad);
     }

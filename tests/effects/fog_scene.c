@@ -12,7 +12,7 @@
 #include <modules/gltf/gltf_scene.h>
 #include <string.h>
 
-enum { MAX_BOXES = 16, VERTICES = 24, INDICES = 36, MAX_FRAMES = 40 };
+enum { MAX_BOXES = 16, VERTICES = 24, INDICES = 36, MAX_FRAMES = 32 };
 
 /* A cube of side 1, which all boxes share, with a primitive and a material for each. */
 struct cube {
@@ -118,7 +118,8 @@ void fog_stage_open(struct fog_stage *stage, struct host_device *device, const s
     settings.cascades = 1;
     settings.resolution = 32;
     settings.min_cell_size_m = 0.25f;
-    settings.ray_count = 125;
+    settings.ray_count = 64;
+    settings.cell_rays = 64;
     settings.frames_to_converge = 4;
     const struct host_renderer_desc desc = {
         .width = scene->eye_distance_m > 0 ? 2 * FOG_WIDTH : FOG_WIDTH,

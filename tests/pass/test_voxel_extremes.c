@@ -10,6 +10,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+static struct sdfgi_settings small_settings(void)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = getenv("SDFGI_TEST_FULL") ? 64 : 32;
+    return settings;
+}
+
 /* ---- Tiny triangles */
 
 /* Sub-voxel that a point in metres lies in. */
@@ -63,7 +70,7 @@ static void hard_16_every_tiny_triangle_sets_one_bit(void **state)
     (void)state;
     static double points[SPECKS][3];
     struct test_mesh mesh = specks(SPECKS, points);
-    const struct sdfgi_settings settings = gi_test_settings();
+    const struct sdfgi_settings settings = small_settings();
     pass_scene_open(&pass_context, &settings, &mesh);
     struct oracle_bits bits = gi_test_bits(&pass_context, 0);
     const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
@@ -134,7 +141,7 @@ static int64_t plane_error(const struct oracle_bits *bits, const struct oracle_g
 
 static int64_t voxelized_plane_error(const struct plane *plane, const struct test_mesh *mesh)
 {
-    const struct sdfgi_settings settings = gi_test_settings();
+    const struct sdfgi_settings settings = small_settings();
     pass_scene_open(&pass_context, &settings, mesh);
     struct oracle_bits bits = gi_test_bits(&pass_context, 0);
     const struct oracle_grid grid = gi_test_grid(&pass_context, 0);
@@ -175,7 +182,7 @@ static void require_voxelizers_agree(struct test_mesh mesh, enum sdfgi_y_scale y
 {
     struct pass_volumes volumes[2];
     for (int i = 0; i < 2; i++) {
-        struct sdfgi_settings settings = gi_test_settings();
+        struct sdfgi_settings settings = small_settings();
         settings.voxelizer = (enum sdfgi_voxelizer)i;
         settings.y_scale = y_scale;
         pass_scene_open(&pass_context, &settings, &mesh);

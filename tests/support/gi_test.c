@@ -112,10 +112,15 @@ static void destroy(struct gi_test *t)
     destroy_buffers(t);
 }
 
-void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
+void gi_test_open_device(struct gi_test *t)
 {
     memset(t, 0, sizeof *t);
     take_device(&t->gpu);
+}
+
+void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    gi_test_open_device(t);
     create(t, settings);
 }
 

@@ -6,13 +6,14 @@
 #include <vulkan/vulkan.h>
 
 static const struct layered_function *layer;
+static PFN_vkGetDeviceProcAddr below_layer;
 
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
 {
     for (const struct layered_function *f = layer; f->name; f++)
         if (strcmp(f->name, name) == 0)
             return f->function;
-    return vkGetDeviceProcAddr(device, name);
+    return below_layer(device, name);
 }
 
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance, const char *name)
@@ -22,8 +23,15 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstanc
     return vkGetInstanceProcAddr(instance, name);
 }
 
-PFN_vkGetInstanceProcAddr layered_vulkan_loader(const struct layered_function *functions)
+PFN_vkGetInstanceProcAddr layered_vulkan_loader_above(const struct layered_function *functions,
+                                                      PFN_vkGetDeviceProcAddr below)
 {
     layer = functions;
+    below_layer = below;
     return get_instance_proc_addr;
+}
+
+PFN_vkGetInstanceProcAddr layered_vulkan_loader(const struct layered_function *functions)
+{
+    return layered_vulkan_loader_above(functions, vkGetDeviceProcAddr);
 }

@@ -16,5 +16,8 @@ struct layered_function {
 
 /* `functions` ends with an empty row and outlives all devices. A program has one such table at a time. */
 PFN_vkGetInstanceProcAddr layered_vulkan_loader(const struct layered_function *functions);
+/* The other functions of devices come from `below`. */
+PFN_vkGetInstanceProcAddr layered_vulkan_loader_above(const struct layered_function *functions,
+                                                      PFN_vkGetDeviceProcAddr below);
 
 #endif

@@ -9,6 +9,7 @@
 #include "test_memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <vulkan/vulkan.h>
 
 enum { MOST = 256 };
@@ -124,6 +125,14 @@ static const struct layered_function shared[] = {
     { NULL, NULL },
 };
 /* clang-format on */
+
+PFN_vkVoidFunction shared_pipelines_function(VkDevice device, const char *name)
+{
+    for (const struct layered_function *f = shared; f->name; f++)
+        if (strcmp(f->name, name) == 0)
+            return f->function;
+    return vkGetDeviceProcAddr(device, name);
+}
 
 PFN_vkGetInstanceProcAddr shared_pipelines_loader(void)
 {
