@@ -16,6 +16,7 @@ enum {
 struct job {
     struct sdfgi_settings settings;
     uint32_t parts;
+    uint64_t instances; /* to have room for */
 };
 
 /* ---- Pipelines */
@@ -72,6 +73,12 @@ static bool fits(const struct resources *r, const struct job *job)
            (r->extent.emits || !emission);
 }
 
+/* True if nothing is missing, room for instances included: the scene may have grown meanwhile. */
+static bool is_complete(const struct resources *r, const struct job *job)
+{
+    return r->made == sdfgi_resources_object_count(&job->settings) && r->extent.instances >= job->instances;
+}
+
 /* True if volumes with the settings are in force, or wait to be. */
 static bool has_volumes(struct sdfgi *gi, const struct job *job)
 {
@@ -79,12 +86,13 @@ static bool has_volumes(struct sdfgi *gi, const struct job *job)
     pthread_mutex_lock(&gi->backend.lock);
     const bool has =
         (p->in_force && sdfgi_settings_change(&p->in_force_settings, &job->settings) != SETTINGS_ALL) ||
-        (p->ready && fits(p->ready, job));
+        (p->ready && fits(p->ready, job) && is_complete(p->ready, job));
     pthread_mutex_unlock(&gi->backend.lock);
     return has;
 }
 
-/* Notes what is wanted, and destroys what was made for anything else. No frame has used it. */
+/* Notes what is wanted, takes back what is incomplete by now, and destroys what was made for anything else.
+ * No frame has used it. */
 static void want(struct sdfgi *gi, const struct job *job)
 {
     struct preparation *p = &gi->preparation;
@@ -92,8 +100,9 @@ static void want(struct sdfgi *gi, const struct job *job)
     pthread_mutex_lock(&gi->backend.lock);
     p->wanted = job->settings;
     p->keeps = true;
-    if (p->ready && !fits(p->ready, job)) {
-        unwanted = p->ready;
+    if (p->ready && (!fits(p->ready, job) || !is_complete(p->ready, job))) {
+        unwanted = p->making;
+        p->making = p->ready;
         p->ready = NULL;
     }
     pthread_mutex_unlock(&gi->backend.lock);
@@ -113,20 +122,29 @@ static void publish(struct sdfgi *gi)
     p->making = NULL;
 }
 
+static VkResult make_next(struct backend *backend, struct resources *r, const struct job *job)
+{
+    if (r->made < sdfgi_resources_object_count(&job->settings))
+        return sdfgi_resources_make_next(backend, r);
+    const bool grown = sdfgi_resources_grow_instances(backend, r, job->instances);
+    return grown ? VK_SUCCESS : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
 static enum sdfgi_result make_volume_object(struct sdfgi *gi, const struct job *job)
 {
     struct preparation *p = &gi->preparation;
     if (!p->making) {
-        const enum sdfgi_result begun = sdfgi_resources_begin(
-            &gi->backend, &job->settings, job->parts & SDFGI_PREPARE_EMISSION, "sdfgi_prepare", &p->making);
+        const struct scene_extent scene = { job->instances, job->parts & SDFGI_PREPARE_EMISSION };
+        const enum sdfgi_result begun =
+            sdfgi_resources_begin(&gi->backend, &job->settings, scene, "sdfgi_prepare", &p->making);
         if (begun != SDFGI_OK)
             return begun;
     }
-    const VkResult result = sdfgi_resources_make_next(&gi->backend, p->making);
+    const VkResult result = make_next(&gi->backend, p->making, job);
     if (result != VK_SUCCESS) {
         sdfgi_resources_destroy(&gi->backend, p->making);
         p->making = NULL;
-    } else if (p->making->made == sdfgi_resources_object_count(&job->settings)) {
+    } else if (is_complete(p->making, job)) {
         publish(gi);
     }
     return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_prepare");
@@ -139,7 +157,10 @@ static struct sdfgi_progress progress_of(struct sdfgi *gi, const struct job *job
     const uint32_t count = sdfgi_resources_object_count(&job->settings);
     const struct resources *making = gi->preparation.making;
     struct sdfgi_progress p = pipeline_progress(&gi->backend, job);
-    p.made += has_volumes(gi, job) ? count : making ? making->made : 0;
+    if (has_volumes(gi, job))
+        p.made += count;
+    else if (making)
+        p.made += making->made < count ? making->made : count - 1;
     p.total += count;
     pthread_mutex_lock(&gi->backend.lock);
     gi->preparation.progress = p;
@@ -190,10 +211,18 @@ static enum sdfgi_result check(struct sdfgi *gi, const struct sdfgi_prepare_desc
     return SDFGI_ERROR_INVALID_ARGUMENT;
 }
 
+static uint64_t instance_room(struct sdfgi *gi)
+{
+    pthread_mutex_lock(&gi->backend.lock);
+    const uint64_t room = gi->scene.instance_room;
+    pthread_mutex_unlock(&gi->backend.lock);
+    return room;
+}
+
 enum sdfgi_result sdfgi_prepare(sdfgi *gi, const struct sdfgi_prepare_desc *desc,
                                 struct sdfgi_progress *progress)
 {
-    struct job job = { .parts = desc->parts ? desc->parts : USUAL_PARTS };
+    struct job job = { .parts = desc->parts ? desc->parts : USUAL_PARTS, .instances = instance_room(gi) };
     sdfgi_settings_default(&job.settings);
     if (desc->settings)
         job.settings = *desc->settings;

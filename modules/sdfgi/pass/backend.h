@@ -27,8 +27,8 @@ struct backend {
     struct hooks hooks;
     struct pipelines pipelines;
     struct gpu_retire_queue retired; /* counts frames, too */
-    /* Guards what a thread in sdfgi_prepare shares with the other: pipelines.passes, held, and the
-     * preparation of context.h. Nothing else is called meanwhile. */
+    /* Guards what a thread in sdfgi_prepare shares with the other: pipelines.passes, held, the preparation of
+     * context.h, and the scene's instance_room. Nothing else is called meanwhile. */
     pthread_mutex_t lock;
     struct sdfgi_memory held; /* device bytes of all buffers, retired ones included */
 };

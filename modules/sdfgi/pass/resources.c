@@ -200,14 +200,16 @@ static void limit_light_cells(const struct backend *backend, struct extent *exte
 }
 
 enum sdfgi_result sdfgi_resources_begin(struct backend *backend, const struct sdfgi_settings *settings,
-                                        bool emits, const char *caller, struct resources **out)
+                                        struct scene_extent scene, const char *caller, struct resources **out)
 {
     struct extent extent = sdfgi_extent_from_settings(settings);
+    if (scene.instances > extent.instances)
+        extent.instances = scene.instances;
     const enum sdfgi_result fits = check_sizes(backend, &extent, caller);
     if (fits != SDFGI_OK)
         return fits;
     limit_light_cells(backend, &extent);
-    if (emits)
+    if (scene.emits)
         sdfgi_extent_set_emits(&extent);
     struct resources *r = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *r);
     if (!r)
@@ -222,7 +224,8 @@ enum sdfgi_result sdfgi_resources_create(struct backend *backend, const struct s
                                          struct resources **out)
 {
     struct resources *r;
-    const enum sdfgi_result begun = sdfgi_resources_begin(backend, settings, false, "switching on", &r);
+    const enum sdfgi_result begun =
+        sdfgi_resources_begin(backend, settings, (struct scene_extent){ 0 }, "switching on", &r);
     if (begun != SDFGI_OK)
         return begun;
     VkResult result = VK_SUCCESS;
@@ -320,7 +323,10 @@ static bool grow(struct backend *backend, struct resources *r, const struct exte
     memcpy(r->sets, sets, sizeof sets);
     r->extent = *extent;
     write_sets(backend, r);
-    gpu_retire(&backend->retired, &grown->retired, destroy_outgrown, backend);
+    if (r->used)
+        gpu_retire(&backend->retired, &grown->retired, destroy_outgrown, backend);
+    else
+        destroy_outgrown(&grown->retired, backend);
     return true;
 }
 

@@ -30,10 +30,17 @@ struct resources {
     struct extent extent;
 };
 
-/* Begins resources without any object, with room for emission if something will emit. Reports failures, in
- * words of the `caller`; leaves *out as it was then. */
+/* What a scene calls for besides what settings do. */
+struct scene_extent {
+    uint64_t instances;
+    bool emits; /* something in it does, or will */
+};
+
+/* Begins resources without any object, with room for a scene. Reports failures, in words of the `caller`;
+ * leaves *out as it was then. */
 enum sdfgi_result sdfgi_resources_begin(struct backend *backend, const struct sdfgi_settings *settings,
-                                        bool emits, const char *caller, struct resources **out);
+                                        struct scene_extent scene, const char *caller,
+                                        struct resources **out);
 /* Objects that settings call for: buffers, and what else may take a while to make. */
 uint32_t sdfgi_resources_object_count(const struct sdfgi_settings *settings);
 /* Makes the next object. After a failure the resources are good for nothing but to be destroyed. */

@@ -63,6 +63,7 @@ struct scene {
     enum sdfgi_up_axis up_axis;
     bool left_handed;
     struct pool meshes, materials, instances, lights;
+    uint32_t instance_room; /* capacity of the pool of instances, for sdfgi_prepare: behind backend->lock */
     struct set_pool *set_pools;
     VkSampler samplers[ADDRESS_MODES][ADDRESS_MODES]; /* by mode of u, v; null until a texture needs it */
     struct sdfgi_sky sky;

@@ -74,10 +74,15 @@ static enum sdfgi_result check_limit(const struct scene *scene, const char *what
 static enum sdfgi_result make_room(struct scene *scene, const char *what, uint32_t count)
 {
     const struct hooks *hooks = &scene->backend->hooks;
-    if (sdfgi_pool_reserve(&scene->instances, hooks, count) &&
-        sdfgi_tree_reserve(&scene->tree, hooks, scene->instances.capacity))
+    if (!sdfgi_pool_reserve(&scene->instances, hooks, count) ||
+        !sdfgi_tree_reserve(&scene->tree, hooks, scene->instances.capacity))
+        return sdfgi_check_out_of_slots(scene, what, MAX_OBJECTS);
+    if (scene->instance_room == scene->instances.capacity)
         return SDFGI_OK;
-    return sdfgi_check_out_of_slots(scene, what, MAX_OBJECTS);
+    pthread_mutex_lock(&scene->backend->lock);
+    scene->instance_room = scene->instances.capacity;
+    pthread_mutex_unlock(&scene->backend->lock);
+    return SDFGI_OK;
 }
 
 /* ---- Lists */

@@ -35,9 +35,13 @@ struct sdfgi_prepare_desc {
  *
  * Once all is there, sdfgi_set_settings with these settings and `enabled` set makes no pipeline, allocates no
  * device memory and cannot fail for want of either; nor does sdfgi_update after it, unless surfaces outgrow
- * the list of light cells or the scene has more than 1024 instances. That holds for the switch from off to
+ * the list of light cells, or the scene by then the room for instances. That holds for the switch from off to
  * on, and for settings marked "re-create" while GI is on: the volumes in force go on until then. Both are
  * held meanwhile. Settings are as prepared if they agree in all that is marked "re-create".
+ *
+ * There is room for the instances that the scene has now, and for 1024 at least. If more have been created
+ * since, another call makes room for them. Volumes that are on, or kept, get it from the next sdfgi_update
+ * while GI is on.
  *
  * Updates with what has been prepared keep to sdfgi_max_scroll_cells_per_frame even where nothing is shown
  * yet, at the start and after a teleport: with the defaults a cascade a frame, the coarsest first. Without,
