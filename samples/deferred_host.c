@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Teaches: how a deferred renderer gets global illumination. It draws depths, normals and materials, and a
- * compute pass lights them. libsdfgi makes pictures of indirect light and of reflections in between: no
- * shader of the renderer includes anything. What it asks for stands between the lines `GI begins` and `GI
- * ends`, here and in deferred_shade.comp, and a test counts them. */
+ * compute pass lights them. libsdfgi makes pictures of light in between: no shader of the renderer includes
+ * anything. There are two ways. A view has indirect light and reflections; `--gather` shows the other, one
+ * call and no reflections. What libsdfgi asks for stands between the lines `GI begins` and `GI ends`,
+ * here and in deferred_shade.comp, what one way alone needs between `GI with ...`, and a test counts them. */
 /* GI begins */
 #include <sdfgi/sdfgi.h>
 /* GI ends */
@@ -24,23 +25,22 @@ struct renderer {
     struct sample_gpu *gpu;
     struct sample_scene scene;
     struct sample_drawing drawing;
-    struct sample_image colors[4], depth; /* base colour and metal, normal, roughness, radiance */
-    struct sample_image black;
+    struct sample_image colors[4], depth;  /* base colour and metal, normal, roughness, radiance */
+    struct sample_image black, irradiance; /* where there is no light, and what is gathered */
     struct sample_pass pass;
-    struct sample_set set, light;
+    struct sample_set set, light[SAMPLE_FRAMES]; /* those of a frame change while another is in flight */
     struct sample_pipeline gbuffer, shade;
 };
 
-/* From the first frame on, what is there of the two pictures takes the place of black. */
+/* In each frame, because GI may be switched: black stands for what is not there of the two pictures. */
 static void show_light(const struct renderer *r, bool lit, VkImageView irradiance, VkImageView reflection)
 {
     const VkImageView views[] = { irradiance, reflection };
-    for (uint32_t i = 0; i < 2 && lit && r->gpu->frame == 0; i++) {
+    for (uint32_t i = 0; i < 2; i++) {
         const struct sample_binding picture = { .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                                .view = views[i],
+                                                .view = lit && views[i] ? views[i] : r->black.view,
                                                 .layout = VK_IMAGE_LAYOUT_GENERAL };
-        if (views[i])
-            sample_set_replace(r->gpu, &r->light, i, &picture);
+        sample_set_replace(r->gpu, &r->light[r->gpu->frame % SAMPLE_FRAMES], i, &picture);
     }
 }
 
@@ -59,20 +59,18 @@ static VkPhysicalDeviceFeatures ask_for_features(const struct sample_gpu *gpu)
     return needs.features;
 }
 
-static sdfgi *make_gi(const struct sample_gpu *gpu, const struct sample_options *options)
+static sdfgi *make_gi(const struct sample_gpu *gpu, const struct sample_options *options,
+                      struct sdfgi_settings *settings)
 {
-    struct sdfgi_settings settings;
-    sdfgi_settings_default(&settings);
-    settings.enabled = options->gi;
+    sdfgi_settings_default(settings);
     for (uint32_t i = 0; i < options->setting_count; i++)
-        sample_require(sdfgi_settings_set(&settings, options->names[i], options->values[i], NULL, 0),
+        sample_require(sdfgi_settings_set(settings, options->names[i], options->values[i], NULL, 0),
                        options->names[i]);
-    const struct sdfgi_desc desc = { .vulkan = { gpu->instance, gpu->physical_device, gpu->device,
-                                                 gpu->queue_family, vkGetInstanceProcAddr, NULL,
-                                                 VK_API_VERSION_1_2 },
-                                     .frames_in_flight = SAMPLE_FRAMES,
-                                     .settings = &settings,
-                                     .log = { print_message, stderr } };
+    struct sdfgi_desc desc = { .settings = settings, .log = { print_message, stderr } };
+    desc.frames_in_flight = SAMPLE_FRAMES;
+    desc.vulkan = (struct sdfgi_vulkan){ gpu->instance,     gpu->physical_device,  gpu->device,
+                                         gpu->queue_family, vkGetInstanceProcAddr, NULL,
+                                         VK_API_VERSION_1_2 };
     sdfgi *gi;
     SAMPLE_CHECK(sdfgi_create(&desc, &gi));
     return gi;
@@ -99,11 +97,10 @@ static void add_object(sdfgi *gi, const struct renderer *r, const struct sample_
                                                        offsetof(struct sample_vertex, position),
                                     .position_stride = sizeof(struct sample_vertex),
                                     .index_buffer = r->drawing.indices.buffer,
-                                    .index_offset = own->first_index * sizeof(uint16_t),
-                                    .vertex_count = own->vertex_count,
-                                    .triangle_count = own->index_count / 3 };
+                                    .index_offset = own->first_index * sizeof(uint16_t) };
     struct sdfgi_material_desc material = { .smoothness = 1 - matter->glow[3] };
     struct sdfgi_instance_desc placed = { 0 };
+    mesh.vertex_count = own->vertex_count, mesh.triangle_count = own->index_count / 3;
     for (int i = 0; i < 3; i++) {
         mesh.bounds_min[i] = own->low[i], mesh.bounds_max[i] = own->high[i];
         material.albedo[i] = matter->base_color[i] * (1 - matter->base_color[3]);
@@ -116,7 +113,8 @@ static void add_object(sdfgi *gi, const struct renderer *r, const struct sample_
     SAMPLE_CHECK(sdfgi_instance_create(gi, &placed, &(sdfgi_instance){ 0 }));
 }
 
-/* Between G-buffer and lighting. The first frame tells which pictures light is in; black while GI is off. */
+/* GI with views begins */
+/* Between G-buffer and lighting. Each resolve tells which pictures light is in. */
 static void resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd, const struct renderer *r)
 {
     struct sdfgi_resolve_desc desc = { r->depth.view, r->colors[1].view, r->colors[2].view,
@@ -127,6 +125,19 @@ static void resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffer cmd, const stru
     sdfgi_view_get_images(view, &images);
     show_light(r, sdfgi_is_active(gi), images.diffuse, images.reflection);
 }
+/* GI with views ends */
+/* GI with gather begins */
+/* Between G-buffer and lighting, into a picture of the renderer's. While GI is off it is left as it is. */
+static void gather(sdfgi *gi, VkCommandBuffer cmd, const struct renderer *r)
+{
+    const struct sample_image *out = &r->irradiance;
+    struct sdfgi_gather_desc desc = { r->depth.view, r->colors[1].view, out->view, .background_depth = 1 };
+    desc.width = out->width, desc.height = out->height;
+    memcpy(desc.inverse_view_projection, r->scene.view.world_from_clip, sizeof desc.inverse_view_projection);
+    SAMPLE_CHECK(sdfgi_gather(gi, cmd, &desc));
+    show_light(r, sdfgi_is_active(gi), out->view, VK_NULL_HANDLE);
+}
+/* GI with gather ends */
 /* GI ends */
 
 static void make_images(struct renderer *r, struct sample_gpu *gpu, uint32_t width, uint32_t height)
@@ -142,6 +153,12 @@ static void make_images(struct renderer *r, struct sample_gpu *gpu, uint32_t wid
                                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     r->black = sample_image_make(gpu, width, height, VK_FORMAT_R8G8B8A8_UNORM,
                                  VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    /* GI begins */
+    /* GI with gather begins */
+    r->irradiance = sample_image_make(gpu, width, height, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    /* GI with gather ends */
+    /* GI ends */
 }
 
 static struct sample_binding sampled(const struct sample_image *image, VkImageLayout layout)
@@ -166,7 +183,8 @@ static void make_sets(struct renderer *r, struct sample_gpu *gpu)
     };
     const struct sample_binding black = sampled(&r->black, VK_IMAGE_LAYOUT_GENERAL);
     r->set = sample_set_make(gpu, bindings, BINDINGS);
-    r->light = sample_set_make(gpu, (const struct sample_binding[]){ black, black }, 2);
+    for (int i = 0; i < SAMPLE_FRAMES; i++)
+        r->light[i] = sample_set_make(gpu, (const struct sample_binding[]){ black, black }, 2);
 }
 
 static void make_renderer(struct renderer *r, struct sample_gpu *gpu, const struct sample_options *options)
@@ -182,7 +200,7 @@ static void make_renderer(struct renderer *r, struct sample_gpu *gpu, const stru
     r->pass = sample_pass_make(gpu, r->colors, 4, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, &r->depth);
     memcpy(r->pass.clear[3].color.float32, r->scene.view.sky, sizeof r->scene.view.sky);
     make_sets(r, gpu);
-    const VkDescriptorSetLayout layouts[] = { r->set.layout, r->light.layout };
+    const VkDescriptorSetLayout layouts[] = { r->set.layout, r->light[0].layout };
     r->gbuffer.layout = sample_layout_make(gpu, layouts, 1);
     r->shade.layout = sample_layout_make(gpu, layouts, 2);
     const struct sample_code vertex = SAMPLE_CODE(sample_mesh_vert),
@@ -206,7 +224,7 @@ static void draw_gbuffer(const struct renderer *r, VkCommandBuffer cmd)
 static void shade(const struct renderer *r, VkCommandBuffer cmd)
 {
     const struct sample_image *radiance = &r->colors[3];
-    const VkDescriptorSet sets[] = { r->set.set, r->light.set };
+    const VkDescriptorSet sets[] = { r->set.set, r->light[r->gpu->frame % SAMPLE_FRAMES].set };
     sample_image_barrier(cmd, radiance, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
     vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, r->shade.pipeline);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, r->shade.layout, 0, 2, sets, 0, NULL);
@@ -214,8 +232,8 @@ static void shade(const struct renderer *r, VkCommandBuffer cmd)
     sample_image_barrier(cmd, radiance, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 }
 
-/* In the layout that it keeps. */
-static void clear_black(const struct renderer *r, VkCommandBuffer cmd)
+/* In the layouts that pictures of light keep. */
+static void begin_light(const struct renderer *r, VkCommandBuffer cmd)
 {
     const VkClearColorValue black = { .float32 = { 0 } };
     const VkImageSubresourceRange all = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
@@ -223,6 +241,7 @@ static void clear_black(const struct renderer *r, VkCommandBuffer cmd)
     sample_image_barrier(cmd, &r->black, VK_IMAGE_LAYOUT_UNDEFINED, general);
     vkCmdClearColorImage(cmd, r->black.image, general, &black, 1, &all);
     sample_image_barrier(cmd, &r->black, general, general);
+    sample_image_barrier(cmd, &r->irradiance, VK_IMAGE_LAYOUT_UNDEFINED, general);
 }
 
 int main(int argc, char **argv)
@@ -243,26 +262,38 @@ int main(int argc, char **argv)
     sample_gpu_open(&gpu, &features, extensions, count);
     make_renderer(&r, &gpu, &options);
     /* GI begins */
-    sdfgi *gi = make_gi(&gpu, &options);
+    struct sdfgi_settings settings;
+    sdfgi *gi = make_gi(&gpu, &options, &settings);
     for (int i = 0; i < SAMPLE_OBJECTS; i++)
         add_object(gi, &r, &r.scene.objects[i]);
     add_lights(gi, &r.scene.view);
+    /* GI with views begins */
     const struct sdfgi_view_desc picture = { .width = options.width, .height = options.height };
     sdfgi_view *view;
     SAMPLE_CHECK(sdfgi_view_create(gi, &picture, &view));
+    /* GI with views ends */
     /* GI ends */
     bool settled = false;
-    while ((window || !settled) && gpu.frame < options.frames && sample_window_acquire(window, &gpu)) {
+    while (sample_options_go_on(&options, gpu.frame, settled) && sample_window_acquire(window, &gpu)) {
         const VkCommandBuffer cmd = sample_frame_begin(&gpu);
         if (gpu.frame == 0)
-            clear_black(&r, cmd);
+            begin_light(&r, cmd);
         draw_gbuffer(&r, cmd);
         /* GI begins */
         const float *eye = r.scene.view.eye;
         const struct sdfgi_frame_desc frame = { .camera_position = { eye[0], eye[1], eye[2] } };
         struct sdfgi_report report;
+        settings.enabled = sample_options_gi(&options, gpu.frame);
+        SAMPLE_CHECK(sdfgi_set_settings(gi, &settings));
         SAMPLE_CHECK(sdfgi_update(gi, cmd, &frame));
-        resolve(gi, view, cmd, &r);
+        /* GI with views begins */
+        if (!options.gather)
+            resolve(gi, view, cmd, &r);
+        /* GI with views ends */
+        /* GI with gather begins */
+        if (options.gather)
+            gather(gi, cmd, &r);
+        /* GI with gather ends */
         sdfgi_get_report(gi, &report);
         settled = !report.active || report.converged;
         /* GI ends */

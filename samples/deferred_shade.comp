@@ -11,7 +11,9 @@ layout(set = 0, binding = 4) uniform sampler2D depth_image;
 layout(set = 0, binding = 5, rgba16f) uniform image2D radiance_image;
 /* GI begins */
 layout(set = 1, binding = 0) uniform sampler2D irradiance_image;
+/* GI with views begins */
 layout(set = 1, binding = 1) uniform sampler2D reflection_image;
+/* GI with views ends */
 /* GI ends */
 
 void main()
@@ -26,7 +28,9 @@ void main()
     vec3 irradiance = lamp_irradiance(world.xyz / world.w, normal), reflection = vec3(0.0);
     /* GI begins */
     irradiance += texelFetch(irradiance_image, pixel, 0).rgb;
+    /* GI with views begins */
     reflection += texelFetch(reflection_image, pixel, 0).rgb;
+    /* GI with views ends */
     /* GI ends */
     const vec3 light = mix(irradiance / PI, reflection, color_metal.a);
     const vec4 radiance = imageLoad(radiance_image, pixel);

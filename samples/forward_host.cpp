@@ -31,11 +31,9 @@ static VkPhysicalDeviceFeatures ask_for_features(const sample_gpu &gpu)
     return needs.features;
 }
 
-static sdfgi *make_gi(const sample_gpu &gpu, const sample_options &options)
+static sdfgi *make_gi(const sample_gpu &gpu, const sample_options &options, sdfgi_settings &settings)
 {
-    sdfgi_settings settings;
     sdfgi_settings_default(&settings);
-    settings.enabled = options.gi;
     for (uint32_t i = 0; i < options.setting_count; i++)
         sample_require(sdfgi_settings_set(&settings, options.names[i], options.values[i], nullptr, 0),
                        options.names[i]);
@@ -164,17 +162,20 @@ int main(int argc, char **argv)
     extensions = sample_window_device_extensions(window, &count);
     sample_gpu_open(&gpu, &features, extensions, count);
     /* GI begins */
-    sdfgi *gi = make_gi(gpu, options);
+    sdfgi_settings settings;
+    sdfgi *gi = make_gi(gpu, options, settings);
     make_renderer(r, gpu, options, sdfgi_get_descriptor_set_layout(gi));
     add_objects(gi, r.scene, r.drawing);
     add_lights(gi, r.scene.view);
     /* GI ends */
     bool settled = false;
-    while ((window || !settled) && gpu.frame < options.frames && sample_window_acquire(window, &gpu)) {
+    while (sample_options_go_on(&options, gpu.frame, settled) && sample_window_acquire(window, &gpu)) {
         const VkCommandBuffer cmd = sample_frame_begin(&gpu);
         /* GI begins */
         sdfgi_frame_desc frame = {};
         std::copy_n(r.scene.view.eye, 3, frame.camera_position);
+        settings.enabled = sample_options_gi(&options, gpu.frame);
+        SAMPLE_CHECK(sdfgi_set_settings(gi, &settings));
         SAMPLE_CHECK(sdfgi_update(gi, cmd, &frame));
         draw(r, cmd, sdfgi_get_descriptor_set(gi));
         sdfgi_report report;

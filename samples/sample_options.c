@@ -6,10 +6,11 @@
 #include <string.h>
 
 static const char usage[] =
-    "usage: %s [--out FILE.ppm|FILE.pfm] [--gi on|off] [--size WxH] [--frames N] [--set NAME=VALUE]...\n"
-    "       [--window]\n"
+    "usage: %s [--out FILE.ppm|FILE.pfm] [--gi on|off] [--switch N] [--size WxH] [--frames N]\n"
+    "       [--set NAME=VALUE]... [--gather] [--window]\n"
     "Draws a room until its light has settled, for 1000 frames or N at most. A window stays open for N\n"
-    "frames, or until it is closed.\n";
+    "frames, or until it is closed. --switch turns GI on or off in frame N. --gather has a deferred host\n"
+    "gather diffuse light alone, without reflections.\n";
 
 static void end(const char *program, bool is_help)
 {
@@ -52,6 +53,8 @@ static bool read_option(struct sample_options *o, const char *name, const char *
         return read_size(value, o);
     if (strcmp(name, "--frames") == 0)
         return read_number(value, '\0', 1000000, &o->frames);
+    if (strcmp(name, "--switch") == 0)
+        return read_number(value, '\0', 1000000, &o->switch_frame);
     return strcmp(name, "--set") == 0 && read_setting(o, value);
 }
 
@@ -63,6 +66,8 @@ void sample_options_read(struct sample_options *o, int argc, char **argv)
             end(argv[0], true);
         if (strcmp(argv[i], "--window") == 0)
             o->window = true;
+        else if (strcmp(argv[i], "--gather") == 0)
+            o->gather = true;
         else if (i + 1 == argc || !read_option(o, argv[i], argv[i + 1]))
             end(argv[0], false);
         else
@@ -70,4 +75,14 @@ void sample_options_read(struct sample_options *o, int argc, char **argv)
     }
     if (o->frames == 0)
         o->frames = o->window ? UINT32_MAX : 1000;
+}
+
+bool sample_options_gi(const struct sample_options *o, uint64_t frame)
+{
+    return o->gi != (o->switch_frame > 0 && frame >= o->switch_frame);
+}
+
+bool sample_options_go_on(const struct sample_options *o, uint64_t frame, bool settled)
+{
+    return (o->window || !settled || frame <= o->switch_frame) && frame < o->frames;
 }

@@ -56,12 +56,18 @@ def read_pfm(path):
     return [[tuple(row[3 * x:3 * x + 3]) for x in range(WIDTH)] for row in reversed(rows)]
 
 
+# What each host draws, and how. A forward host fetches a set in each frame; a deferred one binds pictures.
+SWITCHED_ON, SWITCHED_OFF = ["--gi", "off", "--switch", "5"], ["--gi", "on", "--switch", "9"]
+RUNS = {"on": ["--gi", "on"], "off": ["--gi", "off"], "switched_off": SWITCHED_OFF}
+DEFERRED_RUNS = {"switched_on": SWITCHED_ON, "gathered": ["--gather", *SWITCHED_ON],
+                 "gathered_off": ["--gather", *SWITCHED_OFF]}
+
 said, pictures = {}, {}
 for name in hosts:
-    for gi in ("on", "off"):
+    for gi, words in {**RUNS, **(DEFERRED_RUNS if name == "deferred" else {})}.items():
         out = f"{scratch.name}/{name}_{gi}.pfm"
         chosen = [word for key, value in SETTINGS.items() for word in ("--set", f"{key}={value}")]
-        said[name, gi] = run(name, "--gi", gi, "--out", out, *chosen)
+        said[name, gi] = run(name, *words, "--out", out, *chosen)
         pictures[name, gi] = read_pfm(out) if said[name, gi][1] == 0 else None
 
 
@@ -105,23 +111,43 @@ def everywhere():
     return [(x, y) for x in range(WIDTH) for y in range(HEIGHT) if (x, y) not in METAL]
 
 
-def light_that_is_not_the_same():
-    """What GI adds, pixel by pixel, over its mean. Edges of what the plate mirrors are left out."""
-    def added(name, x, y):
-        return [on - off for on, off in zip(pictures[name, "on"][y][x], pictures[name, "off"][y][x])]
-    light = {name: [added(name, x, y) for x, y in everywhere()] for name in hosts}
-    size = sum(map(sum, light["forward"]))
-    apart = [sum(abs(a - b) for a, b in zip(one, other)) for one, other in zip(*light.values())]
+def differences(one, other):
+    """What GI adds in two pictures, pixel by pixel, over its mean. Edges of what the plate mirrors are left
+    out."""
+    def added(name, gi, x, y):
+        return [on - off for on, off in zip(pictures[name, gi][y][x], pictures[name, "off"][y][x])]
+    light = [[added(name, gi, x, y) for x, y in everywhere()] for name, gi in (one, other)]
+    size = sum(map(sum, light[0]))
+    apart = [sum(abs(a - b) for a, b in zip(*pair)) for pair in zip(*light)]
     if size <= 0:
-        yield "forward adds no light"
+        yield f"{one} adds no light"
         return
     if sum(apart) > SAME * size:
-        yield f"pictures differ by {sum(apart) / size:.4f} of their mean"
+        yield f"{one} and {other} differ by {sum(apart) / size:.4f} of their mean"
     # Pixels along edges may show another surface.
     far = sum(each > 0.1 * size / len(apart) for each in apart)
-    print(f"# pictures differ by {sum(apart) / size:.5f} of their mean, {far} pixels by more than a tenth")
+    print(f"# {one}, {other}: {sum(apart) / size:.5f} of their mean apart, {far} pixels by more than a tenth")
     if far > 0.005 * len(apart):
         yield f"{far} pixels of {len(apart)} differ by more than a tenth of the mean"
+
+
+def light_that_is_not_the_same():
+    yield from differences(("forward", "on"), ("deferred", "on"))
+
+
+def gathers_that_are_not_the_same():
+    """Of diffuse light. There is no other in the picture."""
+    yield from differences(("deferred", "on"), ("deferred", "gathered"))
+    reflected = mean(pictures["deferred", "gathered"], MIRROR)
+    if max(reflected) != 0:
+        yield f"the metal has {reflected}"
+
+
+def switches_that_leave_traces():
+    yield from differences(("deferred", "on"), ("deferred", "switched_on"))
+    for name, gi in pictures:
+        if gi in ("switched_off", "gathered_off") and pictures[name, gi] != pictures[name, "off"]:
+            yield f"{name}, {gi}: light stays after GI has been switched off"
 
 
 def pictures_for_displays_that_are_bad():
@@ -131,7 +157,7 @@ def pictures_for_displays_that_are_bad():
     if not data.startswith(b"P6\n%d %d\n255\n" % (WIDTH, HEIGHT)) or len(data) != 3 * WIDTH * HEIGHT + 14:
         yield f"{len(data)} bytes that begin with {data[:20]}: {text}"
     for wrong in (["--gi"], ["--gi", "maybe"], ["--size", "0x4"], ["--set", "sdfgi_cascades"],
-                  ["--what", "1"]):
+                  ["--switch", "0"], ["--what", "1"]):
         if run("deferred", *wrong)[1] != 2:
             yield f"{wrong} is taken"
     text, code = run("deferred", "--set", "sdfgi_cascade=2")
@@ -158,6 +184,8 @@ CLAIMS = {
     "a_red_wall_lights_the_shadow_of_a_block": shadows_without_light_of_the_wall,
     "smooth_metal_mirrors_the_wall_alike": mirrors_without_the_wall,
     "forward_and_deferred_show_the_same_light": light_that_is_not_the_same,
+    "a_gather_shows_the_diffuse_light_of_a_view": gathers_that_are_not_the_same,
+    "gi_is_switched_on_and_off_while_hosts_run": switches_that_leave_traces,
     "windows_show_frames_without_a_message": windows_that_do_not_show_frames,
     "command_lines_are_checked": pictures_for_displays_that_are_bad,
 }
