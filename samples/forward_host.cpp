@@ -43,6 +43,7 @@ static sdfgi *make_gi(const sample_gpu &gpu, const sample_options &options, sdfg
     desc.frames_in_flight = SAMPLE_FRAMES;
     desc.settings = &settings;
     desc.log.fn = print_message;
+    desc.up_axis = options.down ? SDFGI_UP_MINUS_Y : SDFGI_UP_Y;
     sdfgi *gi;
     SAMPLE_CHECK(sdfgi_create(&desc, &gi));
     return gi;
@@ -66,7 +67,7 @@ static void add_lights(sdfgi *gi, const sample_view &view)
     SAMPLE_CHECK(sdfgi_set_sky(gi, &sky));
 }
 
-static void add_objects(sdfgi *gi, const sample_scene &scene, const sample_drawing &drawing)
+static void add_objects(sdfgi *gi, const sample_scene &scene, const sample_drawing &drawing, bool down)
 {
     for (const sample_object &object : scene.objects) {
         const sample_mesh &own = scene.meshes[object.mesh];
@@ -78,6 +79,7 @@ static void add_objects(sdfgi *gi, const sample_scene &scene, const sample_drawi
         mesh.index_offset = own.first_index * sizeof(uint16_t);
         mesh.vertex_count = own.vertex_count;
         mesh.triangle_count = own.index_count / 3;
+        mesh.front_face = down ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
         std::copy_n(own.low, 3, mesh.bounds_min);
         std::copy_n(own.high, 3, mesh.bounds_max);
         sdfgi_material_desc material = {};
@@ -112,6 +114,8 @@ static void make_renderer(renderer &r, sample_gpu &gpu, const sample_options &op
                           VkDescriptorSetLayout gi_layout)
 {
     sample_scene_make(&r.scene, (float)options.width / (float)options.height);
+    if (options.down)
+        sample_scene_flip(&r.scene);
     VkBufferUsageFlags usage = 0;
     /* GI begins */
     usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -165,7 +169,7 @@ int main(int argc, char **argv)
     sdfgi_settings settings;
     sdfgi *gi = make_gi(gpu, options, settings);
     make_renderer(r, gpu, options, sdfgi_get_descriptor_set_layout(gi));
-    add_objects(gi, r.scene, r.drawing);
+    add_objects(gi, r.scene, r.drawing, options.down);
     add_lights(gi, r.scene.view);
     /* GI ends */
     bool settled = false;

@@ -7,10 +7,11 @@
 
 static const char usage[] =
     "usage: %s [--out FILE.ppm|FILE.pfm] [--gi on|off] [--switch N] [--size WxH] [--frames N]\n"
-    "       [--set NAME=VALUE]... [--gather] [--window]\n"
+    "       [--set NAME=VALUE]... [--gather] [--down] [--window]\n"
     "Draws a room until its light has settled, for 1000 frames or N at most. A window stays open for N\n"
     "frames, or until it is closed. --switch turns GI on or off in frame N. --gather has a deferred host\n"
-    "gather diffuse light alone, without reflections.\n";
+    "gather diffuse light alone, without reflections. --down has a forward host turn its world upside "
+    "down.\n";
 
 static void end(const char *program, bool is_help)
 {
@@ -68,6 +69,8 @@ void sample_options_read(struct sample_options *o, int argc, char **argv)
             o->window = true;
         else if (strcmp(argv[i], "--gather") == 0)
             o->gather = true;
+        else if (strcmp(argv[i], "--down") == 0)
+            o->down = true;
         else if (i + 1 == argc || !read_option(o, argv[i], argv[i + 1]))
             end(argv[0], false);
         else

@@ -16,6 +16,7 @@ struct sample_options {
     const char *out;        /* picture's file; NULL: none */
     bool gi;                /* --gi on or off */
     bool gather;            /* --gather: diffuse light alone, without reflections */
+    bool down;              /* --down: the world of a forward host has +Y down, baked into its vertices */
     bool window;            /* --window */
     uint32_t width, height; /* --size WxH */
     uint32_t frames;        /* --frames N: as many at most */

@@ -131,6 +131,36 @@ void sample_scene_make(struct sample_scene *scene, float aspect)
     make_view(&scene->view, aspect);
 }
 
+/* Negates what leads into world Y, out of it, or both. */
+static void flip_matrix(float m[static 16], bool from_world, bool to_world)
+{
+    for (int i = 0; i < 4; i++) {
+        m[4 + i] *= from_world ? -1 : 1;
+        m[4 * i + 1] *= to_world ? -1 : 1;
+    }
+}
+
+void sample_scene_flip(struct sample_scene *s)
+{
+    for (uint32_t i = 0; i < s->vertex_count; i++) {
+        s->vertices[i].position[1] *= -1;
+        s->vertices[i].normal[1] = (int8_t)-s->vertices[i].normal[1];
+    }
+    for (int i = 0; i < SAMPLE_MESHES; i++) {
+        const float low = s->meshes[i].low[1];
+        s->meshes[i].low[1] = -s->meshes[i].high[1];
+        s->meshes[i].high[1] = -low;
+    }
+    for (int i = 0; i < SAMPLE_OBJECTS; i++)
+        flip_matrix(s->objects[i].matrix, true, true);
+    flip_matrix(s->view.clip_from_world, true, false);
+    flip_matrix(s->view.lamp_clip_from_world, true, false);
+    flip_matrix(s->view.world_from_clip, false, true);
+    s->view.eye[1] *= -1;
+    s->view.lamp_position[1] *= -1;
+    s->view.lamp_direction[1] *= -1;
+}
+
 /* ---- On a device */
 
 struct sample_drawing sample_drawing_make(struct sample_gpu *gpu, const struct sample_scene *scene,

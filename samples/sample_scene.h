@@ -65,6 +65,9 @@ struct sample_scene {
 /* A grey floor, a red wall, a white one, a block that keeps the lamp's light off a part of the floor, and a
  * plate of smooth metal. */
 void sample_scene_make(struct sample_scene *scene, float aspect);
+/* Makes +Y point down: mirrors vertices, matrices and places. What is seen stays; triangles wind the other
+ * way. */
+void sample_scene_flip(struct sample_scene *scene);
 
 /* The scene on a device. */
 struct sample_drawing {
