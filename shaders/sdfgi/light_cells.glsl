@@ -8,8 +8,8 @@
 #include "../lib/light_pack.glsl"
 #include "../lib/random.glsl"
 
-/* Where a light cell's rays to probes begin. From its middle many of them would run along edges of sub-voxels,
- * and rounding would decide what they hit: another driver, another answer (HARD_CASES row 57). */
+/* Where a light cell's rays to probes begin. From its middle many of them would run along edges of
+ * sub-voxels, and rounding would decide what they hit: another driver, another answer (HARD_CASES row 57). */
 const vec3 LIGHT_CELL_EYE = vec3(0.5) + vec3(0.0137, 0.0093, 0.0171);
 
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHT_CELLS) buffer sdfgi_light_cells_buffer
@@ -29,9 +29,9 @@ uint light_cell_hash(uint cascade, ivec3 cell)
     return sdfgi_random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
 }
 
-/* A place within a cell, -0.5 to 0.5 from its middle, of a lattice: along any row of cells, and over any patch of
- * them, places are spread evenly. Each component is a multiple of generalised golden ratios (Roberts 2018, "The
- * unreasonable effectiveness of quasirandom sequences"), modulo 1. */
+/* A place within a cell, -0.5 to 0.5 from its middle, of a lattice: along any row of cells, and over any
+ * patch of them, places are spread evenly. Each component is a multiple of generalised golden ratios (Roberts
+ * 2018, "The unreasonable effectiveness of quasirandom sequences"), modulo 1. */
 vec3 light_cell_place(uint cascade, ivec3 cell)
 {
     const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;

@@ -30,7 +30,8 @@ shared ivec3 cells[CELLS];
 shared uint facing[CELLS];
 shared uint unshadowed[SDFGI_GROUP_SURFACES]; /* bits of the batch's lights in which a surface lies */
 shared vec3 starts[SDFGI_GROUP_SURFACES];     /* of a surface's shadow rays */
-shared uint rays[SDFGI_GROUP_SURFACES * BATCH]; /* a surface's thread times BATCH, plus a light's in the batch */
+shared uint
+    rays[SDFGI_GROUP_SURFACES * BATCH]; /* a surface's thread times BATCH, plus a light's in the batch */
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
@@ -68,14 +69,14 @@ struct surface {
 
 /* Cosine of the largest angle between a surface that counts as level with the grid and an axis. */
 const float LEVEL = 0.999;
-/* Cells. How far from a level surface shadow rays start, and from any other: nearer to a slope, rays would meet
- * its own steps. From the middle of the cell, surfaces on both sides of an edge were lit by the same light: a room
- * with a patch of sun on its floor and a wall was 2 % too bright. */
+/* Cells. How far from a level surface shadow rays start, and from any other: nearer to a slope, rays would
+ * meet its own steps. From the middle of the cell, surfaces on both sides of an edge were lit by the same
+ * light: a room with a patch of sun on its floor and a wall was 2 % too bright. */
 const float LEVEL_CLEARANCE = 0.1, CLEARANCE = 0.4;
 
-/* Shadow rays start elsewhere over each surface, so that of the cells on the edge of a shadow as many are lit as
- * the light covers of them. From the middles of all cells, a patch of sun was up to a row of cells too wide or too
- * narrow. */
+/* Shadow rays start elsewhere over each surface, so that of the cells on the edge of a shadow as many are lit
+ * as the light covers of them. From the middles of all cells, a patch of sun was up to a row of cells too
+ * wide or too narrow. */
 vec3 shadow_start(ivec3 cell, vec3 step, vec3 normal, float distance)
 {
     const bool level = dot(normal, step) > LEVEL;
@@ -126,8 +127,8 @@ uint find_candidates(uint first, uint count, surface s)
     return bits;
 }
 
-/* Lists a shadow ray from this thread's surface to each of its candidates. Returns those that need none, because
- * they cast no shadows. */
+/* Lists a shadow ray from this thread's surface to each of its candidates. Returns those that need none,
+ * because they cast no shadows. */
 uint list_rays(uint first, uint candidates)
 {
     uint shadowless = 0u;
@@ -141,8 +142,8 @@ uint list_rays(uint first, uint candidates)
     return shadowless;
 }
 
-/* Traces the listed rays. The rays of a subgroup wait for each other. If there are fewer rays than threads, they
- * are spread over the threads evenly, and so over as many subgroups as possible. */
+/* Traces the listed rays. The rays of a subgroup wait for each other. If there are fewer rays than threads,
+ * they are spread over the threads evenly, and so over as many subgroups as possible. */
 void trace_rays(uint first)
 {
     const uint threads_per_ray = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
@@ -206,7 +207,7 @@ void main()
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < sdfgi_frame.light_count; first += BATCH)
         sum += light_from_batch(first, faces, s);
-    reflected[own][axis] = faces ? sum * surface_albedo(s.block) / PI : vec3(0.0);
+    reflected[own][axis] = faces ? sum * surface_albedo(s.block, axis) / PI : vec3(0.0);
     barrier();
     if (lit && axis == 0u)
         store_cell(slot, own);
