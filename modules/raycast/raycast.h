@@ -117,9 +117,9 @@ enum { RAYCAST_MAX_CASCADES = 8, RAYCAST_NO_SLOPE = 127 };
 
 /* What a voxel renderer knows of the surfaces in 2x2x2 cells. Axes: +x -x +y -y +z -z. */
 struct raycast_block {
-    float emission[3];   /* mean radiance of what emits, W/(m^2 sr) */
-    uint16_t albedo[3];  /* in 1/1023 */
-    uint8_t emitting[6]; /* per axis, in 1/31: the share of what is seen from there that emits */
+    float emission[3];     /* mean radiance of what emits, W/(m^2 sr) */
+    uint16_t albedo[6][3]; /* per axis that a surface faces, in 1/1023 */
+    uint8_t emitting[6];   /* per axis, in 1/31: the share of what is seen from there that emits */
     /* Per largest component k, x to z: mean normal of such triangles, up to its sign: 1 along k, then in 1/15
      * along the next axis and the one after that, in cyclic order. RAYCAST_NO_SLOPE in the first: there are
      * none. */

@@ -73,10 +73,11 @@ static bool voxels_intersect(const struct geometry *g, const struct ray *ray, st
     if (!is_hit)
         return false;
     const struct raycast_block *b = voxel_grid_block(&v->grid, &hit.place);
+    const uint16_t *albedo = b->albedo[hit.axis];
     *out = (struct surface){ 0 };
     out->position = vec3_mad(ray->origin, ray->direction, (float)hit.t_m);
     out->normal = out->geometric_normal = block_normal(b, hit.axis);
-    out->diffuse = vec3_scale(vec3_make(b->albedo[0], b->albedo[1], b->albedo[2]), 1.0f / 1023.0f);
+    out->diffuse = vec3_scale(vec3_make(albedo[0], albedo[1], albedo[2]), 1.0f / 1023.0f);
     emission_set(v, b, hit.axis, ray->direction, out);
     out->start = voxel_start(v, &hit, out->normal, out->position);
     return true;

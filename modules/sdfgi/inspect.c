@@ -83,14 +83,28 @@ enum sdfgi_result sdfgi_inspect_copy(sdfgi *gi, VkCommandBuffer cmd, uint32_t ca
     return SDFGI_OK;
 }
 
-void sdfgi_inspect_decode_block(uint32_t albedo, const uint32_t *emission, uint32_t normals,
+/* As in shaders/sdfgi/surface.glsl. */
+static void decode_albedo(const uint32_t *words, uint16_t albedo[6][3])
+{
+    const uint32_t sides = words[0] >> 30 | words[1] >> 28 << 2;
+    const uint16_t colors[2][3] = {
+        { words[0] & 1023, words[0] >> 10 & 1023, words[0] >> 20 & 1023 },
+        { (uint16_t)(((words[1] & 511) * 1023 + 255) / 511), words[1] >> 9 & 1023,
+          (uint16_t)(((words[1] >> 19 & 511) * 1023 + 255) / 511) },
+    };
+    for (int axis = 0; axis < 6; axis++)
+        memcpy(albedo[axis], colors[sides >> axis & 1], sizeof albedo[axis]);
+}
+
+void sdfgi_inspect_decode_block(const uint32_t *albedo, const uint32_t *emission, uint32_t normals,
                                 float emission_unit, struct sdfgi_inspect_surface *out)
 {
     enum { NO_NORMAL = 31, ZERO_SLOPE = 15 };
     memset(out, 0, sizeof *out);
+    if (albedo)
+        decode_albedo(albedo, out->albedo);
     for (int i = 0; i < 3; i++) {
         const uint32_t slopes = normals >> (10 * i);
-        out->albedo[i] = (uint16_t)(albedo >> (10 * i) & 1023);
         /* RGB9E5 as in shaders/lib/rgbe.glsl, in one of two units as in shaders/sdfgi/surface.glsl. */
         out->emission[i] = ldexpf((float)(emission[0] >> (9 * i) & 511),
                                   (int)(emission[0] >> 27) - 24 + (emission[1] >> 30 & 1 ? 11 : -16)) *

@@ -61,7 +61,7 @@
     X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,             DERIVED) \
     X(MATERIALS,   STORAGE, MATERIAL_PARAMS, LISTS,   VOLUME, WORK,   SDFGI_MAX_MATERIALS,          DERIVED) \
     X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                   SCRATCH) \
-    X(ALBEDO,      STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
+    X(ALBEDO,      STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED) \
     X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   RAY_COUNT(e),                 DERIVED) \

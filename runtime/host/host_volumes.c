@@ -59,7 +59,8 @@ static void blocks_sort(const uint32_t *albedo, const uint32_t *emission, const 
         for (uint32_t y = 0; y < n; y++)
             for (uint32_t x = 0; x < n; x++) {
                 const uint64_t i = sdfgi_inspect_block(&out->where, 2 * x, 2 * y, 2 * z);
-                sdfgi_inspect_decode_block(albedo[i], emission + 2 * i, normals[i], out->where.emission_unit,
+                sdfgi_inspect_decode_block(albedo + 2 * i, emission + 2 * i, normals[i],
+                                           out->where.emission_unit,
                                            &out->blocks[x + (size_t)n * (y + (size_t)n * z)]);
             }
 }

@@ -23,6 +23,12 @@ uint accumulator(uint plane, uint block)
     return plane * (sdfgi_scratch_part_cells(sdfgi_frame.resolution_log2) / 8u) + block;
 }
 
+/* The first plane of what faces a side of a block, in the lower or the upper of its two layers of cells. */
+uint accumulator_albedo(uint side, uint layer)
+{
+    return SDFGI_ACCUM_ALBEDO + 4u * (2u * side + layer);
+}
+
 /* False if nothing has emitted yet, or there was no memory for emission: its accumulators are not there. */
 bool emission_is_kept()
 {

@@ -208,7 +208,7 @@ vec3 view_of_surface(surface_hit hit)
     case SDFGI_SHADER_DEBUG_CASCADE:
         return shade * DEBUG_CASCADES[hit.cascade];
     case SDFGI_SHADER_DEBUG_ALBEDO:
-        return surface_albedo(block);
+        return surface_albedo(block, hit.axis);
     case SDFGI_SHADER_DEBUG_EMISSION:
         return sdfgi_surfaces_emit() ? shown_light(sdfgi_block_emission(block, hit.axis)) : vec3(0.0);
     case SDFGI_SHADER_DEBUG_PROBES_IRRADIANCE:

@@ -8,7 +8,7 @@
 #include "../lib/light_pack.glsl"
 #include "../lib/random.glsl"
 
-/* Where a light cell's rays to lights and probes begin. From its middle many of them would run along edges of
+/* Where a light cell's rays to probes begin. From its middle many of them would run along edges of
  * sub-voxels, and rounding would decide what they hit: another driver, another answer (HARD_CASES row 57). */
 const vec3 LIGHT_CELL_EYE = vec3(0.5) + vec3(0.0137, 0.0093, 0.0171);
 
@@ -27,6 +27,16 @@ uint light_cell_hash(uint cascade, ivec3 cell)
 {
     const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;
     return sdfgi_random_hash3((base + cell) & (SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING - 1), cascade);
+}
+
+/* A place within a cell, -0.5 to 0.5 from its middle, of a lattice: along any row of cells, and over any
+ * patch of them, places are spread evenly. Each component is a multiple of generalised golden ratios (Roberts
+ * 2018, "The unreasonable effectiveness of quasirandom sequences"), modulo 1. */
+vec3 light_cell_place(uint cascade, ivec3 cell)
+{
+    const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;
+    const uvec3 at = uvec3(base + cell), a = at * 3518319155u, b = at * 2882110345u, c = at * 2360945575u;
+    return vec3(c.x + a.y + b.z, b.x + c.y + a.z, a.x + b.y + c.z) * (1.0 / 4294967296.0) - 0.5;
 }
 
 /* First word of an entry. */

@@ -3,9 +3,9 @@
  * reflected by the surface's albedo, one value per axis along which a surface faces.
  *
  * A thread per axis of each light cell finds the lights that would light its surface. All threads of the
- * workgroup then share the shadow rays from its cells to those lights; if each thread traced its own rays,
+ * workgroup then share the shadow rays from its surfaces to those lights; if each thread traced its own rays,
  * most would wait for the one with the most. A surface adds its lights in the order of the light list, so
- * that sums do not depend on which thread traces which ray. Shared memory: 4 KiB. */
+ * that sums do not depend on which thread traces which ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "light_blocks.glsl"
@@ -24,14 +24,14 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHTS) readonly bu
 
 const float PI = 3.14159265;
 const uint CELLS = uint(SDFGI_CELLS_OF_SURFACES);
-const uint BATCH = 32u; /* lights at once, a bit each */
+const uint BATCH = 16u; /* lights at once, a bit each */
 
 shared ivec3 cells[CELLS];
 shared uint facing[CELLS];
-/* Bits of the batch's lights: those that would light a surface of the cell, and those in whose light the cell
- * is. */
-shared uint candidates[CELLS], unshadowed[CELLS];
-shared uint rays[CELLS * BATCH]; /* a cell's index in `cells` times BATCH, plus a light's in the batch */
+shared uint unshadowed[SDFGI_GROUP_SURFACES]; /* bits of the batch's lights in which a surface lies */
+shared vec3 starts[SDFGI_GROUP_SURFACES];     /* of a surface's shadow rays */
+shared uint
+    rays[SDFGI_GROUP_SURFACES * BATCH]; /* a surface's thread times BATCH, plus a light's in the batch */
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
@@ -63,17 +63,37 @@ vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, 
 /* The surface behind a cell that faces along an axis. */
 struct surface {
     vec3 position, normal;
+    vec3 start; /* of its shadow rays, in the cell space of the cascade */
     uint block;
 };
 
-/* Light is computed at the surface. Shadow rays start at the cell's centre instead, which is in the open. */
+/* Cosine of the largest angle between a surface that counts as level with the grid and an axis. */
+const float LEVEL = 0.999;
+/* Cells. How far from a level surface shadow rays start, and from any other: nearer to a slope, rays would
+ * meet its own steps. From the middle of the cell, surfaces on both sides of an edge were lit by the same
+ * light: a room with a patch of sun on its floor and a wall was 2 % too bright. */
+const float LEVEL_CLEARANCE = 0.1, CLEARANCE = 0.4;
+
+/* Shadow rays start elsewhere over each surface, so that of the cells on the edge of a shadow as many are lit
+ * as the light covers of them. From the middles of all cells, a patch of sun was up to a row of cells too
+ * wide or too narrow. */
+vec3 shadow_start(ivec3 cell, vec3 step, vec3 normal, float distance)
+{
+    const bool level = dot(normal, step) > LEVEL;
+    const float face = clamp(distance - 0.5 / float(SDFGI_SUBVOXELS), 0.5, 1.0),
+                depth = level ? face - LEVEL_CLEARANCE : clamp(distance - CLEARANCE, 0.0, 0.47);
+    const vec3 place = light_cell_place(args.cascade, cell), aside = place - dot(place, normal) * normal;
+    return vec3(cell) + LIGHT_CELL_EYE + clamp(aside, -0.47, 0.47) - step * depth;
+}
+
 surface surface_behind(ivec3 cell, uint axis)
 {
     const ivec3 step = sdfgi_axis_direction(axis);
-    const float depth = clamp(sdfgi_cell_distance(args.cascade, cell), 0.5, 1.0);
+    const float distance = sdfgi_cell_distance(args.cascade, cell), depth = clamp(distance, 0.5, 1.0);
     const uint block = sdfgi_block_index(args.cascade, cell - step);
     const vec3 position = sdfgi_position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
-    return surface(position, surface_normal(block, axis), block);
+    const vec3 normal = surface_normal(block, axis);
+    return surface(position, normal, shadow_start(cell, vec3(step), normal, distance), block);
 }
 
 vec3 light_on_surface(uint light, surface s)
@@ -84,9 +104,8 @@ vec3 light_on_surface(uint light, surface s)
     return facing_light * max(dot(s.normal, to_light), 0.0);
 }
 
-bool is_unshadowed(ivec3 cell, uint light)
+bool is_unshadowed(vec3 pos, uint light)
 {
-    const vec3 pos = vec3(cell) + LIGHT_CELL_EYE;
     vec3 to_light;
     float range_m;
     light_arriving(sdfgi_lights[light], sdfgi_position_from_cascade(args.cascade, pos), to_light, range_m);
@@ -108,47 +127,48 @@ uint find_candidates(uint first, uint count, surface s)
     return bits;
 }
 
-/* Lists a shadow ray from a cell to each of its candidates. A light that casts no shadows needs none. */
-void list_rays(uint own, uint axis, uint first)
+/* Lists a shadow ray from this thread's surface to each of its candidates. Returns those that need none,
+ * because they cast no shadows. */
+uint list_rays(uint first, uint candidates)
 {
-    for (uint i = axis; i < BATCH; i += 6u) {
-        if ((candidates[own] >> i & 1u) == 0u)
-            continue;
+    uint shadowless = 0u;
+    for (uint rest = candidates; rest != 0u; rest &= rest - 1u) {
+        const uint i = uint(findLSB(rest));
         if ((sdfgi_lights[first + i].kind & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
-            rays[atomicAdd(ray_count, 1u)] = own * BATCH + i;
+            rays[atomicAdd(ray_count, 1u)] = gl_LocalInvocationIndex * BATCH + i;
         else
-            atomicOr(unshadowed[own], 1u << i);
+            shadowless |= 1u << i;
+    }
+    return shadowless;
+}
+
+/* Traces the listed rays. The rays of a subgroup wait for each other. If there are fewer rays than threads,
+ * they are spread over the threads evenly, and so over as many subgroups as possible. */
+void trace_rays(uint first)
+{
+    const uint threads_per_ray = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
+    for (uint i = gl_LocalInvocationIndex; i < ray_count * threads_per_ray; i += SDFGI_GROUP_SURFACES) {
+        const uint from = rays[i / threads_per_ray] / BATCH, light = rays[i / threads_per_ray] % BATCH;
+        if (i % threads_per_ray == 0u && is_unshadowed(starts[from], first + light))
+            atomicOr(unshadowed[from], 1u << light);
     }
 }
 
 /* Irradiance of a batch of lights on this thread's surface, if it has one. Called by the whole workgroup. */
-vec3 light_from_batch(uint first, uint own, uint axis, bool faces, surface s)
+vec3 light_from_batch(uint first, bool faces, surface s)
 {
-    const uint count = min(sdfgi_frame.light_count - first, BATCH);
+    const uint count = min(sdfgi_frame.light_count - first, BATCH), own = gl_LocalInvocationIndex;
     barrier();
-    if (axis == 0u)
-        candidates[own] = unshadowed[own] = 0u;
-    if (gl_LocalInvocationIndex == 0u)
+    if (own == 0u)
         ray_count = 0u;
     barrier();
-    const uint bits = faces ? find_candidates(first, count, s) : 0u;
-    if (bits != 0u)
-        atomicOr(candidates[own], bits);
+    unshadowed[own] = faces ? list_rays(first, find_candidates(first, count, s)) : 0u;
     barrier();
-    list_rays(own, axis, first);
-    barrier();
-    /* The rays of a subgroup wait for each other. If there are fewer rays than threads, they are spread over
-     * the threads evenly, and so over as many subgroups as possible. */
-    const uint threads_per_ray = clamp(SDFGI_GROUP_SURFACES / max(ray_count, 1u), 1u, args.threads_per_ray);
-    for (uint i = gl_LocalInvocationIndex; i < ray_count * threads_per_ray; i += SDFGI_GROUP_SURFACES) {
-        const uint cell = rays[i / threads_per_ray] / BATCH, light = rays[i / threads_per_ray] % BATCH;
-        if (i % threads_per_ray == 0u && is_unshadowed(cells[cell], first + light))
-            atomicOr(unshadowed[cell], 1u << light);
-    }
+    trace_rays(first);
     barrier();
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < count; i++)
-        if ((bits & unshadowed[own] & 1u << i) != 0u)
+        if ((unshadowed[own] & 1u << i) != 0u)
             sum += light_on_surface(first + i, s);
     return sum;
 }
@@ -183,10 +203,11 @@ void main()
     if (faces)
         atomicOr(facing[own], 1u << axis);
     const surface s = surface_behind(cell, axis);
+    starts[gl_LocalInvocationIndex] = s.start;
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < sdfgi_frame.light_count; first += BATCH)
-        sum += light_from_batch(first, own, axis, faces, s);
-    reflected[own][axis] = faces ? sum * surface_albedo(s.block) / PI : vec3(0.0);
+        sum += light_from_batch(first, faces, s);
+    reflected[own][axis] = faces ? sum * surface_albedo(s.block, axis) / PI : vec3(0.0);
     barrier();
     if (lit && axis == 0u)
         store_cell(slot, own);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The properties of surfaces: one albedo, emission and set of normals per albedo block (2^3 cells). A pass
+ * The properties of surfaces: two albedos, emission and a set of normals per albedo block (2^3 cells). A pass
  * defines SDFGI_WRITES_SURFACE to write them. */
 #ifndef SDFGI_SURFACE_GLSL
 #define SDFGI_SURFACE_GLSL
@@ -14,11 +14,14 @@
 #define SDFGI_ACCESS_SURFACE readonly
 #endif
 
-/* 10 bits each of red, green and blue. With 8 bits 0.95 was 0.949, and a furnace had 2 % less light. */
+/* Two colours, and for each side of the block, +x -x +y -y +z -z, the one that it shows: what is painted
+ * differently on its two faces, or stands before something else, is one wall of many. The first colour has
+ * ten bits a channel: with 8 bits 0.95 was 0.949, and a furnace had 2 % less light. The second has nine for
+ * red and blue. Six bits are left for the sides. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
 {
-    uint sdfgi_albedo[];
+    uvec2 sdfgi_albedo[];
 };
 
 /* Three mean normals: of the triangles whose dominant axis is x, y and z. Each has ten bits, two slopes of 5
@@ -72,16 +75,25 @@ vec3 surface_normal(uint block, uint axis)
     return best;
 }
 
-uint surface_pack_albedo(vec3 albedo)
+const vec3 SURFACE_SECOND_STEPS = vec3(511.0, 1023.0, 511.0);
+
+/* `sides` has a bit for each side that shows the second colour. */
+uvec2 surface_pack_albedo(vec3 first, vec3 second, uint sides)
 {
-    const uvec3 q = uvec3(clamp(albedo, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
-    return q.r | q.g << 10u | q.b << 20u;
+    const uvec3 a = uvec3(clamp(first, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5),
+                b = uvec3(clamp(second, 0.0, 1.0) * SURFACE_SECOND_STEPS + 0.5);
+    return uvec2(a.r | a.g << 10u | a.b << 20u | sides << 30u,
+                 b.r | b.g << 9u | b.b << 19u | sides >> 2u << 28u);
 }
 
-vec3 surface_albedo(uint block)
+/* What a block shows on the side that faces `axis`. */
+vec3 surface_albedo(uint block, uint axis)
 {
-    const uint packed = sdfgi_albedo[block];
-    return vec3(packed & 1023u, packed >> 10u & 1023u, packed >> 20u) / SDFGI_ALBEDO_STEPS;
+    const uvec2 packed = sdfgi_albedo[block];
+    const uint sides = packed.x >> 30u | packed.y >> 28u << 2u;
+    return (sides >> axis & 1u) == 0u
+               ? vec3(packed.x & 1023u, packed.x >> 10u & 1023u, packed.x >> 20u & 1023u) / SDFGI_ALBEDO_STEPS
+               : vec3(packed.y & 511u, packed.y >> 9u & 1023u, packed.y >> 19u & 511u) / SURFACE_SECOND_STEPS;
 }
 
 /* Radiance and the packed sides. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Resolves the accumulators of each albedo block (2x2x2 cells) to mean albedo, emission and normals. The
+ * Resolves the accumulators of each albedo block (2x2x2 cells) to two albedos, emission and normals. The
  * emissive bits tell which sub-voxels emit. One thread per albedo block of the box. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -39,6 +39,83 @@ vec3 accumulated_wide3(uint plane, uint block)
                  float(accumulated(plane + 2u * i, block)) * SDFGI_EMISSION_STEP;
     return sum;
 }
+
+/* ---- Albedo */
+
+/* Columns of sub-voxels that a side of a block sees. */
+const float COLUMNS = 64.0;
+/* Sides whose colours differ by less show their mean: what is painted in one colour is exact. */
+const float LEAST_CONTRAST = 1.0 / 64.0;
+
+struct color_sum {
+    vec3 sum;
+    float count; /* of samples */
+};
+
+color_sum albedo_sum(uint side, uint layer, uint block)
+{
+    const uint plane = accumulator_albedo(side, layer);
+    return color_sum(accumulated3(plane, block), float(accumulated(plane + 3u, block)));
+}
+
+/* What is seen from a side: the layer of cells that is nearer to the viewer, and behind it as much of the
+ * other one as that leaves open. */
+color_sum albedo_from(uint side, uint block)
+{
+    const uint nearer = 1u - (side & 1u);
+    const color_sum front = albedo_sum(side, nearer, block), back = albedo_sum(side, 1u - nearer, block);
+    const float open = clamp((COLUMNS - front.count) / max(back.count, 1.0), 0.0, 1.0);
+    return color_sum(front.sum + open * back.sum, front.count + open * back.count);
+}
+
+float contrast(vec3 a, vec3 b)
+{
+    const vec3 difference = abs(a - b);
+    return max(difference.r, max(difference.g, difference.b));
+}
+
+vec3 mean_albedo(color_sum from)
+{
+    return from.sum / (max(from.count, 1.0) * SDFGI_ALBEDO_STEPS);
+}
+
+/* Two colours for the six sides: that of the side of which most is seen, and that of the side which differs
+ * most from it. The others show the one that is more like theirs, and sides that nothing faces the first. */
+uvec2 resolve_albedo(uint block)
+{
+    color_sum seen[6], most = color_sum(vec3(0.0), 0.0), all = most;
+    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    {
+        seen[side] = albedo_from(side, block);
+        all = color_sum(all.sum + seen[side].sum, all.count + seen[side].count);
+        if (seen[side].count > most.count)
+            most = seen[side];
+    }
+    const vec3 first = mean_albedo(most);
+    vec3 other = first;
+    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    {
+        const vec3 mean = mean_albedo(seen[side]);
+        if (seen[side].count > 0.0 && contrast(mean, first) > contrast(other, first))
+            other = mean;
+    }
+    if (contrast(other, first) < LEAST_CONTRAST)
+        return surface_pack_albedo(mean_albedo(all), vec3(0.0), 0u);
+    uint sides = 0u;
+    color_sum second = color_sum(vec3(0.0), 0.0);
+    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    {
+        const vec3 mean = mean_albedo(seen[side]);
+        if (seen[side].count > 0.0 && contrast(mean, other) < contrast(mean, first)) {
+            sides |= 1u << side;
+            second = color_sum(second.sum + seen[side].sum, second.count + seen[side].count);
+        }
+    }
+    return surface_pack_albedo(mean_albedo(color_sum(all.sum - second.sum, all.count - second.count)),
+                               mean_albedo(second), sides);
+}
+
+/* ---- Normals */
 
 /* One normal for each dominant axis: two slopes of 5 bits, means over the samples. */
 uint resolve_normals(uint block)
@@ -216,9 +293,7 @@ void resolve(ivec3 cell)
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
     const uint out_index =
         sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
-    const vec3 albedo =
-        accumulated3(SDFGI_ACCUM_ALBEDO, block) / (float(max(count, 1u)) * SDFGI_ALBEDO_STEPS);
-    sdfgi_albedo[out_index] = surface_pack_albedo(albedo);
+    sdfgi_albedo[out_index] = count > 0u ? resolve_albedo(block) : uvec2(0u);
     sdfgi_emission[out_index] = resolve_emission(block, cell);
     sdfgi_normals[out_index] = resolve_normals(block);
     if (count == 0u)

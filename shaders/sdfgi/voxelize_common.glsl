@@ -245,16 +245,19 @@ bool has_room(uint plane, uint block, uint limit)
 }
 
 /* Sums are integers, so that they do not depend on the order of additions. */
-void accumulate_surface(triangle t, uint block, surface_sample s)
+void accumulate_surface(triangle t, ivec3 cell, uint block, surface_sample s)
 {
     const vec3 height = abs(t.normal);
     const uint major = height.x >= height.y && height.x >= height.z ? 0u : (height.y >= height.z ? 1u : 2u);
     if (!has_room(SDFGI_ACCUM_NORMAL + 3u * major, block, SDFGI_ACCUM_MOST_SAMPLES))
         return;
+    const bool negative = t.normal[major] < 0.0;
+    const uint plane = accumulator_albedo(2u * major + uint(negative), uint(cell[major] & 1));
     const uvec3 albedo = uvec3(sdfgi_finite_color(s.albedo.rgb, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
     for (uint i = 0u; i < 3u; i++)
-        accumulate(SDFGI_ACCUM_ALBEDO + i, block, albedo[i]);
-    const float side = t.normal[major] < 0.0 ? -1.0 : 1.0;
+        accumulate(plane + i, block, albedo[i]);
+    accumulate(plane + 3u, block, 1u);
+    const float side = negative ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
     for (uint i = 1u; i <= 2u; i++) {
         const float slope = sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
@@ -375,7 +378,7 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
     const uint block = part_block(drawn_part(), cell);
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
-    accumulate_surface(t, block, s);
+    accumulate_surface(t, cell, block, s);
     if (emission_is_kept() && s.emission != vec3(0.0))
         store_emitter(t, cell, bit);
 }

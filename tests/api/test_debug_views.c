@@ -137,6 +137,29 @@ static void albedo_is_that_of_the_material(void **state)
     REQUIRE_COLOR(debug_look(*state, SDFGI_DEBUG_ALBEDO, origin, 4), 0.1, 0.2, 0.7, 2 * ROUNDING);
 }
 
+static void add_wall(struct gi_test *t, double x, double side, const float color[static 3])
+{
+    struct test_mesh mesh =
+        test_mesh_plane((double[]){ x, 0.1, 0.1 }, (double[]){ 0, side, 0 }, (double[]){ 0, 0, 1 }, 1);
+    gi_test_add(t, &mesh, gi_test_material(t, color, (float[3]){ 0 }));
+    test_mesh_destroy(&mesh);
+}
+
+/* A wall of a quarter of a cell. */
+static void thin_walls_show_the_colour_of_the_side_that_is_seen(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = light_settings(32, (float)CELL_M);
+    gi_test_open(&t, &settings);
+    add_wall(&t, 1.03, -1, (float[3]){ 0.8f, 0.1f, 0.2f });
+    add_wall(&t, 1.09, 1, (float[3]){ 0.9f, 0.6f, 0.9f });
+    gi_test_update(&t, 3);
+    REQUIRE_COLOR(debug_look(&t, SDFGI_DEBUG_ALBEDO, origin, 0), 0.8, 0.1, 0.2, 2 * ROUNDING);
+    REQUIRE_COLOR(debug_look(&t, SDFGI_DEBUG_ALBEDO, (double[]){ 2, 0, 0 }, 1), 0.9, 0.6, 0.9, 2 * ROUNDING);
+    gi_test_close(&t);
+}
+
 /* L / (1 + L) for a radiance of 2; emission is stored with 9 bits. */
 static void emission_is_shown_at_the_exposure(void **state)
 {
@@ -170,6 +193,7 @@ int main(void)
         cmocka_unit_test(cascades_have_colours_of_their_own),
         cmocka_unit_test(steps_are_few_in_air_and_many_beside_a_surface),
         cmocka_unit_test(albedo_is_that_of_the_material),
+        cmocka_unit_test(thin_walls_show_the_colour_of_the_side_that_is_seen),
         cmocka_unit_test(emission_is_shown_at_the_exposure),
     };
     return cmocka_run_group_tests(tests, open_boxes, close_boxes);

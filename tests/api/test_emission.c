@@ -51,7 +51,7 @@ static void emission_keeps_its_digits(void **state)
             cell[k] = (uint32_t)floor((top[k] - where.origin_m[k]) / where.cell_m[k]);
         const uint64_t block = sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]);
         struct sdfgi_inspect_surface s;
-        sdfgi_inspect_decode_block(0, emission + 2 * block, 0, where.emission_unit, &s);
+        sdfgi_inspect_decode_block(NULL, emission + 2 * block, 0, where.emission_unit, &s);
         printf("%g is stored as %g %g %g\n", (double)levels[i], (double)s.emission[0],
                2 * (double)s.emission[1], 4 * (double)s.emission[2]);
         for (int k = 0; k < 3; k++) /* RGB9E5: half a step */
@@ -146,7 +146,7 @@ static void emission_textures_keep_their_digits(void **state)
                                 (uint32_t)(((double)square_height - where.origin_m[1]) / where.cell_m[1]),
                                 (uint32_t)((-2 - where.origin_m[2]) / where.cell_m[2]) + 2 * z);
         struct sdfgi_inspect_surface s;
-        sdfgi_inspect_decode_block(0, emission + 2 * block, 0, where.emission_unit, &s);
+        sdfgi_inspect_decode_block(NULL, emission + 2 * block, 0, where.emission_unit, &s);
         const double expected = (double)(factor * gi_test_half(half_of_block(x, z)));
         for (int k = 0; k < 3; k++)
             worst = fmax(worst, fabs((double)s.emission[k] / expected - 1));

@@ -125,7 +125,7 @@ static struct sdfgi_inspect_surface surface_at(const struct surface_volumes *v, 
 {
     const uint64_t block = sdfgi_inspect_block(&v->where, cell[0], cell[1], cell[2]);
     struct sdfgi_inspect_surface s;
-    sdfgi_inspect_decode_block(v->words[SDFGI_VOLUME_ALBEDO][block],
+    sdfgi_inspect_decode_block(v->words[SDFGI_VOLUME_ALBEDO] + 2 * block,
                                v->words[SDFGI_VOLUME_EMISSION] + 2 * block,
                                v->words[SDFGI_VOLUME_NORMALS][block], v->where.emission_unit, &s);
     return s;
@@ -147,7 +147,7 @@ static void blocks_tell_what_they_hold(void **state)
         }
         const struct sdfgi_inspect_surface s = surface_at(&v, cell);
         for (int i = 0; i < 3; i++) {
-            REQUIRE_NEAR((double)s.albedo[i], 1023 * (double)albedo[i], 1);
+            REQUIRE_NEAR((double)s.albedo[axis][i], 1023 * (double)albedo[i], 1);
             REQUIRE_NEAR((double)s.emission[i], (double)emission[i], 0.02);
             REQUIRE_TRUE(s.has_normal[i] == (i == axis / 2));
             REQUIRE_CMP(s.slopes[i][0], ==, 0);
@@ -195,7 +195,7 @@ static void plates_emit_away_from_the_wall_behind_them(void **state)
         const uint64_t block = sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]);
         uint32_t *words = read_volume(&t, 0, SDFGI_VOLUME_EMISSION);
         struct sdfgi_inspect_surface s;
-        sdfgi_inspect_decode_block(0, words + 2 * block, 0, where.emission_unit, &s);
+        sdfgi_inspect_decode_block(NULL, words + 2 * block, 0, where.emission_unit, &s);
         for (int i = 0; i < 3; i++)
             REQUIRE_NEAR((double)s.emission[i], (double)emission[i], 0.02);
         for (int other = 0; other < 6; other++)
@@ -265,12 +265,86 @@ static void coincident_emitters_keep_their_colour(void **state)
     const uint32_t middle = v.where.resolution / 2;
     const struct sdfgi_inspect_surface s = surface_at(&v, (uint32_t[]){ middle, middle, middle });
     for (int i = 0; i < 3; i++) {
-        printf("emission %.4f, albedo %.4f\n", (double)s.emission[i], s.albedo[i] / 1023.0);
+        printf("emission %.4f, albedo %.4f\n", (double)s.emission[i], s.albedo[2][i] / 1023.0);
         REQUIRE_NEAR(s.emission[i], desc.emission[i], 1 / 512.0f + 1e-5f); /* RGB9E5 */
-        REQUIRE_NEAR(s.albedo[i] / 1023.0f / desc.albedo[i], 1, 0.01);
+        REQUIRE_NEAR(s.albedo[2][i] / 1023.0f / desc.albedo[i], 1, 0.01);
     }
     free_surfaces(&v);
     gi_test_close(&t);
+}
+
+/* A square of 2 m around a point, which faces along +x -x +y -y +z -z. */
+static void add_square(struct gi_test *t, const double at[static 3], int axis, double half,
+                       const float color[static 3])
+{
+    double u[3] = { 0 }, v[3] = { 0 };
+    u[(axis / 2 + 1) % 3] = half;
+    v[(axis / 2 + 2) % 3] = axis % 2 ? -half : half;
+    struct test_mesh mesh = test_mesh_plane(at, u, v, 1);
+    gi_test_add(t, &mesh, gi_test_material(t, color, (float[3]){ 0 }));
+    test_mesh_destroy(&mesh);
+}
+
+/* What the block shows whose low corner is the origin. */
+static struct sdfgi_inspect_surface middle_block(struct gi_test *t)
+{
+    gi_test_update(t, 1);
+    struct surface_volumes v = read_surfaces(t);
+    uint32_t cell[3];
+    for (int i = 0; i < 3; i++)
+        cell[i] = (uint32_t)lrint(-v.where.origin_m[i] / v.where.cell_m[i]);
+    const struct sdfgi_inspect_surface s = surface_at(&v, cell);
+    free_surfaces(&v);
+    return s;
+}
+
+static void require_color(const uint16_t found[static 3], const float color[static 3])
+{
+    for (int i = 0; i < 3; i++)
+        REQUIRE_NEAR((double)found[i], 1023 * (double)color[i], 2); /* nine bits, and rounding */
+}
+
+static const float red[3] = { 0.75f, 0.125f, 0.0625f }, white[3] = { 0.9f, 0.85f, 0.95f };
+
+/* Two colours within a cell, back to back. */
+static void faces_of_a_thin_wall_have_colours_of_their_own(void **state)
+{
+    (void)state;
+    for (int axis = 0; axis < 6; axis++) {
+        struct gi_test t;
+        const struct sdfgi_settings settings = gi_test_settings();
+        gi_test_open(&t, &settings);
+        double front[3] = { 0 }, back[3] = { 0 };
+        front[axis / 2] = axis % 2 ? 0.08 : 0.14;
+        back[axis / 2] = axis % 2 ? 0.14 : 0.08;
+        add_square(&t, front, axis, 1, red);
+        add_square(&t, back, axis ^ 1, 1, white);
+        const struct sdfgi_inspect_surface s = middle_block(&t);
+        require_color(s.albedo[axis], red);
+        require_color(s.albedo[axis ^ 1], white);
+        gi_test_close(&t);
+    }
+}
+
+/* A floor above the ground: of what faces alike the nearer counts, and what lies behind it as far as it
+ * shows. */
+static void what_lies_behind_counts_as_far_as_it_shows(void **state)
+{
+    (void)state;
+    for (int half_covered = 0; half_covered < 2; half_covered++) {
+        struct gi_test t;
+        const struct sdfgi_settings settings = gi_test_settings();
+        gi_test_open(&t, &settings);
+        const double aside = half_covered ? 1 + (double)settings.min_cell_size_m : 0;
+        add_square(&t, (double[]){ 0, 0.12, 0 }, 2, 2, red);
+        add_square(&t, (double[]){ aside, 0.12 + (double)settings.min_cell_size_m, 0 }, 2, 1, white);
+        const struct sdfgi_inspect_surface s = middle_block(&t);
+        float mean[3];
+        for (int i = 0; i < 3; i++)
+            mean[i] = half_covered ? 0.5f * (red[i] + white[i]) : white[i];
+        require_color(s.albedo[2], mean);
+        gi_test_close(&t);
+    }
 }
 
 int main(void)
@@ -280,6 +354,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_are_where_the_header_says),
         cmocka_unit_test(blocks_tell_what_they_hold),
+        cmocka_unit_test(faces_of_a_thin_wall_have_colours_of_their_own),
+        cmocka_unit_test(what_lies_behind_counts_as_far_as_it_shows),
         cmocka_unit_test(coincident_emitters_keep_their_colour),
         cmocka_unit_test(plates_emit_away_from_the_wall_behind_them),
         cmocka_unit_test(wrong_requests_are_refused),

@@ -46,8 +46,8 @@ int main(void)
         return 2;
     if (sdfgi_create(&desc, &gi) != SDFGI_ERROR_INVALID_ARGUMENT || heard != SDFGI_MESSAGE_INVALID_ARGUMENT)
         return 3;
-    sdfgi_inspect_decode_block(0, no_emission, 0, 1, &surface);
-    if (surface.albedo[0] != 0 || sdfgi_debug_view_find("solid") != SDFGI_DEBUG_SOLID)
+    sdfgi_inspect_decode_block(NULL, no_emission, 0, 1, &surface);
+    if (surface.albedo[0][0] != 0 || sdfgi_debug_view_find("solid") != SDFGI_DEBUG_SOLID)
         return 4;
     printf("%d.%d.%d\n", SDFGI_VERSION_MAJOR, SDFGI_VERSION_MINOR, SDFGI_VERSION_PATCH);
     return gpu_fill() + gpu_buffer_init() == 3 ? 0 : 5;

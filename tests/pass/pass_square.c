@@ -61,10 +61,10 @@ static void read_albedo(struct square *s)
                                        (uint32_t)((square_height - where.origin_m[1]) / where.cell_m[1]),
                                        (uint32_t)((-2 - where.origin_m[2]) / where.cell_m[2]) + 2 * z };
             struct sdfgi_inspect_surface surface;
-            sdfgi_inspect_decode_block(words[sdfgi_inspect_block(&where, cell[0], cell[1], cell[2])],
+            sdfgi_inspect_decode_block(words + 2 * sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]),
                                        (uint32_t[2]){ 0 }, 0, 1, &surface);
             for (int k = 0; k < 3; k++)
-                s->albedo[z][x][k] = surface.albedo[k] / 1023.0;
+                s->albedo[z][x][k] = surface.albedo[2][k] / 1023.0;
         }
     free(words);
 }
@@ -77,7 +77,7 @@ static void read_emission(struct square *s)
     const uint32_t middle = where.resolution / 2,
                    level = (uint32_t)(((double)square_height - where.origin_m[1]) / where.cell_m[1]);
     struct sdfgi_inspect_surface surface;
-    sdfgi_inspect_decode_block(0, words + 2 * sdfgi_inspect_block(&where, middle, level, middle), 0,
+    sdfgi_inspect_decode_block(NULL, words + 2 * sdfgi_inspect_block(&where, middle, level, middle), 0,
                                where.emission_unit, &surface);
     for (int side = 0; side < 2; side++)
         s->emission[side] = (double)surface.emission[1] * surface.emitting[2 + side] / 31;

@@ -84,7 +84,7 @@ static void stored_power(double power[static SIDES])
         const uint32_t cell[3] = { 2 * (i % 16), 2 * (i / 16 % 16), 2 * (i / 256) };
         const uint64_t block = sdfgi_inspect_block(&where, cell[0], cell[1], cell[2]);
         struct sdfgi_inspect_surface s;
-        sdfgi_inspect_decode_block(0, emission[block], 0, where.emission_unit, &s);
+        sdfgi_inspect_decode_block(NULL, emission[block], 0, where.emission_unit, &s);
         for (int side = 0; side < SIDES && s.emission[0] > 0; side++)
             power[side] += (double)s.emission[0] * s.emitting[side] / 31 * lines_seen(&bits, cell, side / 2) *
                            (CELL_M / 4) * (CELL_M / 4);

@@ -206,16 +206,16 @@ static void anywhere(uint32_t i, double at[static 3])
         at[k] = test_random_real(&random, -3.9, 3.6);
 }
 
-/* Channel of the albedo where the triangles lie, in 1/1023. */
+/* Channels of the albedo where the triangles lie, seen from above, in 1/1023. */
 static void read_albedo(uint16_t albedo[static 3])
 {
     struct sdfgi_inspect_cascade where;
     REQUIRE_CMP(sdfgi_inspect_get_cascade(pass_context.gi, 0, &where), ==, SDFGI_OK);
     uint32_t *words = gi_test_read(&pass_context, RESOURCE_ALBEDO, NULL);
     struct sdfgi_inspect_surface surface;
-    sdfgi_inspect_decode_block(words[sdfgi_inspect_block(&where, 16, 16, 16)], (uint32_t[2]){ 0 }, 0, 1,
+    sdfgi_inspect_decode_block(words + 2 * sdfgi_inspect_block(&where, 16, 16, 16), (uint32_t[2]){ 0 }, 0, 1,
                                &surface);
-    memcpy(albedo, surface.albedo, sizeof surface.albedo);
+    memcpy(albedo, surface.albedo[2], sizeof surface.albedo[2]);
     free(words);
 }
 

@@ -64,8 +64,8 @@ static struct raycast_block block_from_sums(const struct sums *s)
     struct raycast_block b = { 0 };
     for (int k = 0; k < 3; k++) {
         const uint32_t count = s->normals[k];
-        if (s->samples > 0)
-            b.albedo[k] = (uint16_t)lrint(1023 * s->albedo[k] / s->samples);
+        for (int axis = 0; axis < 6 && s->samples > 0; axis++)
+            b.albedo[axis][k] = (uint16_t)lrint(1023 * s->albedo[k] / s->samples);
         if (s->emissive > 0)
             b.emission[k] = (float)(s->emission[k] / s->emissive);
         b.slopes[k][0] = RAYCAST_NO_SLOPE;

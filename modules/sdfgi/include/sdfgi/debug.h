@@ -25,7 +25,7 @@ extern "C" {
       "solid bits are white")                                                                                \
     X(CASCADE, "cascade", "cascade that answers: green, blue, orange, violet, cyan, yellow, pink, grey")     \
     X(STEPS, "steps", "steps of the ray, blue to red from 1 to 512 by their logarithm")                      \
-    X(ALBEDO, "albedo", "albedo of the block of 2x2x2 cells that the ray met")                               \
+    X(ALBEDO, "albedo", "albedo of the block of 2x2x2 cells that the ray met, on the side that it met")      \
     X(EMISSION, "emission", "light that the block emits towards the face that the ray met")                  \
     X(LIGHT, "light", "light that leaves the light cell before the surface, without emission")               \
     X(IRRADIANCE, "irradiance", "light that arrives at the light cell before the surface")                   \

@@ -29,7 +29,7 @@ SDFGI_API enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t 
 enum sdfgi_volume {
     SDFGI_VOLUME_BITS, /* per cell, 2 words: bit x + 4 y + 16 z of the 64 tells whether sub-voxel (x, y, z) is
                           set */
-    SDFGI_VOLUME_ALBEDO,   /* per block, 1 word; this and the next two: sdfgi_inspect_decode_block */
+    SDFGI_VOLUME_ALBEDO,   /* per block, 2 words; this and the next two: sdfgi_inspect_decode_block */
     SDFGI_VOLUME_EMISSION, /* per block, 2 words */
     SDFGI_VOLUME_NORMALS,  /* per block, 1 word */
     SDFGI_VOLUME_COUNT,
@@ -68,17 +68,18 @@ static inline uint64_t sdfgi_inspect_block(const struct sdfgi_inspect_cascade *c
 
 /* Axes are counted +x -x +y -y +z -z. */
 struct sdfgi_inspect_surface {
-    uint16_t albedo[3];  /* in 1/1023; mean of the triangles in the block */
-    float emission[3];   /* mean radiance of what is seen from the side that emits most, W/(m^2 sr) */
-    uint8_t emitting[6]; /* per axis, in 1/31: share of that radiance that leaves on this side */
+    uint16_t albedo[6][3]; /* per axis, in 1/1023; mean of the triangles that are seen from there */
+    float emission[3];     /* mean radiance of what is seen from the side that emits most, W/(m^2 sr) */
+    uint8_t emitting[6];   /* per axis, in 1/31: share of that radiance that leaves on this side */
     /* Per component k, x to z: mean normal, up to its sign, of the triangles whose largest component is k: 1
      * along k, then, in 1/15, along the next axis and the one after that, in cyclic order. */
     bool has_normal[3];
     int8_t slopes[3][2];
 };
 
-/* What a block's words mean. `emission` points to two. */
-SDFGI_API void sdfgi_inspect_decode_block(uint32_t albedo, const uint32_t *emission, uint32_t normals,
+/* What a block's words mean. `albedo` and `emission` point to two each; the former may be NULL, and is black.
+ */
+SDFGI_API void sdfgi_inspect_decode_block(const uint32_t *albedo, const uint32_t *emission, uint32_t normals,
                                           float emission_unit, struct sdfgi_inspect_surface *out);
 
 #ifdef __cplusplus
