@@ -118,7 +118,8 @@ static bool counts(const void *caller, uint64_t *site)
 
 /* ---- What lives -------------------------------------------------------------------------------------- */
 
-enum { SLOTS = 1 << 20 };
+/* More than a run has calls. A larger table takes longer: what a process touches first is a page fault. */
+enum { SLOT_BITS = 14, SLOTS = 1 << SLOT_BITS };
 
 static struct {
     void *memory;
@@ -131,7 +132,7 @@ static void *const removed = (void *)1;
 
 static uint32_t slot_of(const void *memory)
 {
-    return (uint32_t)(((uintptr_t)memory >> 4) * UINT64_C(0x9e3779b97f4a7c15) >> 44);
+    return (uint32_t)(((uintptr_t)memory >> 4) * UINT64_C(0x9e3779b97f4a7c15) >> (64 - SLOT_BITS));
 }
 
 static void take_lock(void)
@@ -145,7 +146,7 @@ static void add(void *memory, uint64_t site)
     if (!memory)
         return;
     take_lock();
-    uint32_t slot = slot_of(memory) % SLOTS;
+    uint32_t slot = slot_of(memory);
     while (living[slot].memory && living[slot].memory != removed)
         slot = (slot + 1) % SLOTS;
     living[slot].memory = memory;
@@ -159,7 +160,7 @@ static void drop(const void *memory)
     if (!memory || living_count == 0)
         return;
     take_lock();
-    uint32_t slot = slot_of(memory) % SLOTS;
+    uint32_t slot = slot_of(memory);
     while (living[slot].memory && living[slot].memory != memory)
         slot = (slot + 1) % SLOTS;
     if (living[slot].memory) {
