@@ -2,8 +2,8 @@
  * Every call of the program fails once: Vulkan calls run out of memory or lose the device, allocations find
  * none. The program says so in one line, leaves with an error, crashes never, and leaves nothing behind but
  * whole files. By default each function takes its turn in each command, and each place that allocates in the
- * first command that comes by; with SDFGI_TEST_FULL=1 every single call does. Arguments: PROGRAM PRELOADED SCENE
- * PATH GNUPLOT [real]. */
+ * first command that comes by; with SDFGI_TEST_FULL=1 every single call does. Arguments: PROGRAM PRELOADED
+ * SCENE PATH GNUPLOT [real]. */
 #define _GNU_SOURCE
 #include "fault_run.h"
 #include "files.h"
