@@ -48,7 +48,7 @@ static void add_box(const double center[static 3], const double half[static 3], 
     picture_scene_add(&shown, &context, test_mesh_box(center, half, test_rotation_none), albedo, emission);
 }
 
-enum { ROOM, LAMP, TABLE, FIRST_POST, POSTS = 5, SETTLED = 48 };
+enum { ROOM, LAMP, TABLE, FIRST_POST, POSTS = 5, SETTLED = 24 };
 
 /* A room with a lamp below its ceiling, a table, and thin dark posts before the wall that is seen. */
 static void open_room(void)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Every call of the program fails once: Vulkan calls run out of memory or lose the device, allocations find
  * none. The program says so in one line, leaves with an error, crashes never, and leaves nothing behind but
- * whole files. By default each function and each place that allocates takes its turn; with SDFGI_TEST_FULL=1
- * every single call does. Arguments: PROGRAM PRELOADED SCENE PATH GNUPLOT [real]. */
+ * whole files. By default each function takes its turn in each command, and each place that allocates in the
+ * first command that comes by; with SDFGI_TEST_FULL=1 every single call does. Arguments: PROGRAM PRELOADED
+ * SCENE PATH GNUPLOT [real]. */
 #define _GNU_SOURCE
 #include "fault_run.h"
 #include "files.h"
@@ -15,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { WORKERS = 2, MOST_PROBLEMS_SHOWN = 40 };
+enum { WORKERS = 2, MOST_PROBLEMS_SHOWN = 40, MOST_PLACES = 4096 };
 
 static struct fault_command command;
 static char folder[128];
@@ -186,6 +187,33 @@ static void run_all(struct campaign *c)
     pthread_mutex_destroy(&c->mutex);
 }
 
+/* Places that allocate, of all commands so far. */
+static struct {
+    char names[MOST_PLACES][32];
+    uint32_t count;
+} places;
+
+/* True once for each place. */
+static bool is_new_place(const char *name)
+{
+    for (uint32_t i = 0; i < places.count; i++)
+        if (strcmp(places.names[i], name) == 0)
+            return false;
+    REQUIRE_CMP(places.count, <, (uint32_t)MOST_PLACES);
+    strcpy(places.names[places.count++], name);
+    return true;
+}
+
+/* Leaves the places that no command before has come by. */
+static uint32_t keep_new_places(char (*names)[32], uint32_t count, uint32_t *calls)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (is_new_place(names[calls[i] - 1]))
+            calls[kept++] = calls[i];
+    return kept;
+}
+
 /* Every call, or the first and the last of each name. */
 static uint32_t choose(char (*names)[32], uint32_t count, bool both_ends, uint32_t *calls)
 {
@@ -223,6 +251,9 @@ static void fail_calls(const char *kind, bool both_ends)
     run_without_fault(kind, &c.good, &names);
     REQUIRE_TRUE(names && c.good.calls > 0 && c.good.calls <= FAULT_RUN_CALLS);
     c.count = choose(names, c.good.calls, both_ends, calls);
+    if (!full && strcmp(kind, "allocation") == 0)
+        c.count = keep_new_places(names, c.count, calls);
+    REQUIRE_CMP(c.count, >, 0u);
     free(names);
     run_all(&c);
     print_message(
