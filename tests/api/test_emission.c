@@ -175,8 +175,8 @@ static void require_stored_light(struct gi_test *t, void *copies[static STORED])
     }
 }
 
-/* Settled light stays to the bit, and nothing is recorded: neither in the frame after such a material has come
- * or gone, nor later. */
+/* Settled light stays to the bit, and nothing is recorded: neither in the frame after such a material has
+ * come or gone, nor later. */
 static void brighter_materials_leave_settled_light_alone(void **state)
 {
     (void)state;

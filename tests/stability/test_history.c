@@ -2,8 +2,8 @@
  * Light that is kept from frame to frame: whatever bits lie there, it is finite at once, and right again soon
  * (HARD_CASES row 32). Histories of probes are floats, and what no float of theirs can be is forgotten. What
  * cells keep is coded in whole numbers: any bits are light that might have been there, and fade as fast as
- * such light, within a gather cycle. Light creeps to its target from below and from above (row 30), and for as
- * long as one likes (row 67). */
+ * such light, within a gather cycle. Light creeps to its target from below and from above (row 30), and for
+ * as long as one likes (row 67). */
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"

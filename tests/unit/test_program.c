@@ -370,8 +370,8 @@ static float darkest_under_sky(float sky, const char *hint)
     char arguments[320], error[256];
     struct image image;
     snprintf(arguments, sizeof arguments,
-             "render tiny.gltf --quiet --size 8x8 --frames 6 --sun none --sky %g --gi-exposure %s --out dim.pfm "
-             "--set sdfgi_resolution=32 --set sdfgi_cascades=1 --set sdfgi_min_cell_size=0.2",
+             "render tiny.gltf --quiet --size 8x8 --frames 6 --sun none --sky %g --gi-exposure %s "
+             "--out dim.pfm --set sdfgi_resolution=32 --set sdfgi_cascades=1 --set sdfgi_min_cell_size=0.2",
              (double)sky, hint);
     assert_int_equal(run_program("", arguments).code, 0);
     assert_true(image_read(&image, files_path("dim.pfm"), error, sizeof error));
@@ -382,8 +382,8 @@ static float darkest_under_sky(float sky, const char *hint)
     return darkest / sky;
 }
 
-/* Under a sky of 1e-7 the smallest steps of half floats are more than half of the light: stored as it is, it is
- * a seventh too bright. With a hint that fits it is not; what is left is the picture's own rounding. */
+/* Under a sky of 1e-7 the smallest steps of half floats are more than half of the light: stored as it is, it
+ * is a seventh too bright. With a hint that fits it is not; what is left is the picture's own rounding. */
 static void the_exposure_for_the_library_arrives_there(void **state)
 {
     (void)state;
