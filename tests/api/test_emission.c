@@ -158,7 +158,25 @@ static void emission_textures_keep_their_digits(void **state)
     gi_test_close(&t);
 }
 
-/* Settled light stays, and nothing is recorded. */
+static const enum resource stored_light[] = { RESOURCE_LIGHT,    RESOURCE_SURFACES, RESOURCE_GATHERED,
+                                              RESOURCE_EMISSION, RESOURCE_SUMS,     RESOURCE_PREVIOUS,
+                                              RESOURCE_IRRADIANCE };
+enum { STORED = sizeof stored_light / sizeof *stored_light };
+
+/* Every bit of stored light is that of copies, which are freed. */
+static void require_stored_light(struct gi_test *t, void *copies[static STORED])
+{
+    for (size_t i = 0; i < STORED; i++) {
+        uint64_t size;
+        void *now = gi_test_read(t, stored_light[i], &size);
+        REQUIRE_BYTES(now, copies[i], size);
+        free(now);
+        free(copies[i]);
+    }
+}
+
+/* Settled light stays to the bit, and nothing is recorded: neither in the frame after such a material has
+ * come or gone, nor later. */
 static void brighter_materials_leave_settled_light_alone(void **state)
 {
     (void)state;
@@ -168,20 +186,28 @@ static void brighter_materials_leave_settled_light_alone(void **state)
     settings.resolution = 32;
     settings.ray_count = 25;
     settings.frames_to_converge = 5;
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = SDFGI_VISIT_RAYS;
     gi_test_open(&t, &settings);
     struct test_mesh lamp =
         test_mesh_box((double[]){ 0, 1, 0 }, (double[]){ 0.5, 0.25, 0.5 }, test_rotation_none);
     gi_test_add(&t, &lamp, gi_test_material(&t, (float[]){ 0.5f, 0.5f, 0.5f }, (float[]){ 3, 2, 1 }));
     test_mesh_destroy(&lamp);
     gi_test_converge(&t, 400);
+    gi_test_update(&t, 2);
+    void *before[STORED];
+    for (size_t i = 0; i < STORED; i++)
+        before[i] = gi_test_read(&t, stored_light[i], NULL);
     const sdfgi_material brighter = gi_test_material(&t, (float[]){ 0, 0, 0 }, (float[]){ 6e5f, 6e5f, 6e5f });
-    for (int i = 0; i < 2; i++) {
-        gi_test_update(&t, 3);
+    for (int frame = 0; frame < 6; frame++) {
+        if (frame == 3)
+            REQUIRE_CMP((int)sdfgi_material_destroy(t.gi, brighter), ==, (int)SDFGI_OK);
+        gi_test_update(&t, 1);
         sdfgi_get_report(t.gi, &report);
         REQUIRE_TRUE(report.converged);
-        if (i == 0)
-            REQUIRE_CMP((int)sdfgi_material_destroy(t.gi, brighter), ==, (int)SDFGI_OK);
+        REQUIRE_CMP(report.command_count, ==, 0u);
     }
+    require_stored_light(&t, before);
     gi_test_close(&t);
 }
 

@@ -75,6 +75,12 @@ void drive_set_emission(struct drive *d, float radiance)
     const struct sdfgi_material_desc desc = { .emission = { radiance, radiance, radiance }, .alpha = 1 };
     sdfgi_material material;
     REQUIRE_CMP(sdfgi_scene_material_create(&d->scene, &desc, &material), ==, SDFGI_OK);
+    const struct sdfgi_instance_desc shown = { .mesh = { d->mesh },
+                                               .material = material,
+                                               .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } },
+                                               .mobility = SDFGI_EXCLUDED };
+    sdfgi_instance instance;
+    REQUIRE_CMP(sdfgi_scene_instance_create(&d->scene, &shown, &instance), ==, SDFGI_OK);
 }
 
 /* ---- Frames */

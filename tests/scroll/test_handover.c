@@ -86,7 +86,7 @@ static double walk_range(const struct walk *w)
 }
 
 /* Three cascades, of which the first is 6.4 m wide. */
-static void walk_open(struct walk *w)
+static void walk_open(struct walk *w, bool cells)
 {
     memset(w, 0, sizeof *w);
     struct sdfgi_settings settings = light_settings(scroll_resolution(), 6.4f / (float)scroll_resolution());
@@ -95,13 +95,15 @@ static void walk_open(struct walk *w)
         settings.ray_count = 32;
         settings.frames_to_converge = 1;
     }
+    if (cells)
+        scroll_use_cells(&settings, 1);
     gi_test_open(&w->t, &settings);
 }
 
 static void furnace_walk(double half, double wall, double z)
 {
     static struct walk w;
-    walk_open(&w);
+    walk_open(&w, false);
     const double center[3] = { 0.13, 0.27, z };
     light_add(&w.t, test_mesh_room(center, (double[]){ half, half, half }, wall, test_rotation_none), 0.5f,
               0.5f);
@@ -141,9 +143,9 @@ static void hard_54_thin_walls_too(void **state)
 }
 
 /* A box of 5 m with a lamp, from settled light. */
-static void walk_in_colored_box(struct walk *w, const double camera[static 3])
+static void walk_in_colored_box(struct walk *w, const double camera[static 3], bool cells)
 {
-    walk_open(w);
+    walk_open(w, cells);
     const double center[3] = { 0, 0, 0 }, half = 2.5;
     scroll_colored_box(&w->t, center, half);
     for (int axis = 0; axis < 3; axis++)
@@ -155,12 +157,12 @@ static void walk_in_colored_box(struct walk *w, const double camera[static 3])
 }
 
 /* While no cascade takes a step: the blend alone. */
-static void hard_54_a_colored_box_does_not_jump_in_the_blend(void **state)
+static void walk_in_the_blend(bool cells)
 {
-    (void)state;
     static struct walk w;
     /* From here the wall at -2.5 m is in the blend, whose width is that of a probe's spacing. */
-    walk_in_colored_box(&w, (double[]){ scroll_resolution() > 64 ? 0.55 : 0.15, 0.4, 1.3 });
+    walk_in_colored_box(&w, (double[]){ scroll_resolution() > 64 ? 0.55 : 0.15, 0.4, 1.3 },
+                        cells);
     walk_steps(&w, 20, 0.001);
     const double mm = w.worst_step, way = 0.05 * w.t.gi->settings.min_cell_size_m;
     walk_steps(&w, 40, way);
@@ -169,6 +171,18 @@ static void hard_54_a_colored_box_does_not_jump_in_the_blend(void **state)
     REQUIRE_CMP(w.t.gi->volume.state.scroll.scrolls_begun, ==, 0ul);
     HARD_CASE_AT_MOST(54, "coloured box, change of a step in the blend", w.worst_step, 0.02);
     gi_test_close(&w.t);
+}
+
+static void hard_54_a_colored_box_does_not_jump_in_the_blend(void **state)
+{
+    (void)state;
+    walk_in_the_blend(false);
+}
+
+static void hard_54_nor_does_it_by_light_cells(void **state)
+{
+    (void)state;
+    walk_in_the_blend(true);
 }
 
 /* The largest change while the border moves after a step, first with a camera that walks on, then with one
@@ -193,7 +207,7 @@ static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state
 {
     (void)state;
     static struct walk w;
-    walk_in_colored_box(&w, (double[]){ 0.79, 0.4, 1.3 });
+    walk_in_colored_box(&w, (double[]){ 0.79, 0.4, 1.3 }, false);
     const double way = 0.05 * w.t.gi->settings.min_cell_size_m;
     for (int i = 0; w.t.gi->volume.state.scroll.scrolls_begun == 0 && i < 200; i++)
         walk_steps(&w, 1, way);
@@ -218,6 +232,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_54_thin_walls_too),
         cmocka_unit_test(hard_54_a_colored_box_does_not_jump_in_the_blend),
+        cmocka_unit_test(hard_54_nor_does_it_by_light_cells),
     };
     const struct CMUnitTest slow[] = {
         cmocka_unit_test(hard_54_a_furnace_reads_the_same_in_all_cascades),

@@ -15,11 +15,13 @@ static const struct gi_test_point points[] = {
 enum { POINTS = sizeof points / sizeof *points };
 
 /* A wall on a floor under a sky. */
-static void open_scene(struct gi_test *t)
+static void open_scene(struct gi_test *t, enum sdfgi_surface_light surface_light)
 {
     struct sdfgi_settings settings = light_settings(128, 0.1f);
     settings.max_scroll_cells = 524288; /* an eighth of the voxels and distances */
-    settings.surface_light = SDFGI_SURFACE_LIGHT_PROBES;
+    settings.surface_light = surface_light;
+    settings.cell_rays = SDFGI_VISIT_RAYS;
+    settings.cell_rays_per_frame = 1 << 20;
     gi_test_open(t, &settings);
     light_set_uniform_sky(t, 1);
     const float albedo[3] = { 0.7f, 0.7f, 0.7f };
@@ -49,20 +51,35 @@ static double worst_change(struct gi_test *t)
     return worst;
 }
 
-static void edits_that_change_nothing_keep_the_light(void **state)
+static void edit(enum sdfgi_surface_light surface_light)
 {
-    (void)state;
     static struct gi_test t;
-    open_scene(&t);
+    open_scene(&t, surface_light);
     gi_test_update(&t, 16);
     const double worst = worst_change(&t);
-    printf("an edit that changes nothing: light is off by %.4f at most\n", worst);
+    printf("an edit that changes nothing, light in %s: off by %.4f at most\n",
+           surface_light == SDFGI_SURFACE_LIGHT_CELLS ? "cells" : "probes", worst);
     REQUIRE_CMP(worst, <=, 0.02);
     gi_test_close(&t);
 }
 
+static void edits_that_change_nothing_keep_the_light(void **state)
+{
+    (void)state;
+    edit(SDFGI_SURFACE_LIGHT_PROBES);
+}
+
+static void edits_that_change_nothing_keep_the_light_of_cells(void **state)
+{
+    (void)state;
+    edit(SDFGI_SURFACE_LIGHT_CELLS);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(edits_that_change_nothing_keep_the_light) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edits_that_change_nothing_keep_the_light),
+        cmocka_unit_test(edits_that_change_nothing_keep_the_light_of_cells),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

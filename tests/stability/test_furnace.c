@@ -88,6 +88,13 @@ static void hard_33_furnace_of_albedo_four_fifths(void **state)
     HARD_CASE_AT_MOST(33, "albedo 0.8, light missing after 21 sample cycles", furnace.missing, 0.02);
 }
 
+static void hard_33_furnace_of_albedo_nineteen_twentieths(void **state)
+{
+    const struct furnace furnace = run_furnace(*state, 0.95f);
+    HARD_CASE_AT_MOST(33, "albedo 0.95, off by", furnace.error, 0.025);
+    HARD_CASE_AT_MOST(33, "albedo 0.95, light missing after 90 sample cycles", furnace.missing, 0.02);
+}
+
 /* ---- Without an end */
 
 /* Whose product is 2 at most: the rest of the range. */
@@ -234,6 +241,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_33_35_furnace_of_albedo_half),
         cmocka_unit_test(hard_33_furnace_of_albedo_four_fifths),
+        cmocka_unit_test(hard_33_furnace_of_albedo_nineteen_twentieths),
         cmocka_unit_test(hard_34_light_stays_bounded),
         cmocka_unit_test(hard_34_gain_below_the_clamp_is_not_reported),
         cmocka_unit_test(hard_37_a_sphere_that_a_lamp_lights),

@@ -91,9 +91,12 @@ static void exposure_does_not_change_light(void **state)
     }
 }
 
-static void open_floor(struct gi_test *t, float albedo)
+/* What light is stored in: with SDFGI_SURFACE_LIGHT_CELLS also what light cells gather, a visit a cycle. */
+static void open_floor_with(struct gi_test *t, float albedo, enum sdfgi_surface_light surface_light)
 {
-    const struct sdfgi_settings settings = light_settings(32, 0.4f);
+    struct sdfgi_settings settings = light_settings(32, 0.4f);
+    settings.surface_light = surface_light;
+    settings.cell_rays = SDFGI_VISIT_RAYS;
     gi_test_open(t, &settings);
     light_add_box(t, (double[]){ -3, -3, -3 }, (double[]){ 3, -2, 3 }, (float[]){ albedo, albedo, albedo },
                   0);
@@ -101,13 +104,12 @@ static void open_floor(struct gi_test *t, float albedo)
 
 /* Exposure may change in every frame, and settings may be given again with other bytes between their fields:
  * light stays what it is, to the bit, and nothing begins anew. */
-static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
+static void change_exposures_and_settings(enum sdfgi_surface_light surface_light)
 {
-    (void)state;
     struct gi_test t;
-    open_floor(&t, 0.7f);
+    open_floor_with(&t, 0.7f, surface_light);
     light_set_uniform_sky(&t, 0.3f);
-    gi_test_converge(&t, 120);
+    gi_test_converge(&t, 200);
     float before[POINT_COUNT][3], found[POINT_COUNT][3];
     gi_test_irradiance(&t, points, POINT_COUNT, before);
     static const float exposures[] = { 1, 16, 1 / 16.0f, 1.1f, 200, 0.005f };
@@ -124,16 +126,22 @@ static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
     gi_test_close(&t);
 }
 
-/* Fades to black and back, and cuts between caves and deserts: in the very frame the light is what it was. */
-static void exposures_of_any_sequence_show_the_same_light(void **state)
+static void exposures_and_settings_in_every_frame_cost_nothing(void **state)
 {
     (void)state;
+    change_exposures_and_settings(SDFGI_SURFACE_LIGHT_PROBES);
+    change_exposures_and_settings(SDFGI_SURFACE_LIGHT_CELLS);
+}
+
+/* Fades to black and back, and cuts between caves and deserts: in the very frame the light is what it was. */
+static void change_exposures_far(enum sdfgi_surface_light surface_light)
+{
     static struct sdfgi_report report;
     struct gi_test t;
-    open_floor(&t, 0.7f);
+    open_floor_with(&t, 0.7f, surface_light);
     light_add_box(&t, (double[]){ 2, -2, -3 }, (double[]){ 3, 0, 3 }, (float[]){ 0.2f, 0.6f, 0.3f }, 0.1f);
     light_set_uniform_sky(&t, 0.3f);
-    gi_test_converge(&t, 160);
+    gi_test_converge(&t, 200);
     float before[POINT_COUNT][3], found[POINT_COUNT][3];
     gi_test_irradiance(&t, points, POINT_COUNT, before);
     static const int powers[] = { 10, -12, 20, -20, 30, 0, 12, 126, -126, 0 };
@@ -145,11 +153,29 @@ static void exposures_of_any_sequence_show_the_same_light(void **state)
         const double worst = worst_ratio(found, before, 1);
         sdfgi_get_report(t.gi, &report);
         rescaled += report.passes[PASS_LIGHT_RESCALE].dispatches;
-        printf("exposure 2^%d: off by %.2e at most\n", powers[i], worst);
+        printf("light in %s, exposure 2^%d: off by %.2e at most\n",
+               surface_light == SDFGI_SURFACE_LIGHT_CELLS ? "cells" : "probes", powers[i], worst);
         REQUIRE_CMP(worst, <=, 0.01);
     }
     REQUIRE_CMP(rescaled, >=, 4u);
     gi_test_close(&t);
+}
+
+static void exposures_of_any_sequence_show_the_same_light(void **state)
+{
+    (void)state;
+    change_exposures_far(SDFGI_SURFACE_LIGHT_PROBES);
+}
+
+static void exposures_of_any_sequence_show_the_same_light_by_light_cells(void **state)
+{
+    (void)state;
+    change_exposures_far(SDFGI_SURFACE_LIGHT_CELLS);
+}
+
+static void open_floor(struct gi_test *t, float albedo)
+{
+    open_floor_with(t, albedo, SDFGI_SURFACE_LIGHT_PROBES);
 }
 
 /* The scene itself tells that light has to be stored smaller. */
@@ -169,6 +195,30 @@ static void blinding_skies_need_no_exposure(void **state)
         REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_VALUE_CLAMPED), ==, 0ul);
     }
     gi_test_close(&t);
+}
+
+/* A lamp that is so bright at every surface that no exposure stores its light. */
+static void light_that_is_cut_is_reported(void **state)
+{
+    (void)state;
+    for (int cells = 0; cells < 2; cells++) {
+        struct gi_test t;
+        open_floor_with(&t, 0.7f, cells ? SDFGI_SURFACE_LIGHT_CELLS : SDFGI_SURFACE_LIGHT_PROBES);
+        const struct sdfgi_light_desc lamp = light_point(0.3, 1, 0.5, 1e20f);
+        const sdfgi_light light = light_create(&t, &lamp);
+        uint64_t cut = 0; /* direct light is computed once, and counts in one cycle */
+        for (int frame = 0; frame < 12; frame++) {
+            gi_test_update(&t, 1);
+            const uint64_t now = light_health(&t, SDFGI_MESSAGE_VALUE_CLAMPED);
+            cut = now > cut ? now : cut;
+        }
+        printf("under a lamp of 1e20 W/sr light was cut %llu times\n", (unsigned long long)cut);
+        REQUIRE_CMP(cut, >, 0ul);
+        REQUIRE_CMP((int)sdfgi_light_destroy(t.gi, light), ==, (int)SDFGI_OK);
+        gi_test_update(&t, 24);
+        REQUIRE_CMP(light_health(&t, SDFGI_MESSAGE_VALUE_CLAMPED), ==, 0ul);
+        gi_test_close(&t);
+    }
 }
 
 /* No exposure makes light infinite or not a number, however little it fits the light. */
@@ -246,6 +296,8 @@ int main(void)
         cmocka_unit_test(exposure_does_not_change_light),
         cmocka_unit_test(exposures_and_settings_in_every_frame_cost_nothing),
         cmocka_unit_test(exposures_of_any_sequence_show_the_same_light),
+        cmocka_unit_test(exposures_of_any_sequence_show_the_same_light_by_light_cells),
+        cmocka_unit_test(light_that_is_cut_is_reported),
         cmocka_unit_test(blinding_skies_need_no_exposure),
         cmocka_unit_test(extreme_exposures_leave_light_finite),
         cmocka_unit_test(a_red_wall_reddens_what_faces_it),

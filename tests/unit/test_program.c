@@ -433,6 +433,43 @@ static void pictures_of_skies_are_shown_and_light(void **state)
     run_in_folder("rm -f sky.* near.json tiny.gltf");
 }
 
+/* ---- Exposure */
+
+/* The darkest pixel of a triangle under a dim sky, over that sky. */
+static float darkest_under_sky(float sky, const char *hint)
+{
+    char arguments[320], error[256];
+    struct image image;
+    snprintf(arguments, sizeof arguments,
+             "render tiny.gltf --quiet --size 8x8 --frames 6 --sun none --sky %g --gi-exposure %s "
+             "--out dim.pfm --set sdfgi_resolution=32 --set sdfgi_cascades=1 --set sdfgi_min_cell_size=0.2",
+             (double)sky, hint);
+    assert_int_equal(run_program("", arguments).code, 0);
+    assert_true(image_read(&image, files_path("dim.pfm"), error, sizeof error));
+    float darkest = image.rgba[0];
+    for (uint32_t i = 0; i < 4 * image.width * image.height; i += 4)
+        darkest = fminf(darkest, image.rgba[i]);
+    image_finish(&image);
+    return darkest / sky;
+}
+
+/* Under a sky of 1e-7 the smallest steps of half floats are more than half of the light: stored as it is, it
+ * is a seventh too bright. With a hint that fits it is not; what is left is the picture's own rounding. */
+static void the_exposure_for_the_library_arrives_there(void **state)
+{
+    (void)state;
+    if (run_program("", "info").code != 0)
+        skip();
+    files_write_triangle("tiny.gltf");
+    const float bright = darkest_under_sky(1, "1"), fits = darkest_under_sky(1e-7f, "1e7"),
+                none = darkest_under_sky(1e-7f, "1");
+    printf("# a triangle under a sky: %.4f of it; of 1e-7 %.4f, without a hint %.4f\n", (double)bright,
+           (double)fits, (double)none);
+    assert_true(fabsf(fits / bright - 1) < 0.07f);
+    assert_true(fabsf(none / bright - 1) > 0.1f);
+    run_in_folder("rm -f dim.pfm tiny.gltf");
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2)
@@ -452,6 +489,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),
         cmocka_unit_test(a_debug_view_is_written_instead_of_the_picture),
         cmocka_unit_test(pictures_of_skies_are_shown_and_light),
+        cmocka_unit_test(the_exposure_for_the_library_arrives_there),
     };
     return cmocka_run_group_tests(tests, make_files, files_teardown);
 }

@@ -9,7 +9,7 @@ enum { JOURNAL_BOXES = 64 };
 
 enum journal_note {
     JOURNAL_LIGHTS = 1,    /* lights were made, changed or destroyed */
-    JOURNAL_MATERIALS = 2, /* constants of materials */
+    JOURNAL_MATERIALS = 2, /* constants of materials that are shown */
     JOURNAL_SKY = 4,
     JOURNAL_EVERYTHING = 8, /* all that was voxelised is out of date */
 };

@@ -111,12 +111,10 @@ static float smoothest(const struct scene *scene)
     return most;
 }
 
-/* Sums of emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material
- * that is brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised
- * anew for that. */
-static void fit_emission_unit(struct scene *scene, const struct sdfgi_material_desc *desc)
+void sdfgi_scene_material_shown(struct scene *scene, const struct sdfgi_material_desc *desc)
 {
     const float brightest = brightest_channel(desc->emission);
+    sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
     scene->most_emission = fmaxf(scene->most_emission, brightest);
     if (brightest <= scene->emission_unit * SDFGI_EMISSION_MOST)
         return;
@@ -142,10 +140,8 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
         sdfgi_pool_remove(&scene->materials, id);
         return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
     }
-    sdfgi_journal_note(scene->journals, JOURNAL_MATERIALS);
     scene->emissive += emits(desc);
     scene->smoothest = fmaxf(scene->smoothest, desc->smoothness);
-    fit_emission_unit(scene, desc);
     out->id = id;
     return SDFGI_OK;
 }

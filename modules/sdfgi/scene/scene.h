@@ -70,7 +70,7 @@ struct scene {
     struct sdfgi_sky_harmonics harmonics; /* beside it */
     uint32_t emissive;                    /* materials that emit */
     float smoothest;                      /* smoothness of the smoothest material; 0: none */
-    float most_emission;                  /* of any material so far */
+    float most_emission;                  /* of any instance's material so far */
     float emission_unit;                  /* power of two, in which emission is stored: W/(m^2 sr) */
     struct journal *journals;
     struct instance_tree tree; /* of the instances that are in the volumes */
@@ -112,6 +112,11 @@ enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double b
 
 /* True if an instance that is in the volumes may touch the box. */
 bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
+/* A material has its first instance. One that nothing shows costs nothing, however bright it is. Sums of
+ * emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material that is
+ * brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised anew for
+ * that. */
+void sdfgi_scene_material_shown(struct scene *scene, const struct sdfgi_material_desc *desc);
 /* The brightest that surfaces may get from all there is, about: radiance, or irradiance over pi. */
 float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky);
 /* True if anything in the scene gives light. */

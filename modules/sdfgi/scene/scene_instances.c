@@ -166,7 +166,8 @@ static sdfgi_instance add(struct scene *scene, const struct sdfgi_instance_desc 
     instance->desc = *desc;
     instance->bounds = transformed_bounds(mesh, &desc->transform);
     link_first(scene, &mesh->first, slot, offsetof(struct instance, of_mesh));
-    material->users++;
+    if (material->users++ == 0)
+        sdfgi_scene_material_shown(scene, &material->desc);
     enter_volumes(scene, slot);
     return handle;
 }
