@@ -69,21 +69,22 @@ struct surface {
 
 /* Cosine of the largest angle between a surface that counts as level with the grid and an axis. */
 const float LEVEL = 0.999;
-/* Cells. How far from a level surface shadow rays start, and from any other: nearer to a slope, rays would
- * meet its own steps. From the middle of the cell, surfaces on both sides of an edge were lit by the same
- * light: a room with a patch of sun on its floor and a wall was 2 % too bright. */
-const float LEVEL_CLEARANCE = 0.1, CLEARANCE = 0.4;
+/* Cells. Shadow rays start so far from the middle of their cell at most: within it, since what lies behind
+ * its faces may be open only beside the surface. */
+const float INSIDE = 0.47;
+/* Cells. So far from surfaces that are not level shadow rays start at least: nearer, they would meet steps of
+ * the surface itself. */
+const float CLEARANCE = 0.4;
 
-/* Shadow rays start elsewhere over each surface, so that of the cells on the edge of a shadow as many are lit
- * as the light covers of them. From the middles of all cells, a patch of sun was up to a row of cells too
- * wide or too narrow. */
+/* Shadow rays start near the surface: from the middle of the cell, surfaces on both sides of an edge were lit
+ * by the same light, and a room with a patch of sun on its floor and a wall was 2 % too bright. They start
+ * elsewhere over each surface, so that of the cells on the edge of a shadow as many are lit as the light
+ * covers of them: from the middles, a patch of sun was up to a row of cells too wide or too narrow. */
 vec3 shadow_start(ivec3 cell, vec3 step, vec3 normal, float distance)
 {
-    const bool level = dot(normal, step) > LEVEL;
-    const float face = clamp(distance - 0.5 / float(SDFGI_SUBVOXELS), 0.5, 1.0),
-                depth = level ? face - LEVEL_CLEARANCE : clamp(distance - CLEARANCE, 0.0, 0.47);
+    const float depth = dot(normal, step) > LEVEL ? INSIDE : clamp(distance - CLEARANCE, 0.0, INSIDE);
     const vec3 place = light_cell_place(args.cascade, cell), aside = place - dot(place, normal) * normal;
-    return vec3(cell) + LIGHT_CELL_EYE + clamp(aside, -0.47, 0.47) - step * depth;
+    return vec3(cell) + LIGHT_CELL_EYE + clamp(aside, -INSIDE, INSIDE) - step * depth;
 }
 
 surface surface_behind(ivec3 cell, uint axis)
