@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Exposure that brings the geometric mean of a grid of samples to middle grey. One group. Black pixels count
- * as 1/32 of the arithmetic mean: without global illumination most of an interior is black, and what is lit
- * would burn out. */
+ * Exposure that brings the geometric mean of a grid of samples to middle grey. One group. Pixels that are
+ * quite black do not count: behind a thing without a sky there is nothing, and without global illumination
+ * most of an interior is black. What is lit would burn out. What is darker than 1/32 of the arithmetic mean
+ * counts as that. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "host/host_exposure.glsl"
@@ -35,16 +36,19 @@ float group_sum(float value)
 
 void main()
 {
-    const int count = HOST_EXPOSURE_SAMPLES * HOST_EXPOSURE_SAMPLES;
-    float sum = 0.0;
-    for (int i = int(gl_LocalInvocationIndex); i < count; i += HOST_EXPOSURE_THREADS)
+    const int samples = HOST_EXPOSURE_SAMPLES * HOST_EXPOSURE_SAMPLES;
+    float sum = 0.0, lit = 0.0;
+    for (int i = int(gl_LocalInvocationIndex); i < samples; i += HOST_EXPOSURE_THREADS) {
         sum += sample_luminance(i);
-    const float mean = group_sum(sum) / float(count);
+        lit += sample_luminance(i) > 0.0 ? 1.0 : 0.0;
+    }
+    const float count = max(group_sum(lit), 1.0), mean = group_sum(sum) / count;
 
     float sum_log = 0.0;
-    for (int i = int(gl_LocalInvocationIndex); i < count; i += HOST_EXPOSURE_THREADS)
-        sum_log += log2(max(sample_luminance(i), max(mean / 32.0, 1e-12)));
-    const float geometric = exp2(group_sum(sum_log) / float(count));
+    for (int i = int(gl_LocalInvocationIndex); i < samples; i += HOST_EXPOSURE_THREADS)
+        if (sample_luminance(i) > 0.0)
+            sum_log += log2(max(sample_luminance(i), max(mean / 32.0, 1e-12)));
+    const float geometric = exp2(group_sum(sum_log) / count);
     if (gl_LocalInvocationIndex == 0u)
         auto_exposure = mean > 1e-9 ? clamp(0.18 / geometric, 1e-9, 1e9) : 1.0;
 }

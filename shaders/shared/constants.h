@@ -126,8 +126,8 @@
 #define SDFGI_VOXEL_PART_CELLS (1u << 18)
 
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h).
- * Those from SDFGI_ACCUM_EMISSION on are there only if something emits. Sides are +x -x +y -y +z -z, and a side
- * has two layers of cells along its axis. */
+ * Those from SDFGI_ACCUM_EMISSION on are there only if something emits. Sides are +x -x +y -y +z -z, and a
+ * side has two layers of cells along its axis. */
 #define SDFGI_ACCUM_ALBEDO         0  /* per side and layer 4 planes: sum in 1/SDFGI_ALBEDO_STEPS, count */
 #define SDFGI_ACCUM_NORMAL         48 /* per dominant axis 3 planes: count, sums of two slopes */
 #define SDFGI_ACCUM_EMISSION       57 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */

@@ -17,14 +17,14 @@ static const struct {
     uint32_t hash;
 } recorded[] = {
     { RESOURCE_BITS, 0x31514855u },         { RESOURCE_DISTANCE, 0xfff6e44bu },
-    { RESOURCE_ALBEDO, 0x278138cdu },       { RESOURCE_PROBES, 0x2cab84a0u },
+    { RESOURCE_ALBEDO, 0xb062e2ddu },       { RESOURCE_PROBES, 0x2cab84a0u },
     { RESOURCE_LIGHT_BLOCKS, 0x11d0717au }, { RESOURCE_MASKS, 0x6251c629u },
 };
 enum { STAGES = sizeof recorded / sizeof *recorded };
 
-static const float recorded_light[POINTS] = { 2.20213032f, 2.14142489f, 2.13973355f, 2.17091346f,
-                                              2.13467097f, 2.13213181f, 2.07289171f, 2.0992887f,
-                                              2.13425231f, 2.05835605f, 2.04027891f, 2.10708904f };
+static const float recorded_light[POINTS] = { 2.2026186f, 2.14311266f, 2.14125299f, 2.17091346f,
+                                              2.13164616f, 2.12807417f, 2.06936359f, 2.09646821f,
+                                              2.13421631f, 2.05630994f, 2.03799248f, 2.10708904f };
 
 /* FNV-1a. */
 static uint32_t hash_of(const uint8_t *data, uint64_t size)
