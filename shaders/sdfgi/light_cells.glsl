@@ -30,13 +30,16 @@ uint light_cell_hash(uint cascade, ivec3 cell)
 }
 
 /* A place within a cell, -0.5 to 0.5 from its middle, of a lattice: along any row of cells, and over any
- * patch of them, places are spread evenly. Each component is a multiple of generalised golden ratios (Roberts
- * 2018, "The unreasonable effectiveness of quasirandom sequences"), modulo 1. */
+ * patch of them, places are spread evenly. Each component is a sum of multiples of generalised golden ratios
+ * (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), modulo 1. They are rounded so
+ * that places repeat where hashes do. */
 vec3 light_cell_place(uint cascade, ivec3 cell)
 {
+    const uint period = uint(SDFGI_HASH_PERIOD * SDFGI_PROBE_SPACING);
     const ivec3 base = sdfgi_frame.cascades[cascade].probe_base * SDFGI_PROBE_SPACING;
-    const uvec3 at = uvec3(base + cell), a = at * 3518319155u, b = at * 2882110345u, c = at * 2360945575u;
-    return vec3(c.x + a.y + b.z, b.x + c.y + a.z, a.x + b.y + c.z) * (1.0 / 4294967296.0) - 0.5;
+    const uvec3 at = uvec3(base + cell), a = 419u * at, b = 343u * at, c = 281u * at,
+                sum = uvec3(c.x + a.y + b.z, b.x + c.y + a.z, a.x + b.y + c.z);
+    return (vec3(sum & (period - 1u)) + 0.5) / float(period) - 0.5;
 }
 
 /* First word of an entry. */

@@ -28,10 +28,9 @@ struct sdfgi_settings scroll_settings(uint32_t resolution)
 void scroll_use_cells(struct sdfgi_settings *settings, uint32_t visits)
 {
     settings->surface_light = SDFGI_SURFACE_LIGHT_CELLS;
-    if (scroll_is_full())
-        return;
-    settings->cell_rays = visits * SDFGI_VISIT_RAYS;
-    settings->cell_rays_per_frame = 1 << 20;
+    settings->cell_rays_per_frame = 1 << 22;
+    if (!scroll_is_full())
+        settings->cell_rays = visits * SDFGI_VISIT_RAYS;
 }
 
 static void add_boxes(struct gi_test *t, const double center[static 3], double reach)

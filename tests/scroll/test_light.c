@@ -113,7 +113,7 @@ static void a_fixed_point_hardly_notices_by_light_cells(void **state)
 {
     (void)state;
     struct sdfgi_settings settings = light_walk_settings(25);
-    scroll_use_cells(&settings, 1);
+    scroll_use_cells(&settings, 4);
     walk_past_a_point(&settings);
 }
 
