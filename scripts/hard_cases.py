@@ -24,7 +24,7 @@ HEAD = """# Hard cases
 
 What makes global illumination unstable, and what the tests assert about it. `scripts/hard_cases.py` makes
 this table from records of the tests. *Measured* is the worst figure of all calls. Figures marked *full* are
-those of `./test.sh --full`, on an NVIDIA H200; all others are of lavapipe.
+those of `./test.sh --full`, on an NVIDIA H100; all others are of lavapipe.
 
 | # | case | figure | measured | limit | test |
 |---|---|---|---|---|---|
