@@ -30,8 +30,8 @@ shared ivec3 cells[CELLS];
 shared uint facing[CELLS];
 shared uint unshadowed[SDFGI_GROUP_SURFACES]; /* bits of the batch's lights in which a surface lies */
 shared vec3 starts[SDFGI_GROUP_SURFACES];     /* of a surface's shadow rays */
-shared uint
-    rays[SDFGI_GROUP_SURFACES * BATCH]; /* a surface's thread times BATCH, plus a light's in the batch */
+/* A surface's thread times BATCH, plus a light's number in the batch. */
+shared uint rays[SDFGI_GROUP_SURFACES * BATCH];
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
