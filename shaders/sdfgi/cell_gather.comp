@@ -36,7 +36,7 @@ shared uint entries[CELLS];
 shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not there */
 shared gathered_state states[CELLS]; /* with which the visits begin */
 shared uint changes[CELLS];          /* float bits: how far a mean has changed */
-shared int drifts[CELLS];            /* surfaces that are brighter than a cycle before, less darker ones */
+shared uint lights[CELLS];           /* float bits: luminance of the brightest mean */
 shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
 shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
@@ -259,7 +259,7 @@ gathered_state state_of_visit(uint cascade, uint entry)
     if (state.epoch == args.epoch)
         return state;
     const bool knows = state.mean != GATHERED_NOTHING || state.visits > 0u;
-    return gathered_state(0u, knows ? GATHERED_OUTDATED : GATHERED_NOTHING, args.epoch);
+    return gathered_state(0u, knows ? GATHERED_OUTDATED : GATHERED_NOTHING, args.epoch, state.mark);
 }
 
 /* Sum and mean with which a visit begins. What was gathered under other lights becomes the mean. */
@@ -317,11 +317,21 @@ void add_visit(uint cascade, uint surface, vec3 light)
         const bool known = states[own].mean == mean_after(cascade, own);
         const float change = known ? relative_change(mean, gathered.mean) : 1.0;
         atomicMax(changes[own], floatBitsToUint(change));
-        if (known && change >= SDFGI_DRIFT)
-            atomicAdd(drifts[own], int(sign(dot(mean - gathered.mean, vec3(1.0)))));
+        atomicMax(lights[own], floatBitsToUint(sdfgi_light_luminance(mean)));
         gathered = gathered_light(vec3(0.0), mean);
     }
     gathered_store(cascade, entry, axis, gathered);
+}
+
+/* Tells how far the light of a cell has changed since its last mark. Returns the next one. */
+uint next_mark(uint cascade, uint own)
+{
+    if ((args.marks >> cascade & 1u) == 0u)
+        return states[own].mark;
+    const uint mark = gathered_mark(uintBitsToFloat(lights[own]));
+    atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_DRIFT + cascade],
+              floatBitsToUint(gathered_mark_change(states[own].mark, mark)));
+    return mark;
 }
 
 void end_visit(uint cascade, uint own)
@@ -329,14 +339,12 @@ void end_visit(uint cascade, uint own)
     gathered_state state = states[own];
     state.visits++;
     if (ends_cycle(cascade, own))
-        state = gathered_state(0u, mean_after(cascade, own), state.epoch);
+        state = gathered_state(0u, mean_after(cascade, own), state.epoch, next_mark(cascade, own));
     gathered_store_state(cascade, entries[own], state);
     if (changes[own] != 0u)
         atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_CHANGE + cascade], changes[own]);
     if (uintBitsToFloat(changes[own]) >= SDFGI_SMALL_CHANGE)
         counter_add(SDFGI_COUNTER_CELLS_CHANGING + cascade, 1u);
-    if (drifts[own] != 0)
-        counter_add(SDFGI_COUNTER_CELLS_DRIFTING + cascade, uint(sign(drifts[own])));
 }
 
 /* Seen cells that the workgroup visits: a bit for each, from the entry `first` on. None in the rows of
@@ -392,8 +400,7 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
     if (axis == 0u) {
         cells[own] = cell;
         entries[own] = entry;
-        facing[own] = changes[own] = 0u;
-        drifts[own] = 0;
+        facing[own] = changes[own] = lights[own] = 0u;
         if (there)
             states[own] = state_of_visit(cascade, entry);
     }

@@ -160,7 +160,7 @@ vec3 leaks(surface_hit hit)
 
 vec3 view_of_cell(surface_hit hit, float shade)
 {
-    gathered_state state = gathered_state(0u, GATHERED_COMPLETE, 0u);
+    gathered_state state = gathered_state(0u, GATHERED_COMPLETE, 0u, 0u);
     if (gathers())
         state = gathered_load_state(hit.cascade, hit.entry);
     const bool changed = dirty_contains(hit.cascade, hit.solid);

@@ -42,6 +42,7 @@ struct gathered_state {
     uint visits; /* in this cycle */
     uint mean;   /* GATHERED_NOTHING, _OUTDATED, _ROUGH or _COMPLETE */
     uint epoch;  /* of the lights that S and P belong to; 8 bits */
+    uint mark;   /* P when it was last marked, as gathered_mark tells; 14 bits */
 };
 
 /* False if light cells read probes alone. */
@@ -61,13 +62,38 @@ const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u;
 gathered_state gathered_load_state(uint cascade, uint entry)
 {
     const uint packed = sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)];
-    return gathered_state(packed & 0xffu, packed >> 8u & 0xffu, packed >> 16u & 0xffu);
+    return gathered_state(packed & 0xffu, packed >> 8u & 3u, packed >> 10u & 0xffu, packed >> 18u);
 }
 
 void gathered_store_state(uint cascade, uint entry, gathered_state state)
 {
     sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)] =
-        state.visits | state.mean << 8u | state.epoch << 16u;
+        state.visits | state.mean << 8u | state.epoch << 10u | state.mark << 18u;
+}
+
+/* ---- Marks: logarithms of light in MARK_STEPS parts of an octave. Eight octaves go round in a circle: marks
+ * tell small changes, of light of any brightness. */
+
+const int MARK_BITS = 14, MARK_STEPS = 1 << MARK_BITS - 3;
+
+uint gathered_mark(float light)
+{
+    const float octaves = log2(max(light + sdfgi_frame.dark, 1e-30));
+    return uint(int(round(octaves * float(MARK_STEPS)))) & (1u << MARK_BITS) - 1u;
+}
+
+/* The mark of light that is `factor`, a power of two, times as bright. */
+uint gathered_mark_times(uint mark, float factor)
+{
+    const int octaves = int(round(log2(factor)));
+    return mark + uint(octaves * MARK_STEPS) & (1u << MARK_BITS) - 1u;
+}
+
+/* Relative change from one mark to another, at most 1. */
+float gathered_mark_change(uint from, uint to)
+{
+    const int steps = int(to - from << 32 - MARK_BITS) >> 32 - MARK_BITS;
+    return 1.0 - exp2(-float(abs(steps)) / float(MARK_STEPS));
 }
 
 /* S and P of an axis. */

@@ -43,6 +43,9 @@ void rescale_gathered(uint cascade, uint entry)
         const uint raw = gathered_word(cascade, GATHERED_RAW + axis, entry);
         sdfgi_gathered[raw] = rescale_surface(sdfgi_gathered[raw]);
     }
+    gathered_state state = gathered_load_state(cascade, entry);
+    state.mark = gathered_mark_times(state.mark, args.factor);
+    gathered_store_state(cascade, entry, state);
 }
 
 void rescale_cell(uint i)
@@ -70,6 +73,11 @@ void rescale_texel(uint i)
     probe_store_previous(slot, texel, previous.rgb, previous.a);
     const uint sum = probe_sums(slot) + texel;
     sdfgi_sums[sum] = vec4(sdfgi_sums[sum].rgb * args.factor, sdfgi_sums[sum].a);
+    if (texel == 0u) {
+        probe_history history = probe_history_load(slot);
+        history.mark *= args.factor;
+        probe_history_store(slot, history);
+    }
 }
 
 void main()

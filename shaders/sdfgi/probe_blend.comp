@@ -77,7 +77,8 @@ const float WEAKEST_CHANNEL = 0.25;
 /* Light cells read at most this many times what is displayed, and at least its inverse. */
 const float MAX_GAIN = 8.0;
 
-shared uint group_change; /* float bits: largest change of the probe's texels */
+shared uint group_change;                         /* float bits: largest change of the probe's texels */
+shared float group_light[SDFGI_IRRADIANCE_COUNT]; /* E of the texels, as luminances */
 
 struct texel {
     vec4 sum;      /* S and w */
@@ -151,6 +152,18 @@ void measure_probe(texel t)
     barrier();
 }
 
+/* Sums the luminances of a probe's texels in order. Called by the whole workgroup. */
+float probe_light(texel t)
+{
+    if (has_texel())
+        group_light[gl_LocalInvocationIndex] = sdfgi_light_luminance(t.estimate.rgb);
+    barrier();
+    float sum = 0.0;
+    for (uint i = 0u; i < uint(SDFGI_IRRADIANCE_COUNT); i++)
+        sum += group_light[i];
+    return sum;
+}
+
 bool needs_reset(float change, float deviation)
 {
     const float sampled =
@@ -213,6 +226,13 @@ void count_change(probe_history history)
     atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_CHANGE], known ? group_change : floatBitsToUint(1.0));
 }
 
+/* The same of the change since the probe was marked. */
+void count_drift(float light, float mark)
+{
+    const float larger = max(light, mark) + float(SDFGI_IRRADIANCE_COUNT) * sdfgi_frame.dark;
+    atomicMax(sdfgi_counters[SDFGI_COUNTER_MAX_DRIFT], floatBitsToUint(min(abs(light - mark) / larger, 1.0)));
+}
+
 void main()
 {
     const uint cascade = gl_WorkGroupID.y;
@@ -237,9 +257,14 @@ void main()
         if (cycle_ends() || new_state == PROBE_NEW)
             texel_start_cycle(slot, t, resets);
     }
+    const float light = args.marks != 0u ? probe_light(t) : history.mark;
     if (gl_LocalInvocationIndex == 0u) {
-        probe_history_store(slot, next_history(history, change, resets));
+        probe_history next = next_history(history, change, resets);
+        next.mark = light;
+        probe_history_store(slot, next);
         if (cycle_ends())
             count_change(history);
+        if (args.marks != 0u)
+            count_drift(light, history.mark);
     }
 }

@@ -52,6 +52,7 @@ struct probe_history {
     float largest_change; /* of any texel in this cycle so far, relative */
     float deviation;      /* of the cycle before */
     float cycles;         /* history length: ends of cycles since the history reset, 4 at most */
+    float mark;           /* luminance of all texels when it was last marked */
 };
 
 /* States of a history. NEW: the probe is new or its light has changed by half, so its history counts for
@@ -74,12 +75,12 @@ const uint PROBE_NEW_FRAMES = 5u;
 /* The length is stored less PROBE_NEW_CYCLES, so that NEW probes are those below 0. */
 vec4 probe_history_pack(probe_history h)
 {
-    return vec4(h.largest_change, h.deviation, h.cycles - PROBE_NEW_CYCLES, 0.0);
+    return vec4(h.largest_change, h.deviation, h.cycles - PROBE_NEW_CYCLES, h.mark);
 }
 
 probe_history probe_history_unpack(vec4 packed)
 {
-    return probe_history(packed.x, packed.y, packed.z + PROBE_NEW_CYCLES);
+    return probe_history(packed.x, packed.y, packed.z + PROBE_NEW_CYCLES, packed.w);
 }
 
 /* Memory that holds no history of a probe makes the probe NEW. */
@@ -87,8 +88,9 @@ probe_history probe_history_load(uint slot)
 {
     const vec4 packed = sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)];
     const vec4 least = vec4(0.0, 0.0, -PROBE_NEW_CYCLES, 0.0),
-               most = vec4(1.0, 1.0, PROBE_STEADY_CYCLES - PROBE_NEW_CYCLES, 0.0);
-    return probe_within(packed, least, most) ? probe_history_unpack(packed) : probe_history(0.0, 0.0, 0.0);
+               most = vec4(1.0, 1.0, PROBE_STEADY_CYCLES - PROBE_NEW_CYCLES, 1e30);
+    return probe_within(packed, least, most) ? probe_history_unpack(packed)
+                                             : probe_history(0.0, 0.0, 0.0, 0.0);
 }
 
 void probe_history_store(uint slot, probe_history h)

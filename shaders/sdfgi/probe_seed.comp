@@ -91,5 +91,5 @@ void main()
         store_seed(slot, i,
                    exists ? seed_from_coarser(coarser, cage, pos, probe_texel_direction(i)) : vec4(0.0));
     if (i == 0u)
-        probe_history_store(slot, probe_history(0.0, 0.0, 0.0));
+        probe_history_store(slot, probe_history(0.0, 0.0, 0.0, 0.0));
 }

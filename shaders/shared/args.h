@@ -100,8 +100,9 @@ struct sdfgi_cell_gather_args {
     uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
     uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */
     uint epoch;                      /* of the lights, 8 bits: it changes with them */
+    uint marks;                      /* a bit per cascade: its cells mark how much light they have */
 };
-SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 100);
+SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 104);
 
 struct sdfgi_light_rescale_args {
     float factor; /* a power of two */
@@ -110,9 +111,10 @@ SDFGI_ASSERT_SIZE(sdfgi_light_rescale_args, 4);
 
 struct sdfgi_probe_blend_args {
     uint cycle_ends;      /* 1: this is the last frame of a sample cycle */
+    uint marks;           /* 1: probes mark how much light they have at the end of it */
     uint without_history; /* 1: no sample cycle has been completed since the cascades were empty */
 };
-SDFGI_ASSERT_SIZE(sdfgi_probe_blend_args, 8);
+SDFGI_ASSERT_SIZE(sdfgi_probe_blend_args, 12);
 
 /* gather, gather_sparse. */
 struct sdfgi_gather_args {

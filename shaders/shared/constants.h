@@ -73,8 +73,6 @@
 
 /* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)
-/* A smaller one, which means something where most cells change by it to the same side. */
-#define SDFGI_DRIFT (1.0 / 4096.0)
 /* Emitters: an albedo block in which something emits. A cascade lists so many at most; words of one in the
  * list, and of the list of a cascade: see sdfgi/emitters.glsl. */
 #define SDFGI_MAX_EMITTERS    256

@@ -12,11 +12,12 @@
 #define SDFGI_COUNTER_UNLIT_HITS        4
 #define SDFGI_COUNTER_RAYS_TRACED       5
 #define SDFGI_COUNTER_MAX_CHANGE        6 /* float bits: largest relative change of a texel over a cycle */
-#define SDFGI_COUNTER_DEAD_PROBES       7
-#define SDFGI_COUNTER_VOXELS            8  /* sub-voxel samples that the voxeliser accepted */
-#define SDFGI_COUNTER_DISTANCE_CELLS    9  /* cells whose distances the exact search made again */
-#define SDFGI_COUNTER_OUT_OF_BOUNDS     10 /* triangles outside their mesh's bounds by more than a cell */
-#define SDFGI_COUNTER_SAMPLES_CUT       11 /* samples that a block had no room for */
+#define SDFGI_COUNTER_MAX_DRIFT         7 /* float bits: largest relative change of a probe since it was marked */
+#define SDFGI_COUNTER_DEAD_PROBES       8
+#define SDFGI_COUNTER_VOXELS            9  /* sub-voxel samples that the voxeliser accepted */
+#define SDFGI_COUNTER_DISTANCE_CELLS    10 /* cells whose distances the exact search made again */
+#define SDFGI_COUNTER_OUT_OF_BOUNDS     11 /* triangles outside their mesh's bounds by more than a cell */
+#define SDFGI_COUNTER_SAMPLES_CUT       12 /* samples that a block had no room for */
 #define SDFGI_COUNTER_SINGLE_COUNT      16 /* room for counters that are not per cascade */
 /* Per cascade: light cells, and those in dirty blocks when they were listed. Neither is clamped to the room
  * in the list. */
@@ -26,9 +27,8 @@
 #define SDFGI_COUNTER_CELL_CHANGE 32
 /* Per cascade: light cells that changed by SDFGI_SMALL_CHANGE or more over a gather cycle. */
 #define SDFGI_COUNTER_CELLS_CHANGING 40
-/* Per cascade: light cells that grew brighter by SDFGI_DRIFT or more over a gather cycle, less those that
- * grew darker by as much; a signed number. */
-#define SDFGI_COUNTER_CELLS_DRIFTING 48
+/* Per cascade: float bits of the largest relative change of a light cell since it was marked. */
+#define SDFGI_COUNTER_CELL_DRIFT 48
 /* Per cascade: light cells that gathers of pictures have seen since these were last forgotten. */
 #define SDFGI_COUNTER_CELLS_SEEN 56
 #define SDFGI_COUNTER_COUNT      64
@@ -44,6 +44,7 @@
     X(UNLIT_HITS, CYCLE, UNLIT_HITS)                                                                         \
     X(RAYS_TRACED, CYCLE, NONE)                                                                              \
     X(MAX_CHANGE, CYCLE, NONE)                                                                               \
+    X(MAX_DRIFT, CYCLE, NONE)                                                                                \
     X(DEAD_PROBES, CHANGE, NONE)                                                                             \
     X(VOXELS, CHANGE, NONE)                                                                                  \
     X(DISTANCE_CELLS, CHANGE, NONE)                                                                          \

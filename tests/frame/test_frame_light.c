@@ -19,7 +19,7 @@ static struct accumulation in_phase(enum lighting_phase phase)
     if (phase >= LIGHTING_RUNNING)
         sdfgi_accumulation_show(&a, true);
     if (phase == LIGHTING_CONVERGED) {
-        sdfgi_accumulation_add_known(&a, 1, 0);
+        sdfgi_accumulation_add_known(&a, 1, 0, 0);
         for (int i = 0; i < CYCLE; i++)
             sdfgi_accumulation_advance(&a, CYCLE, true);
     }
@@ -99,13 +99,13 @@ static void only_cycles_after_a_change_tell_of_convergence(void **state)
     for (int i = 0; i < CYCLE; i++)
         sdfgi_accumulation_advance(&a, CYCLE, true);
     sdfgi_accumulation_invalidate(&a);
-    sdfgi_accumulation_add_known(&a, 1, 0);
-    sdfgi_accumulation_add_known(&a, 2, 0);
+    sdfgi_accumulation_add_known(&a, 1, 0, 0);
+    sdfgi_accumulation_add_known(&a, 2, 0, 0);
     REQUIRE_TRUE(!sdfgi_convergence_done(&a.convergence));
     REQUIRE_TRUE(a.known_cycle == 2);
     for (int i = 0; i < CYCLE; i++)
         sdfgi_accumulation_advance(&a, CYCLE, true);
-    sdfgi_accumulation_add_known(&a, 3, 0);
+    sdfgi_accumulation_add_known(&a, 3, 0, 0);
     REQUIRE_TRUE(sdfgi_convergence_done(&a.convergence));
 }
 
@@ -113,7 +113,7 @@ static void light_does_not_converge_while_there_is_other_work(void **state)
 {
     (void)state;
     struct accumulation a = in_phase(LIGHTING_RUNNING);
-    sdfgi_accumulation_add_known(&a, 1, 0);
+    sdfgi_accumulation_add_known(&a, 1, 0, 0);
     for (int i = 0; i < 2 * CYCLE; i++) {
         sdfgi_accumulation_advance(&a, CYCLE, false);
         REQUIRE_TRUE(a.phase == LIGHTING_RUNNING);

@@ -115,7 +115,7 @@ static void add_probe_trace(const struct plan_stage *stage)
 static void clear_change(const struct plan_stage *stage, const struct gather_range *range)
 {
     static const uint32_t counters[] = { SDFGI_COUNTER_CELL_CHANGE, SDFGI_COUNTER_CELLS_CHANGING,
-                                         SDFGI_COUNTER_CELLS_DRIFTING };
+                                         SDFGI_COUNTER_CELL_DRIFT };
     for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
         sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (counters[i] + range->cascade), 4);
 }
@@ -131,8 +131,11 @@ static void gather(const struct plan_stage *stage)
     args->epoch = frame->next.gathering.epoch;
     fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count, frame->next.cascades.count,
                 SEEN_PER_VISIT);
-    for (uint32_t i = 0; i < frame->gather_count; i++)
-        args->visits[frame->gathers[i].cascade] = frame->gathers[i].visits;
+    for (uint32_t i = 0; i < frame->gather_count; i++) {
+        const struct gather_range *range = &frame->gathers[i];
+        args->visits[range->cascade] = range->visits;
+        args->marks |= (uint32_t)range->marks << range->cascade;
+    }
     work->units *= sdfgi_extent_visit_rays(&stage->input->extent);
 }
 

@@ -173,6 +173,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_probe_blend:
         work->args.probe_blend = (struct sdfgi_probe_blend_args){
             .cycle_ends = frame->cycle_ends,
+            .marks = frame->cycle_ends && sdfgi_accumulation_marks(&frame->next.accumulation),
             .without_history = frame->next.accumulation.phase < LIGHTING_RUNNING,
         };
         break;

@@ -7,10 +7,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The largest relative change of a probe texel, from one cycle to the next, of light that has converged. With
- * a loop gain g the light still missing is at most g / (1 - g) times as much: 0.4 % of a white room of albedo
- * 0.8. */
-#define ACCUMULATION_CONVERGED_CHANGE (1.0f / 1024.0f)
+/* The largest relative change of a probe texel over a cycle where light may have converged; by a little more
+ * than it, because what is stored is rounded by as much. */
+#define ACCUMULATION_CONVERGED_CHANGE (1.01f / 1024.0f)
 
 enum lighting_phase {
     LIGHTING_DARK,        /* no probe holds light */
@@ -19,15 +18,27 @@ enum lighting_phase {
     LIGHTING_CONVERGED,   /* nothing changes any more: no work */
 };
 
-/* Of the cycles since light was last invalidated. */
+/* Since light was last invalidated. Light that fills or fades slowly drifts to one side, and light that goes
+ * round in circles of its rounding does not. So how far it has come is measured over spans of cycles, too:
+ * from one that marks how much light there is to the next. */
 struct convergence {
     float change, least; /* of the newest cycle, and of all */
     uint32_t cycles_without_fall;
+    float pace; /* change over the newest span, for each of its cycles */
 };
 
+/* True if light is marked at the end of a cycle. `invalid_cycle` is the last one with light from before it
+ * was invalidated. */
+bool sdfgi_cycle_marks(uint64_t cycle, uint64_t invalid_cycle);
+/* Cycles of the span that ends with a cycle; 0: none does. */
+uint32_t sdfgi_cycle_span(uint64_t cycle, uint64_t invalid_cycle);
+
 void sdfgi_convergence_reset(struct convergence *convergence);
-/* Takes in the largest relative change of a probe texel over a cycle. */
+/* Takes in the largest relative change over a cycle: of a probe texel, or of a light cell along an axis. */
 void sdfgi_convergence_add(struct convergence *convergence, float change);
+/* Takes in the largest relative change over a span of so many cycles: of a probe, or of a light cell. Without
+ * a cycle there is none. */
+void sdfgi_convergence_add_drift(struct convergence *convergence, float drift, uint32_t cycles);
 bool sdfgi_convergence_done(const struct convergence *convergence);
 
 struct accumulation {
@@ -51,7 +62,7 @@ void sdfgi_accumulation_restart(struct accumulation *a);
 /* Nothing is stored any more: no probe holds light. */
 void sdfgi_accumulation_go_dark(struct accumulation *a);
 /* A cycle that ended came back from the GPU. */
-void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change);
+void sdfgi_accumulation_add_known(struct accumulation *a, uint64_t cycle, float change, float drift);
 /* Probes were given the light of this frame. */
 void sdfgi_accumulation_show(struct accumulation *a, bool cycle_ends);
 /* Goes on to the next frame of the cycle. `rests`: no other work is left, so that light may count as
@@ -59,5 +70,7 @@ void sdfgi_accumulation_show(struct accumulation *a, bool cycle_ends);
 void sdfgi_accumulation_advance(struct accumulation *a, uint32_t cycle_frames, bool rests);
 
 bool sdfgi_accumulation_cycle_ends(const struct accumulation *a, uint32_t cycle_frames);
+/* True if probes mark how much light they have at the end of this cycle. */
+bool sdfgi_accumulation_marks(const struct accumulation *a);
 
 #endif

@@ -25,14 +25,15 @@ static bool read_counters(struct volume *volume, const struct feedback_slot *slo
     memcpy(counters, words, sizeof volume->feedback.counters);
     if (slot->ended_cycle > 0)
         sdfgi_accumulation_add_known(&volume->state.accumulation, slot->ended_cycle,
-                                     float_of(counters[SDFGI_COUNTER_MAX_CHANGE]));
+                                     float_of(counters[SDFGI_COUNTER_MAX_CHANGE]),
+                                     float_of(counters[SDFGI_COUNTER_MAX_DRIFT]));
     for (uint32_t c = 0; c < volume->state.cascades.count; c++)
         if (slot->ended_gathers[c] > 0)
             sdfgi_gathering_add_known(&volume->state.gathering, c, slot->ended_gathers[c],
                                       &(struct gather_change){
                                           .most = float_of(counters[SDFGI_COUNTER_CELL_CHANGE + c]),
                                           .changing = counters[SDFGI_COUNTER_CELLS_CHANGING + c],
-                                          .drifting = (int32_t)counters[SDFGI_COUNTER_CELLS_DRIFTING + c],
+                                          .drift = float_of(counters[SDFGI_COUNTER_CELL_DRIFT + c]),
                                           .cells = counters[SDFGI_COUNTER_LIGHT_CELLS + c],
                                       });
     return true;

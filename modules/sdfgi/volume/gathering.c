@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "gathering.h"
 
-#include <stdlib.h>
-
 /* Lights that change in every frame begin a new epoch only once in so many: otherwise no cell would ever add
  * up two visits. An odd number: the first visits of an epoch count most, and a lamp that is switched in every
  * frame would be on in all of them, or off. With 16 the mean of its light was 1.06 of what it should be. */
 #define EPOCH_FRAMES 17
-
-/* The largest relative change of a light cell, from one cycle to the next, of light that has settled. */
-#define SETTLED_CHANGE (1.01f / 1024.0f)
 
 /* Entries in a word of seen cells: ranges of them begin with a word. */
 #define SEEN_BITS 32
@@ -88,7 +83,8 @@ static struct gather_range take(struct gather_cursor *cursor, uint32_t c, uint32
         cursor->next = 0;
     struct gather_range range = { .cascade = c,
                                   .first = cursor->next,
-                                  .visits = visits_of(cursor, cycle_visits) };
+                                  .visits = visits_of(cursor, cycle_visits),
+                                  .marks = sdfgi_cycle_marks(cursor->cycle, cursor->invalid_cycle) };
     range.begins_cycle = cursor->next == 0 && cursor->sweeps == 0;
     range.count = entries - cursor->next < most ? entries - cursor->next : most;
     cursor->next += range.count;
@@ -137,13 +133,6 @@ static bool stays_rough(const struct gather_cursor *cursor, const struct gather_
     return change->changing > change->cells / 8 && cursor->rough_cycles < MOST_ROUGH_CYCLES;
 }
 
-/* A white room still fills with light when each of its cells changes little: with a loop gain of 0.99 a
- * hundred times as much is missing. Cells that change for other reasons do not all do so to the same side. */
-static bool drifts(const struct gather_change *change)
-{
-    return (uint32_t)abs(change->drifting) > change->cells / 8;
-}
-
 void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t cycle,
                                const struct gather_change *change)
 {
@@ -151,8 +140,9 @@ void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t c, uint64_t
     if (cycle <= cursor->invalid_cycle)
         return;
     sdfgi_convergence_add(&cursor->convergence, change->most);
-    const bool done = change->most < SETTLED_CHANGE || sdfgi_convergence_done(&cursor->convergence);
-    cursor->settled = done && !cursor->rough && !drifts(change);
+    sdfgi_convergence_add_drift(&cursor->convergence, change->drift,
+                                sdfgi_cycle_span(cycle, cursor->invalid_cycle));
+    cursor->settled = sdfgi_convergence_done(&cursor->convergence) && !cursor->rough;
     cursor->rough_cycles += cursor->rough;
     if (!cursor->rough || stays_rough(cursor, change))
         return;

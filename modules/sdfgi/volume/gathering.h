@@ -42,13 +42,14 @@ struct gather_range {
     bool begins_cycle;
     uint64_t ends_cycle; /* the cycle whose last entries these are; 0: none */
     uint32_t visits;     /* of a cell in a cycle */
+    bool marks;          /* cells mark how much light they have at the end of this cycle */
 };
 
 /* What a cycle of a cascade has changed. */
 struct gather_change {
     float most;               /* largest relative change of a light cell */
     uint32_t changing, cells; /* light cells that changed by SDFGI_SMALL_CHANGE or more, and all of them */
-    int32_t drifting;         /* those brighter by SDFGI_DRIFT or more, less those darker by as much */
+    float drift;              /* largest relative change of a light cell since the cycle that marked it */
 };
 
 void sdfgi_gathering_init(struct gathering *gathering);
