@@ -47,7 +47,7 @@ static void read_progress(struct gi_test *t, struct progress found[static 2])
     for (uint32_t i = 0; i < counters[SDFGI_COUNTER_LIGHT_CELLS]; i++) {
         struct progress *p = &found[seen[i / 32] >> (i % 32) & 1];
         p->cells++;
-        p->complete += (gathered[STATE_PLANE * room + i] >> 8 & 0xff) >= ROUGH;
+        p->complete += (gathered[STATE_PLANE * room + i] >> 8 & 3) >= ROUGH;
         marked += seen[i / 32] >> (i % 32) & 1;
     }
     REQUIRE_CMP(counters[SDFGI_COUNTER_CELLS_SEEN], ==, marked);

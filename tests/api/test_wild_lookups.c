@@ -104,7 +104,7 @@ static void lookups_of_anything_give_finite_light(void **state)
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     gi_test_open(&t, &settings);
     add_scene(&t);
-    gi_test_converge(&t, 200);
+    gi_test_converge(&t, 400);
     struct wild_lookup *lookups = test_array_alloc(LOOKUPS, sizeof *lookups);
     for (uint32_t i = 0; i < LOOKUPS; i++)
         fill(&lookups[i], i);
