@@ -149,6 +149,7 @@
     X(sdfgi_light_bounce_args, end)                                                                          \
     X(sdfgi_light_bounce_args, without_probes)                                                               \
     X(sdfgi_probe_blend_args, cycle_ends)                                                                    \
+    X(sdfgi_probe_blend_args, marks)                                                                         \
     X(sdfgi_probe_blend_args, without_history)                                                               \
     X(sdfgi_gather_args, inverse_view_projection)                                                            \
     X(sdfgi_gather_args, width)                                                                              \
