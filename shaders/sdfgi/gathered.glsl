@@ -78,7 +78,7 @@ const int MARK_BITS = 14, MARK_STEPS = 1 << MARK_BITS - 3;
 
 uint gathered_mark(float light)
 {
-    const float octaves = log2(max(light + sdfgi_frame.dark, 1e-30));
+    const float octaves = clamp(log2(max(light + sdfgi_frame.dark, 1e-30)), -100.0, 128.0);
     return uint(int(round(octaves * float(MARK_STEPS)))) & (1u << MARK_BITS) - 1u;
 }
 

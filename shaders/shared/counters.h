@@ -12,7 +12,7 @@
 #define SDFGI_COUNTER_UNLIT_HITS        4
 #define SDFGI_COUNTER_RAYS_TRACED       5
 #define SDFGI_COUNTER_MAX_CHANGE        6 /* float bits: largest relative change of a texel over a cycle */
-#define SDFGI_COUNTER_MAX_DRIFT         7 /* float bits: largest relative change of a probe since it was marked */
+#define SDFGI_COUNTER_MAX_DRIFT         7 /* float bits: largest relative change of a probe since its mark */
 #define SDFGI_COUNTER_DEAD_PROBES       8
 #define SDFGI_COUNTER_VOXELS            9  /* sub-voxel samples that the voxeliser accepted */
 #define SDFGI_COUNTER_DISTANCE_CELLS    10 /* cells whose distances the exact search made again */

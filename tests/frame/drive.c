@@ -116,7 +116,8 @@ static void read_back(struct drive *d)
     if (slot->feedback.content == FEEDBACK_TIMES_AND_COUNTERS)
         memcpy(d->counters, slot->counters, sizeof d->counters);
     if (slot->feedback.ended_cycle > 0)
-        sdfgi_accumulation_add_known(&d->state.accumulation, slot->feedback.ended_cycle, d->change, d->change);
+        sdfgi_accumulation_add_known(&d->state.accumulation, slot->feedback.ended_cycle, d->change,
+                                     d->change);
     for (uint32_t c = 0; c < d->state.cascades.count; c++)
         if (slot->feedback.ended_gathers[c] > 0)
             sdfgi_gathering_add_known(&d->state.gathering, c, slot->feedback.ended_gathers[c],
