@@ -60,10 +60,9 @@ static void record_fill(VkCommandBuffer cmd, uint32_t index, void *user)
         vkCmdFillBuffer(cmd, buffers[s->histories->which[i]].handle, 0, VK_WHOLE_SIZE, s->pattern);
 }
 
-/* Values at the points that are no light. */
-static uint32_t values_spoiled(struct gi_test *t)
+/* Looks at the points. Returns how many values are no light. */
+static uint32_t values_spoiled(struct gi_test *t, float found[static POINTS][3])
 {
-    float found[POINTS][3];
     uint32_t count = 0;
     gi_test_irradiance(t, points, POINTS, found);
     for (int i = 0; i < 3 * POINTS; i++)
@@ -99,8 +98,7 @@ static uint32_t go_on(struct gi_test *t, uint32_t frames, float (*wanted)[3])
     sdfgi_volume_invalidate(&t->gi->volume);
     for (uint32_t frame = 1; frame <= frames; frame++) {
         gi_test_update(t, 1);
-        spoiled += values_spoiled(t);
-        gi_test_irradiance(t, points, POINTS, found);
+        spoiled += values_spoiled(t, found);
         if (frame * PARTS % frames == 0)
             printf(" %.2g", worst_of(found, wanted));
     }
@@ -121,7 +119,7 @@ static double spoil(struct gi_test *t, const struct histories *histories)
     gi_test_irradiance(t, points, POINTS, before);
     for (int i = 0; i < PATTERNS; i++) {
         gpu_test_submit(&t->gpu, record_fill, &(struct spoiling){ t, histories, patterns[i] });
-        uint32_t spoiled = values_spoiled(t);
+        uint32_t spoiled = values_spoiled(t, found);
         printf("0x%08x: off by", patterns[i]);
         spoiled += go_on(t, cycle_frames(&settings), before);
         gi_test_irradiance(t, points, POINTS, found);
