@@ -32,10 +32,15 @@ VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu
     VkResult result = shader_module(device, shader, name, &module);
     if (result != VK_SUCCESS)
         return result;
+    const VkBool32 on_cpu = device->is_cpu;
+    const VkSpecializationMapEntry entry = { .constantID = 0, .size = sizeof on_cpu };
+    const VkSpecializationInfo constants = { 1, &entry, sizeof on_cpu, &on_cpu };
+    VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module);
+    stage.pSpecializationInfo = &constants;
     result = device->fn.CreateComputePipelines(device->handle, device->pipeline_cache, 1,
                                                &(VkComputePipelineCreateInfo){
                                                    .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                                   .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module),
+                                                   .stage = stage,
                                                    .layout = layout,
                                                },
                                                device->callbacks, pipeline);

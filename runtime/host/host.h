@@ -51,6 +51,7 @@ struct host_device_info {
     bool usable;          /* host and library can run on it */
     char reason[128];     /* why the host cannot use it; "" otherwise */
     uint64_t local_bytes; /* size of the largest device-local heap */
+    bool is_cpu;          /* a software driver */
     struct sdfgi_requirements requirements;
 };
 

@@ -294,6 +294,7 @@ static void describe(VkInstance instance, VkPhysicalDevice physical, uint32_t in
     snprintf(info->name, sizeof(info->name), "%s", properties.properties.deviceName);
     snprintf(info->driver, sizeof(info->driver), "%s %s", driver.driverName, driver.driverInfo);
     info->type = type_name(properties.properties.deviceType);
+    info->is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     for (uint32_t i = 0; i < memory.memoryHeapCount; i++) {
         const VkMemoryHeap heap = memory.memoryHeaps[i];
         if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) && heap.size > info->local_bytes)

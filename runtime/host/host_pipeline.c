@@ -150,8 +150,17 @@ static bool pipeline_build(struct host_device *device, const struct pipeline_des
                       "creating a graphics pipeline");
 }
 
+/* Constants of all shaders: lib/on_cpu.glsl. */
+static VkSpecializationInfo constants_of(const VkBool32 *on_cpu)
+{
+    static const VkSpecializationMapEntry entry = { .constantID = 0, .size = sizeof(VkBool32) };
+    return (VkSpecializationInfo){ 1, &entry, sizeof *on_cpu, on_cpu };
+}
+
 static bool pipeline_create(struct host_device *device, const struct pipeline_desc *desc, VkPipeline *out)
 {
+    const VkBool32 on_cpu = device->info.is_cpu;
+    const VkSpecializationInfo constants = constants_of(&on_cpu);
     VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE;
     bool ok = module_create(device, desc->vertex, &vertex) &&
               (!desc->fragment.words || module_create(device, desc->fragment, &fragment));
@@ -160,11 +169,13 @@ static bool pipeline_create(struct host_device *device, const struct pipeline_de
             { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
               .stage = VK_SHADER_STAGE_VERTEX_BIT,
               .module = vertex,
-              .pName = "main" },
+              .pName = "main",
+              .pSpecializationInfo = &constants },
             { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
               .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
               .module = fragment,
-              .pName = "main" },
+              .pName = "main",
+              .pSpecializationInfo = &constants },
         };
         ok = pipeline_build(device, desc, stages, fragment ? 2 : 1, out);
     }
@@ -404,6 +415,8 @@ bool host_pipeline_tonemap_create(struct host_device *device, const struct host_
 bool host_pipeline_compute_create(struct host_device *device, const uint32_t *words, size_t bytes,
                                   VkPipelineLayout layout, VkPipeline *out)
 {
+    const VkBool32 on_cpu = device->info.is_cpu;
+    const VkSpecializationInfo constants = constants_of(&on_cpu);
     VkShaderModule module = VK_NULL_HANDLE;
     if (!module_create(device, (struct shader_code){ words, bytes }, &module))
         return false;
@@ -412,7 +425,8 @@ bool host_pipeline_compute_create(struct host_device *device, const uint32_t *wo
         .stage = { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                    .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                    .module = module,
-                   .pName = "main" },
+                   .pName = "main",
+                   .pSpecializationInfo = &constants },
         .layout = layout,
     };
     const bool ok = host_check(

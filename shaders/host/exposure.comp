@@ -5,6 +5,7 @@
  * counts as that. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/on_cpu.glsl"
 #include "host/host_exposure.glsl"
 
 layout(local_size_x = HOST_EXPOSURE_THREADS) in;

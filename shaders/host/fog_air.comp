@@ -4,6 +4,7 @@
  * far it is known. Dispatched as 1 thread per block. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/on_cpu.glsl"
 #include "host/host_frame.glsl"
 #include "host/host_fog_space.glsl"
 #include "host/host_fog_seen.glsl"

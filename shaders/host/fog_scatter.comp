@@ -3,6 +3,7 @@
  * lamps times phase function, and GI's, times albedo. Dispatched as 1 thread per froxel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/on_cpu.glsl"
 #include "host/host_frame.glsl"
 #include "host/host_shadow.glsl"
 #include "host/host_fog_space.glsl"

@@ -3,6 +3,7 @@
  * per column. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/on_cpu.glsl"
 #include "host/host_frame.glsl"
 #include "host/host_fog_space.glsl"
 

@@ -4,6 +4,8 @@
  * surface is albedo * E / pi for an irradiance E. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_NEVER (gl_FragCoord.z > 2.0)
+#include "lib/on_cpu.glsl"
 #include "host/host_frame.glsl"
 #include "host/host_material.glsl"
 #include "host/host_brdf.glsl"
@@ -26,8 +28,9 @@ layout(set = HOST_SET_GI, binding = 1) uniform sampler2D reflection_image;
 
 layout(push_constant) uniform host_push_block
 {
-    host_push push;
+    host_push pushes[1];
 };
+#define push pushes[SDFGI_ZERO]
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
@@ -100,8 +103,7 @@ void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
     irradiance = reflection = vec3(0.0);
 #if defined(HOST_RAYS)
     const vec3 to_eye = -camera_offset(in_position);
-    const sdfgi_surface_light light =
-        sdfgi_lighting(in_position, s.normal, to_eye, perceptual_roughness(s));
+    const sdfgi_surface_light light = sdfgi_lighting(in_position, s.normal, to_eye, perceptual_roughness(s));
     irradiance = light.irradiance;
     reflection = light.reflection * s.specular * brdf_specular_albedo(s);
 #elif defined(HOST_GI)

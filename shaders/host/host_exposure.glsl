@@ -7,12 +7,17 @@ layout(set = 0, binding = 1, std430) buffer host_exposure_block
 {
     float auto_exposure;
 };
-layout(push_constant) uniform host_tone_block
-{
+struct host_tone {
     float exposure; /* 0: automatic; below 0: colours are shown as they are */
     int supersample;
     int first_column; /* of the picture that is filled */
 };
+/* The only ones, as lib/on_cpu.glsl asks. */
+layout(push_constant) uniform host_tone_block
+{
+    host_tone tones[1];
+};
+#define tone tones[SDFGI_ZERO]
 
 float luminance(vec3 rgb)
 {

@@ -2,10 +2,13 @@
  * What all draws of a frame share. */
 #include "host/host_shared.h"
 
+/* The only one, as lib/on_cpu.glsl asks. */
 layout(set = HOST_SET_FRAME, binding = 0, std140) uniform host_frame_block
 {
-    host_frame_data frame;
+    host_frame_data frames[1];
 };
+#define frame frames[SDFGI_ZERO]
+
 layout(set = HOST_SET_FRAME, binding = 1, std430) readonly buffer host_light_block
 {
     host_light_data lights[];

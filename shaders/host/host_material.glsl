@@ -2,10 +2,13 @@
  * A material's textures and factors. */
 #include "host/host_shared.h"
 
+/* The only one, as lib/on_cpu.glsl asks. */
 layout(set = HOST_SET_MATERIAL, binding = 0, std140) uniform host_material_block
 {
-    host_material_data material;
+    host_material_data materials[1];
 };
+#define material materials[SDFGI_ZERO]
+
 layout(set = HOST_SET_MATERIAL, binding = 1) uniform sampler2D base_map;
 layout(set = HOST_SET_MATERIAL, binding = 2) uniform sampler2D surface_map;
 layout(set = HOST_SET_MATERIAL, binding = 3) uniform sampler2D normal_map;

@@ -3,12 +3,15 @@
  */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_NEVER (gl_FragCoord.z > 2.0)
+#include "lib/on_cpu.glsl"
 #include "host/host_material.glsl"
 
 layout(push_constant) uniform host_push_block
 {
-    host_push push;
+    host_push pushes[1];
 };
+#define push pushes[SDFGI_ZERO]
 
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;

@@ -2,6 +2,7 @@
  * The library's diffuse light at one point of the world, outside any picture. Dispatched as 1 thread. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/on_cpu.glsl"
 #include "host/host_shared.h"
 #define SDFGI_SET 1
 #include "sdfgi.glsl"
@@ -15,8 +16,9 @@ layout(set = 0, binding = 0, std430) writeonly buffer result_block
 
 layout(push_constant) uniform push_block
 {
-    host_sample_push push;
+    host_sample_push pushes[1];
 };
+#define push pushes[SDFGI_ZERO]
 
 void main()
 {

@@ -2,6 +2,8 @@
  * Holes of masked and blended materials in shadow maps. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_NEVER (gl_FragCoord.z > 2.0)
+#include "lib/on_cpu.glsl"
 #include "host/host_material.glsl"
 
 layout(location = 3) in vec4 in_uv;

@@ -2,6 +2,8 @@
  * Background where no surface was drawn. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_NEVER (gl_FragCoord.z > 2.0)
+#include "lib/on_cpu.glsl"
 #include "host/host_frame.glsl"
 #ifdef HOST_FOG
 #include "host/host_fog.glsl"

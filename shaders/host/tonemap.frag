@@ -3,6 +3,8 @@
  * against bright light stay smooth. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_NEVER (gl_FragCoord.z > 2.0)
+#include "lib/on_cpu.glsl"
 #include "host/host_exposure.glsl"
 
 layout(location = 0) out vec4 out_srgb;
@@ -31,14 +33,14 @@ vec3 srgb_encode(vec3 linear)
 
 void main()
 {
-    const float factor = exposure > 0.0 ? exposure : auto_exposure;
-    const ivec2 base = (ivec2(gl_FragCoord.xy) - ivec2(first_column, 0)) * supersample;
+    const float factor = tone.exposure > 0.0 ? tone.exposure : auto_exposure;
+    const ivec2 base = (ivec2(gl_FragCoord.xy) - ivec2(tone.first_column, 0)) * tone.supersample;
     vec3 sum = vec3(0.0);
-    for (int y = 0; y < supersample; y++) {
-        for (int x = 0; x < supersample; x++) {
+    for (int y = 0; y < tone.supersample; y++) {
+        for (int x = 0; x < tone.supersample; x++) {
             const vec3 rgb = max(texelFetch(hdr, base + ivec2(x, y), 0).rgb, 0.0);
-            sum += exposure < 0.0 ? min(rgb, 1.0) : tone_curve(rgb * factor);
+            sum += tone.exposure < 0.0 ? min(rgb, 1.0) : tone_curve(rgb * factor);
         }
     }
-    out_srgb = vec4(srgb_encode(sum / float(supersample * supersample)), 1.0);
+    out_srgb = vec4(srgb_encode(sum / float(tone.supersample * tone.supersample)), 1.0);
 }

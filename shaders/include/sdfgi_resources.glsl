@@ -54,11 +54,18 @@
 #define SDFGI_ACCESS_EMISSION readonly
 #endif
 
-/* All members are vec4-sized: std140 lays them out as C does. */
+/* All members are vec4-sized: std140 lays them out as C does. With SDFGI_ZERO, an expression that is 0, they
+ * are read by an index: see lib/on_cpu.glsl. */
 layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_frame_buffer
 {
+#ifdef SDFGI_ZERO
+    sdfgi_frame_params sdfgi_frames[1];
+};
+#define sdfgi_frame sdfgi_frames[SDFGI_ZERO]
+#else
     sdfgi_frame_params sdfgi_frame;
 };
+#endif
 
 /* Occupancy bits: 64 per cell, bit x + 4 y + 16 z per sub-voxel; .x holds z = 0, 1 and .y holds z = 2, 3. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_BITS) SDFGI_ACCESS_BITS buffer sdfgi_bits_buffer

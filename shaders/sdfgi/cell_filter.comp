@@ -6,15 +6,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_SURFACES
+#include "../lib/on_cpu.glsl"
 #include "gathered.glsl"
 #include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cell_gather_args args;
-};
+SDFGI_PUSH(sdfgi_cell_gather_args);
 
 /* Relative differences of this size are noise after one visit. The noise of n visits is smaller by the root
  * of n. */

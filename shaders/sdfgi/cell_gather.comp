@@ -13,6 +13,7 @@
  * that sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "emitters.glsl"
 #include "gathered.glsl"
 #include "seen.glsl"
@@ -22,10 +23,7 @@
 #include "../lib/irradiance_pack.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cell_gather_args args;
-};
+SDFGI_PUSH(sdfgi_cell_gather_args);
 
 const uint CELLS = uint(SDFGI_VISIT_CELLS), RAYS = uint(SDFGI_VISIT_RAYS), THREADS = 64u;
 const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMITTER_RAYS;

@@ -5,16 +5,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
+#include "../lib/on_cpu.glsl"
 #include "light_blocks.glsl"
 #include "visibility.glsl"
 #include "workgroup.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer
 {
     uint sdfgi_indirect[];

@@ -3,6 +3,7 @@
  * through the cascades, and the view colours what it meets. sdfgi/debug.h says what the colours mean. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "debug_colors.glsl"
 #include "debug_probes.glsl"
 #include "dirty.glsl"
@@ -13,10 +14,7 @@
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
 
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_debug_view_args args;
-};
+SDFGI_PUSH(sdfgi_debug_view_args);
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DIFFUSE,
        rgba16f) uniform writeonly image2D output_image;
 

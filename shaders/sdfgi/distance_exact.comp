@@ -12,12 +12,10 @@
 /* Little shared memory, so that many workgroups run at once. The layers of a village take one batch. */
 const uint BATCH = 260u;
 
+#include "../lib/on_cpu.glsl"
 #include "lines.glsl"
 
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_distance_search_args args;
-};
+SDFGI_PUSH(sdfgi_distance_search_args);
 
 const uint PAIRS = LINES / 2u;
 const uint PER_THREAD = (BATCH * PAIRS - 1u) / SDFGI_GROUP_LINES + 1u;

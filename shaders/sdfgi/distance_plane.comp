@@ -13,12 +13,10 @@
 /* 12.3 KiB of shared memory, of the 16 that every device has. A layer of a village takes one batch. */
 const uint BATCH = 324u;
 
+#include "../lib/on_cpu.glsl"
 #include "lines.glsl"
 
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_distance_search_args args;
-};
+SDFGI_PUSH(sdfgi_distance_search_args);
 
 /* For the ranks of a batch. Costs are below 2 / 8 (8 N)^2, so 20 bits where N is 256. */
 const uint RANK_BITS = 9u;

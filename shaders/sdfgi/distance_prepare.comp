@@ -5,14 +5,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "../lib/on_cpu.glsl"
 #include "dirty_bounds.glsl"
 #include "occupancy.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINES) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_distance_prepare_args args;
-};
+SDFGI_PUSH(sdfgi_distance_prepare_args);
 
 /* ---- Runs and layers: one workgroup per y of cells and CELLS_Z cells along z, one run per thread. A run has
  * 16 rows: four layers of four positions along z each. */

@@ -9,15 +9,13 @@
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_EMISSION
 #define SDFGI_WRITES_EMITTERS
+#include "../lib/on_cpu.glsl"
 #include "block_slices.glsl"
 #include "emitters.glsl"
 #include "../lib/random.glsl"
 
 layout(local_size_x = SDFGI_GROUP_EMITTERS) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 
 const uint DIGITS = 256u, MOST = uint(SDFGI_MAX_EMITTERS), THREADS = uint(SDFGI_GROUP_EMITTERS);
 

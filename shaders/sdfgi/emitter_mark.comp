@@ -4,14 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_EMISSION
+#include "../lib/on_cpu.glsl"
 #include "emitters.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 
 bool is_to_be_listed(uint block)
 {

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_DISTANCE
+#include "../lib/on_cpu.glsl"
 #include "flood.glsl"
 
 uint encode_distance(ivec3 cell)

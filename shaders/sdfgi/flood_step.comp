@@ -3,6 +3,7 @@
  * thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "flood.glsl"
 
 /* Pointer of a neighbour; none outside the cascade. */

@@ -2,6 +2,7 @@
  * Indirect diffuse irradiance of a whole picture, from its depths and normals. A thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "picture_gather.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;

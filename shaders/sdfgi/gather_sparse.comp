@@ -13,6 +13,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "../lib/on_cpu.glsl"
 #include "picture_gather.glsl"
 
 layout(local_size_x = SDFGI_SAMPLES_X, local_size_y = SDFGI_SAMPLES_Y) in;

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACES
+#include "../lib/on_cpu.glsl"
 #include "light_blocks.glsl"
 #include "gathered.glsl"
 #include "seen.glsl"
@@ -14,10 +15,7 @@
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_light_bounce_args args;
-};
+SDFGI_PUSH(sdfgi_light_bounce_args);
 
 /* Albedo times feedback, capped below 1 so that light in a closed white room stays finite. */
 vec3 bounce_gain(vec3 albedo)

@@ -8,15 +8,13 @@
  * that sums do not depend on which thread traces which ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "light_blocks.glsl"
 #include "workgroup.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_SURFACES) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_light_direct_args args;
-};
+SDFGI_PUSH(sdfgi_light_direct_args);
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_lights_buffer
 {
     sdfgi_light_params sdfgi_lights[];

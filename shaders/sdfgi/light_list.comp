@@ -11,15 +11,13 @@
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_LIGHT_BLOCKS
 #define SDFGI_WRITES_SURFACES
+#include "../lib/on_cpu.glsl"
 #include "gathered.glsl"
 #include "light_blocks.glsl"
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer
 {
     uint sdfgi_indirect[];

@@ -9,6 +9,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
+#include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "light_blocks.glsl"
 #include "gathered.glsl"
@@ -16,10 +17,7 @@
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_light_mark_args args;
-};
+SDFGI_PUSH(sdfgi_light_mark_args);
 
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer
 {

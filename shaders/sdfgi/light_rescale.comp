@@ -7,15 +7,13 @@
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACES
 #define SDFGI_WRITES_IRRADIANCE
+#include "../lib/on_cpu.glsl"
 #include "gathered.glsl"
 #include "probe_store.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_light_rescale_args args;
-};
+SDFGI_PUSH(sdfgi_light_rescale_args);
 
 uint rescale_rgbe(uint packed)
 {

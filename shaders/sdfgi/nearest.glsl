@@ -6,10 +6,7 @@
 
 #include "pass.glsl"
 
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_flood_args args;
-};
+SDFGI_PUSH(sdfgi_flood_args);
 
 const uint NEAREST_NONE = 0xffffffffu;
 const uint NEAREST_CELL_MASK = 0x3fcff3fcu; /* clears the two low bits of each coordinate */

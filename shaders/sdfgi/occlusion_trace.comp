@@ -6,16 +6,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_OCCLUSION
+#include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "probe_common.glsl"
 #include "visibility.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_OCCLUSION) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);

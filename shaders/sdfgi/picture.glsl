@@ -4,15 +4,13 @@
 #define SDFGI_PICTURE_GLSL
 
 #include "../shared/args.h"
+#include "push.glsl"
 #include "../shared/bindings.h"
 
 /* The largest half float. Brighter light would be stored as infinity. */
 #define PICTURE_BRIGHTEST 65504.0
 
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_gather_args args;
-};
+SDFGI_PUSH(sdfgi_gather_args);
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DEPTH) uniform sampler2D depth_image;
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_NORMAL) uniform sampler2D normal_image;
 

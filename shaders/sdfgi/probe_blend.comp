@@ -38,15 +38,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
+#include "../lib/on_cpu.glsl"
 #include "probe_store.glsl"
 #include "../lib/rgbe.glsl"
 #include "../lib/light_pack.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_probe_blend_args args;
-};
+SDFGI_PUSH(sdfgi_probe_blend_args);
 
 /* A cycle is complete from this fraction of W on: weights are stored as half floats, which are rounded. */
 const float COMPLETE_FRACTION = 0.99;

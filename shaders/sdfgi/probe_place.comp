@@ -9,15 +9,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_PROBES
+#include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "probe_common.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 
 /* Farthest move, in cells: less than half the probe spacing, so that a probe stays the one nearest to its
  * corner. */

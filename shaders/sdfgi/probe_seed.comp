@@ -7,16 +7,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_IRRADIANCE
+#include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
 #include "probe_store.glsl"
 #include "bounce.glsl"
 #include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_cascade_args args;
-};
+SDFGI_PUSH(sdfgi_cascade_args);
 
 shared sdfgi_visibility visible;
 shared uint seen_by; /* a bit per probe of the coarser cage */

@@ -6,6 +6,7 @@
  * per probe and cascade. Shared memory: 128 rays of 32 bytes. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"

@@ -2,6 +2,7 @@
  * Traces the rays that ray_list has listed, and caches where they end. One thread per ray. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"

@@ -5,6 +5,7 @@
  * A ray through a dirty box that is only air ends as before. One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "dirty_bounds.glsl"
 #include "probe_common.glsl"

@@ -5,6 +5,7 @@
  * Illumination Filtering"). Mirrors keep their own ray. A workgroup per listed tile, a thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "../include/sdfgi_reflection.glsl"
 #include "picture_reflect.glsl"
 

@@ -5,6 +5,7 @@
  * A thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "../include/sdfgi_reflection.glsl"
 #include "../lib/random.glsl"
 #include "picture_reflect.glsl"

@@ -4,6 +4,7 @@
  * unlike the pixels of the grid around them. A workgroup per tile, a thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "../include/sdfgi_reflection.glsl"
 #include "picture_reflect.glsl"
 

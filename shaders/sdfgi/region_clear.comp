@@ -8,15 +8,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
+#include "../lib/on_cpu.glsl"
 #include "accumulators.glsl"
 #include "dirty_bounds.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_region_args args;
-};
+SDFGI_PUSH(sdfgi_region_args);
 
 void clear_accumulators(ivec3 cell)
 {

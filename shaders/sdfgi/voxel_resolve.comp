@@ -7,6 +7,7 @@
 #define SDFGI_WRITES_SURFACE
 #define SDFGI_WRITES_EMISSION
 #define SDFGI_WRITES_EMITTERS
+#include "../lib/on_cpu.glsl"
 #include "accumulators.glsl"
 #include "block_slices.glsl"
 #include "dirty_bounds.glsl"
@@ -15,10 +16,7 @@
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_region_args args;
-};
+SDFGI_PUSH(sdfgi_region_args);
 
 uint accumulated(uint plane, uint block)
 {

@@ -5,6 +5,7 @@
  * because neighbours lie in the box together and would give one workgroup most of the work. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../lib/on_cpu.glsl"
 #include "voxelize_common.glsl"
 
 layout(local_size_x = SDFGI_GROUP_TRIANGLE) in;

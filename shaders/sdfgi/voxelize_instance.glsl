@@ -6,10 +6,7 @@
 #include "pass.glsl"
 #include "../shared/instances.h"
 
-layout(push_constant) uniform sdfgi_push
-{
-    sdfgi_voxelize_args args;
-};
+SDFGI_PUSH(sdfgi_voxelize_args);
 
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INSTANCES) readonly buffer sdfgi_instances_buffer
 {

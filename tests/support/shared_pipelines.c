@@ -76,7 +76,6 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
                                                      const VkAllocationCallbacks *callbacks, VkPipeline *out)
 {
     REQUIRE_CMP(count, ==, 1u);
-    REQUIRE_TRUE(infos->stage.pSpecializationInfo == NULL);
     struct shader *shader = shader_of_module(device, infos->stage.module);
     VkResult result = VK_SUCCESS;
     if (!shader->pipeline)
