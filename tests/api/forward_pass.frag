@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_SET 0
+#define SDFGI_ZERO uint(gl_FragCoord.z > 2.0) /* see lib/on_cpu.glsl */
 #include "sdfgi_reflection.glsl"
 
 layout(location = 0) out vec4 color;

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_SET 0
+#define SDFGI_ZERO uint(gl_NumWorkGroups.x == 0u) /* see lib/on_cpu.glsl */
 #include "sdfgi_reflection.glsl"
 
 layout(local_size_x = 64) in;
