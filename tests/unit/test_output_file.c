@@ -123,6 +123,22 @@ static void what_is_being_written_can_be_abandoned(void **state)
     assert_text("a.txt", "text");
 }
 
+/* A folder of the name has appeared meanwhile. */
+static void what_cannot_have_its_name_is_an_error_and_leaves_nothing(void **state)
+{
+    (void)state;
+    char path[256];
+    struct output_file file;
+    snprintf(path, sizeof path, "%s", files_path("a.txt"));
+    assert_true(output_file_begin(&file, path, error, sizeof error));
+    fputs("text", file.stream);
+    assert_int_equal(mkdir(path, 0700), 0);
+    assert_false(output_file_commit(&file, error, sizeof error));
+    assert_non_null(strstr(error, path));
+    assert_int_equal(rmdir(path), 0);
+    assert_int_equal(files_count(), 0);
+}
+
 /* Writes, and is sent signals meanwhile, the first of which may ask for an end alone. */
 static void write_under_signals(const char *path, bool keep)
 {
@@ -195,6 +211,7 @@ int main(void)
         cmocka_unit_test(outputs_have_the_permissions_that_the_user_gives_files),
         cmocka_unit_test(what_killed_runs_left_is_removed),
         cmocka_unit_test(what_is_being_written_can_be_abandoned),
+        cmocka_unit_test(what_cannot_have_its_name_is_an_error_and_leaves_nothing),
         cmocka_unit_test(signals_that_end_a_program_remove_what_it_writes),
         cmocka_unit_test(two_names_of_one_file_are_refused),
     };
