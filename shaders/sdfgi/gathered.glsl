@@ -71,8 +71,8 @@ void gathered_store_state(uint cascade, uint entry, gathered_state state)
         state.visits | state.mean << 8u | state.epoch << 10u | state.mark << 18u;
 }
 
-/* ---- Marks: logarithms of light in MARK_STEPS parts of an octave. Eight octaves go round in a circle: marks
- * tell small changes, of light of any brightness. */
+/* ---- Marks: logarithms of light in MARK_STEPS parts of an octave, modulo eight octaves. They tell small
+ * changes of light of any brightness. */
 
 const int MARK_BITS = 14, MARK_STEPS = 1 << MARK_BITS - 3;
 
@@ -80,13 +80,6 @@ uint gathered_mark(float light)
 {
     const float octaves = clamp(log2(max(light + sdfgi_frame.dark, 1e-30)), -100.0, 128.0);
     return uint(int(round(octaves * float(MARK_STEPS)))) & (1u << MARK_BITS) - 1u;
-}
-
-/* The mark of light that is `factor`, a power of two, times as bright. */
-uint gathered_mark_times(uint mark, float factor)
-{
-    const int octaves = int(round(log2(factor)));
-    return mark + uint(octaves * MARK_STEPS) & (1u << MARK_BITS) - 1u;
 }
 
 /* Relative change from one mark to another, at most 1. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Multiplies all stored light by a factor: the exposure that light is stored with has changed. A power of two
- * changes no mantissa, unless light becomes so dim or so bright that its format ends. A thread for each texel
- * of the irradiance atlas and their sums, for each light cell, and for each axis of one. */
+ * changes no mantissa, unless light becomes so dim or so bright that its format ends. Marks of light stay:
+ * light counts as settled a span later. A thread for each texel of the irradiance atlas and their sums, for
+ * each light cell, and for each axis of one. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -41,9 +42,6 @@ void rescale_gathered(uint cascade, uint entry)
         const uint raw = gathered_word(cascade, GATHERED_RAW + axis, entry);
         sdfgi_gathered[raw] = rescale_surface(sdfgi_gathered[raw]);
     }
-    gathered_state state = gathered_load_state(cascade, entry);
-    state.mark = gathered_mark_times(state.mark, args.factor);
-    gathered_store_state(cascade, entry, state);
 }
 
 void rescale_cell(uint i)
@@ -71,11 +69,6 @@ void rescale_texel(uint i)
     probe_store_previous(slot, texel, previous.rgb, previous.a);
     const uint sum = probe_sums(slot) + texel;
     sdfgi_sums[sum] = vec4(sdfgi_sums[sum].rgb * args.factor, sdfgi_sums[sum].a);
-    if (texel == 0u) {
-        probe_history history = probe_history_load(slot);
-        history.mark *= args.factor;
-        probe_history_store(slot, history);
-    }
 }
 
 void main()

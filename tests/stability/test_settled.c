@@ -82,7 +82,7 @@ static void add_room(struct gi_test *t, const struct room *room)
     light_set_uniform_sky(t, 10);
 }
 
-static double settle(struct gi_test *t, const struct room *room, bool cells)
+static void start(struct gi_test *t, const struct room *room, bool cells)
 {
     struct sdfgi_settings s = light_settings(32, 0.2f);
     s.surface_light = cells ? SDFGI_SURFACE_LIGHT_CELLS : SDFGI_SURFACE_LIGHT_PROBES;
@@ -96,6 +96,11 @@ static double settle(struct gi_test *t, const struct room *room, bool cells)
         light_create(t, &sun);
     if (room->lamp > 0)
         light_create(t, &lamp);
+}
+
+static double settle(struct gi_test *t, const struct room *room, bool cells)
+{
+    start(t, room, cells);
     const uint32_t frames = gi_test_converge(t, 3000);
     const uint64_t count = cycles(t);
     const double change = further_change(t);
@@ -123,11 +128,36 @@ static void cells_have_settled(void **state)
     rooms_settle(*state, true);
 }
 
+/* ---- Marks */
+
+static const struct room filling = { .name = "furnace of 0.95", .albedo = 0.95f, .emission = 1 };
+
+static float pace(const struct gi_test *t, bool cells)
+{
+    const struct volume_state *state = &t->gi->volume.state;
+    return cells ? state->gathering.at[0].convergence.pace : state->accumulation.convergence.pace;
+}
+
+/* When the first span has ended, a furnace still fills by more than 1 % in each cycle. */
+static void marks_tell_that_light_fills(void **state)
+{
+    struct gi_test *t = *state;
+    for (int cells = 0; cells < 2; cells++) {
+        start(t, &filling, cells);
+        for (int frame = 0; frame < 200 && !isfinite(pace(t, cells)); frame++)
+            gi_test_update(t, 1);
+        printf("%s: light fills by %.4f a cycle\n", cells ? "cells" : "probes", (double)pace(t, cells));
+        REQUIRE_CMP(pace(t, cells), >=, 0.01f);
+        REQUIRE_CMP(pace(t, cells), <=, 0.25f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probes_have_settled),
         cmocka_unit_test(cells_have_settled),
+        cmocka_unit_test(marks_tell_that_light_fills),
     };
     return cmocka_run_group_tests(tests, light_open, light_close);
 }
