@@ -18,13 +18,19 @@
 
 static char error[300];
 
+/* Begins an output, whose path is copied: `files_path` has one for all. */
+static void begin(struct output_file *file, char path[static 256], const char *name)
+{
+    snprintf(path, 256, "%s", files_path(name));
+    if (!output_file_begin(file, path, error, sizeof error))
+        fail_msg("%s", error);
+}
+
 static void write_output(const char *name, const char *text)
 {
     char path[256];
     struct output_file file;
-    snprintf(path, sizeof path, "%s", files_path(name));
-    if (!output_file_begin(&file, path, error, sizeof error))
-        fail_msg("%s", error);
+    begin(&file, path, name);
     fputs(text, file.stream);
     assert_true(output_file_commit(&file, error, sizeof error));
 }
@@ -60,9 +66,8 @@ static void temporary_names_cannot_be_foretold(void **state)
     (void)state;
     char path[256];
     struct output_file a, b;
-    snprintf(path, sizeof path, "%s", files_path("a.txt"));
-    assert_true(output_file_begin(&a, path, error, sizeof error));
-    assert_true(output_file_begin(&b, path, error, sizeof error));
+    begin(&a, path, "a.txt");
+    begin(&b, path, "a.txt");
     assert_string_not_equal(a.temporary_path, b.temporary_path);
     output_file_cancel(&a);
     output_file_cancel(&b);
@@ -112,8 +117,7 @@ static void what_is_being_written_can_be_abandoned(void **state)
     (void)state;
     char path[256];
     struct output_file file;
-    snprintf(path, sizeof path, "%s", files_path("a.txt"));
-    assert_true(output_file_begin(&file, path, error, sizeof error));
+    begin(&file, path, "a.txt");
     assert_int_equal(files_count(), 1);
     output_file_abandon();
     assert_int_equal(files_count(), 0);
@@ -129,8 +133,7 @@ static void what_cannot_have_its_name_is_an_error_and_leaves_nothing(void **stat
     (void)state;
     char path[256];
     struct output_file file;
-    snprintf(path, sizeof path, "%s", files_path("a.txt"));
-    assert_true(output_file_begin(&file, path, error, sizeof error));
+    begin(&file, path, "a.txt");
     fputs("text", file.stream);
     assert_int_equal(mkdir(path, 0700), 0);
     assert_false(output_file_commit(&file, error, sizeof error));
