@@ -54,8 +54,8 @@
 #define SDFGI_ACCESS_EMISSION readonly
 #endif
 
-/* All members are vec4-sized: std140 lays them out as C does. With SDFGI_ZERO, an expression that is 0, they
- * are read by an index: see lib/on_cpu.glsl. */
+/* All members are vec4-sized: std140 lays them out as C does. A host may define
+ * SDFGI_ZERO, an expression that is 0, for software drivers (docs/integration.md, "What it costs"). */
 layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_frame_buffer
 {
 #ifdef SDFGI_ZERO

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * Why uniforms are elements of arrays on a CPU. lavapipe looks for conditions that hang on uniforms alone. It
- * copies and compiles a shader that has any for their values, in every dispatch: a gather of 16x16 pixels
- * took 21 ms. It does not look at elements whose index it cannot know. Devices with processors of their own
- * know the index: the specialization constant is 0 there, and 1 on a CPU. */
+ * Why uniforms are elements of arrays with one element. lavapipe looks for conditions that depend on uniforms
+ * alone. If a shader has any, lavapipe copies it, puts the values in and compiles the copy, in every
+ * dispatch: a gather of 16x16 pixels took 21 ms. It leaves elements alone whose index it does not know. On
+ * GPUs the specialization constant is 0, so that compilers do know it; on a CPU it is 1. */
 #ifndef SDFGI_ON_CPU_GLSL
 #define SDFGI_ON_CPU_GLSL
 
 layout(constant_id = 0) const uint on_cpu = 0u;
 
-/* What never holds. Shaders of draws define it before they include this. */
+/* A condition that never holds. Shaders of draws define it before they include this. */
 #ifndef SDFGI_NEVER
 #define SDFGI_NEVER (gl_NumWorkGroups.x == 0u)
 #endif

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The largest relative change of a probe texel over a cycle where light may have converged; by a little more
- * than it, because what is stored is rounded by as much. */
+/* Light may have converged if no probe texel changes by more than this over a cycle, relative to its light.
+ * It is a little more than 1/1024, because stored light is rounded by that much. */
 #define ACCUMULATION_CONVERGED_CHANGE (1.01f / 1024.0f)
 
 enum lighting_phase {
