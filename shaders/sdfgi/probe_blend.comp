@@ -43,7 +43,7 @@
 #include "../lib/rgbe.glsl"
 #include "../lib/light_pack.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = SDFGI_GROUP_PROBE) in;
 SDFGI_PUSH(sdfgi_probe_blend_args);
 
 /* A cycle is complete from this fraction of W on: weights are stored as half floats, which are rounded. */

@@ -13,7 +13,7 @@
 #include "bounce.glsl"
 #include "../include/sdfgi_trace.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = SDFGI_GROUP_PROBE) in;
 SDFGI_PUSH(sdfgi_cascade_args);
 
 shared sdfgi_visibility visible;
