@@ -71,6 +71,7 @@ struct sdfgi_trace_query {
     vec3 dir;           /* metric, of length 1 */
     float range;        /* in cell widths of the first cascade */
     float longest_step; /* cells that one step of the distance field may cross at most */
+    bool skips_empty;   /* the ray goes straight to the box around all geometry */
 };
 
 /* The state of a ray during the march. */
@@ -83,7 +84,7 @@ struct sdfgi_trace_state {
     sdfgi_trace_volume volume;
     vec3 origin;    /* where the ray entered this cascade, in cells from `base`: t = 0 */
     float border;   /* parameter at which it leaves the valid region */
-    bool at_border; /* a step of the distance field has reached that */
+    bool at_border; /* a step of the distance field has reached that, or nothing is left before it */
     float t;
     ivec3 cell; /* that holds the ray at t */
     int axis;   /* along which the ray entered the cell or the sub-voxel, if it walked there */
@@ -105,6 +106,33 @@ void sdfgi_trace_enter_cascade(uint cascade, ivec3 base, vec3 origin, inout sdfg
                ivec3(equal(origin, vec3(ray.volume.valid_high))) * ivec3(lessThan(ray.dir, vec3(0.0)));
 }
 
+/* Distances do not include what lies beyond the cascade, so no step leads further than the border. */
+void sdfgi_trace_leap(float step_length, inout sdfgi_trace_state ray)
+{
+    ray.t = min(ray.t + step_length, ray.border);
+    ray.at_border = ray.t >= ray.border;
+    ray.cell = ivec3(floor(ray.origin + ray.dir * ray.t));
+}
+
+/* Goes on to the box around all geometry. A ray leaves the cascade where it leaves that box, or at once if
+ * the box lies beyond the cascade: in coarser ones it goes on from there. A ray that does not meet the box
+ * meets nothing in any cascade. */
+void sdfgi_trace_skip_empty(uint last_cascade, inout sdfgi_trace_state ray)
+{
+    const bvec3 forward = greaterThan(ray.inv_dir, vec3(0.0));
+    const vec3 low = vec3(sdfgi_frame.cascades[ray.cascade].content_low - ray.base),
+               high = vec3(sdfgi_frame.cascades[ray.cascade].content_high - ray.base);
+    const vec3 near = (mix(high, low, forward) - ray.origin) * ray.inv_dir,
+               far = (mix(low, high, forward) - ray.origin) * ray.inv_dir;
+    const float enters = max(near.x, max(near.y, near.z)), leaves = min(far.x, min(far.y, far.z));
+    if (leaves <= max(enters, 0.0))
+        ray.cascade = last_cascade;
+    ray.border = min(ray.border, leaves);
+    ray.at_border = enters >= ray.border || leaves <= 0.0;
+    if (enters > 0.0 && !ray.at_border)
+        sdfgi_trace_leap(enters, ray);
+}
+
 sdfgi_trace_state sdfgi_trace_start(sdfgi_trace_query query)
 {
     sdfgi_trace_state ray;
@@ -116,16 +144,20 @@ sdfgi_trace_state sdfgi_trace_start(sdfgi_trace_query query)
     ray.axis = 0;
     ray.steps = 0u;
     sdfgi_trace_enter_cascade(query.cascade, query.base, query.pos, ray);
+    if (query.skips_empty)
+        sdfgi_trace_skip_empty(query.last_cascade, ray);
     return ray;
 }
 
-void sdfgi_trace_enter_coarser(inout sdfgi_trace_state ray)
+void sdfgi_trace_enter_coarser(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
     ray.travelled += ray.t * ray.scale;
     ray.scale *= 2.0;
     const vec3 first = sdfgi_first_from_cascade(ray.cascade, ray.origin + ray.dir * ray.t + vec3(ray.base));
     sdfgi_trace_enter_cascade(ray.cascade + 1u, ivec3(0), sdfgi_cascade_from_first(ray.cascade + 1u, first),
                               ray);
+    if (query.skips_empty)
+        sdfgi_trace_skip_empty(query.last_cascade, ray);
 }
 
 /* How far a ray may go on, whatever its direction, before it can meet a sub-voxel: `distance` is stored for
@@ -134,14 +166,6 @@ float sdfgi_trace_free_length(sdfgi_trace_state ray, float distance)
 {
     const vec3 here = ray.origin + ray.dir * ray.t;
     return distance - length(sdfgi_metric_from_cells(here - vec3(ray.cell) - 0.5)) - SDFGI_TRACE_MARGIN;
-}
-
-/* Distances do not include what lies beyond the cascade, so no step leads further than the border. */
-void sdfgi_trace_leap(float step_length, inout sdfgi_trace_state ray)
-{
-    ray.t = min(ray.t + step_length, ray.border);
-    ray.at_border = ray.t >= ray.border;
-    ray.cell = ivec3(floor(ray.origin + ray.dir * ray.t));
 }
 
 /* Walks through a cell, which is stored at `index`. Returns true at a set sub-voxel; otherwise the ray stands
@@ -182,7 +206,7 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
         if (ray.at_border || !sdfgi_trace_is_valid(ray.volume, ray.cell)) {
             if (ray.cascade >= query.last_cascade)
                 return SDFGI_TRACE_MISS;
-            sdfgi_trace_enter_coarser(ray);
+            sdfgi_trace_enter_coarser(query, ray);
             continue;
         }
         const uint index = sdfgi_trace_cell_index(ray.volume, ray.cell);
@@ -304,7 +328,8 @@ bool sdfgi_trace_light_cell(uint cascade, sdfgi_trace_path path, int first_axis,
 /* What is hit, and where. `pos` is in the cell space of `cascade`; `range` in its cell widths. */
 sdfgi_trace_hit sdfgi_trace_solid(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
 {
-    const sdfgi_trace_query query = sdfgi_trace_query(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9);
+    const sdfgi_trace_query query =
+        sdfgi_trace_query(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, false);
     sdfgi_trace_state ray = sdfgi_trace_start(query);
     const uint end = sdfgi_trace_march(query, ray);
     return sdfgi_trace_result(query, ray, end);
@@ -313,7 +338,8 @@ sdfgi_trace_hit sdfgi_trace_solid(uint cascade, uint last_cascade, vec3 pos, vec
 /* The same, with the light cell of the hit. */
 sdfgi_trace_hit sdfgi_trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
 {
-    const sdfgi_trace_query query = sdfgi_trace_query(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9);
+    const sdfgi_trace_query query =
+        sdfgi_trace_query(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, true);
     sdfgi_trace_state ray = sdfgi_trace_start(query);
     const uint end = sdfgi_trace_march(query, ray);
     sdfgi_trace_hit result = sdfgi_trace_result(query, ray, end);
@@ -336,7 +362,7 @@ sdfgi_trace_hit sdfgi_trace_ray(uint cascade, uint last_cascade, vec3 pos, vec3 
 sdfgi_trace_hit sdfgi_trace_stable(uint cascade, ivec3 base, vec3 pos, vec3 dir, float range)
 {
     const sdfgi_trace_query query =
-        sdfgi_trace_query(cascade, cascade, base, pos, dir, range, SDFGI_TRACE_STABLE_STEP);
+        sdfgi_trace_query(cascade, cascade, base, pos, dir, range, SDFGI_TRACE_STABLE_STEP, false);
     sdfgi_trace_state ray = sdfgi_trace_start(query);
     const uint end = sdfgi_trace_march(query, ray);
     return sdfgi_trace_result(query, ray, end);

@@ -74,7 +74,7 @@ struct surface_hit {
 surface_hit trace_surface(vec3 first, vec3 dir, float range)
 {
     const sdfgi_trace_query query =
-        sdfgi_trace_query(0u, sdfgi_frame.cascade_count - 1u, ivec3(0), first, dir, range, 1e9);
+        sdfgi_trace_query(0u, sdfgi_frame.cascade_count - 1u, ivec3(0), first, dir, range, 1e9, false);
     sdfgi_trace_state ray = sdfgi_trace_start(query);
     surface_hit hit;
     hit.end = sdfgi_trace_march(query, ray);

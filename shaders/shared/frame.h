@@ -42,11 +42,17 @@ struct sdfgi_cascade_params {
     int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: this change has no bounds */
     ivec3 kept_high;
     uint padding_6;
+    /* Cells [low, high) around all geometry, within the cascade or not; low > high if there is none. Rays
+     * cross what is beyond them in one step. */
+    ivec3 content_low;
+    uint padding_7;
+    ivec3 content_high;
+    uint padding_8;
     /* Boxes that a change completes in this frame. A scroll names the boxes that left the cascade as well:
      * these lie outside [0, resolution). */
     SDFGI_STRUCT(sdfgi_dirty_box) dirty[SDFGI_MAX_CHANGES];
 };
-SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 176 + 32 * SDFGI_MAX_CHANGES);
+SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 208 + 32 * SDFGI_MAX_CHANGES);
 
 struct sdfgi_frame_params {
     SDFGI_STRUCT(sdfgi_cascade_params) cascades[SDFGI_MAX_CASCADES];
@@ -82,7 +88,7 @@ struct sdfgi_frame_params {
     float rays_end;        /* roughness from which on they are irradiance; above rays_blend */
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(176 + 32 * SDFGI_MAX_CHANGES) + 18 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 18 * 16);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

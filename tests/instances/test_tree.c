@@ -84,9 +84,27 @@ static uint64_t require_search(const struct box *box, uint32_t *found)
     return search.visited;
 }
 
+/* Rounded outwards to floats, and no farther. */
+static void require_bounds(void)
+{
+    struct box all = sdfgi_box_nothing();
+    for (uint32_t i = 0; i < COUNT; i++)
+        if (is_there[i])
+            all = sdfgi_box_around(&all, &bounds[i]);
+    const struct box found = sdfgi_tree_bounds(&tree);
+    for (int i = 0; i < 3; i++) {
+        REQUIRE_TRUE(found.min[i] <= all.min[i] && found.max[i] >= all.max[i]);
+        if (tree.root == TREE_NONE)
+            REQUIRE_TRUE(found.min[i] > found.max[i]);
+        else
+            REQUIRE_TRUE(found.min[i] >= all.min[i] - 1e-5 && found.max[i] <= all.max[i] + 1e-5);
+    }
+}
+
 static void require_searches(uint32_t count)
 {
     uint32_t found;
+    require_bounds();
     for (uint32_t i = 0; i < count; i++) {
         const struct box box = random_box(60, 30);
         require_search(&box, &found);

@@ -38,6 +38,10 @@
     X(sdfgi_cascade_params, bounds_axis)                                                                     \
     X(sdfgi_cascade_params, kept_high)                                                                       \
     X(sdfgi_cascade_params, padding_6)                                                                       \
+    X(sdfgi_cascade_params, content_low)                                                                     \
+    X(sdfgi_cascade_params, padding_7)                                                                       \
+    X(sdfgi_cascade_params, content_high)                                                                    \
+    X(sdfgi_cascade_params, padding_8)                                                                       \
     X(sdfgi_cascade_params, dirty)                                                                           \
     X(sdfgi_frame_params, cascades)                                                                          \
     X(sdfgi_frame_params, sky_zenith)                                                                        \

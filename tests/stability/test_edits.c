@@ -14,8 +14,8 @@ static const struct gi_test_point points[] = {
 };
 enum { POINTS = sizeof points / sizeof *points };
 
-/* A wall on a floor under a sky. */
-static void open_scene(struct gi_test *t, enum sdfgi_surface_light surface_light)
+/* A wall on a floor under a sky. Returns the wall. */
+static sdfgi_instance open_scene(struct gi_test *t, enum sdfgi_surface_light surface_light)
 {
     struct sdfgi_settings settings = light_settings(128, 0.1f);
     settings.max_scroll_cells = 524288; /* an eighth of the voxels and distances */
@@ -26,7 +26,7 @@ static void open_scene(struct gi_test *t, enum sdfgi_surface_light surface_light
     light_set_uniform_sky(t, 1);
     const float albedo[3] = { 0.7f, 0.7f, 0.7f };
     light_add_box(t, (double[]){ -2.5, -1.9, -2.5 }, (double[]){ 2.5, -1.1, 2.5 }, albedo, 0);
-    light_add_box(t, (double[]){ 1.3, -1.3, -2 }, (double[]){ 1.7, 1.3, 2 }, albedo, 0);
+    return light_add_box(t, (double[]){ 1.3, -1.3, -2 }, (double[]){ 1.7, 1.3, 2 }, albedo, 0);
 }
 
 /* Largest change of the points' light while everything is made again and nothing is another. */
@@ -75,11 +75,42 @@ static void edits_that_change_nothing_keep_the_light_of_cells(void **state)
     edit(SDFGI_SURFACE_LIGHT_CELLS);
 }
 
+/* Cells of the first cascade up to the highest geometry, as rays know it. */
+static int32_t content_height(const struct gi_test *t)
+{
+    return t->gi->volume.state.params.cascades[0].content_high.y;
+}
+
+/* Rays pass over what lies beyond all geometry. Voxels of a wall that is gone stay until their edit is
+ * complete, and rays meet them as long. */
+static void rays_reach_what_is_gone_until_its_voxels_are(void **state)
+{
+    static struct gi_test t;
+    static struct sdfgi_report report;
+    (void)state;
+    const sdfgi_instance wall = open_scene(&t, SDFGI_SURFACE_LIGHT_CELLS);
+    gi_test_update(&t, 16);
+    const int32_t before = content_height(&t);
+    REQUIRE_CMP((int)sdfgi_instance_destroy(t.gi, wall), ==, (int)SDFGI_OK);
+    uint32_t frames = 0;
+    do {
+        gi_test_update(&t, 1);
+        REQUIRE_CMP(content_height(&t), ==, before);
+        sdfgi_get_report(t.gi, &report);
+        frames++;
+    } while (report.scroll.pending_cells > 0 && frames < 64);
+    REQUIRE_CMP(frames, >, 1u);
+    gi_test_update(&t, 2);
+    REQUIRE_CMP(content_height(&t), ==, before - 24); /* 2.4 m in cells of 0.1 m */
+    gi_test_close(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_that_change_nothing_keep_the_light),
         cmocka_unit_test(edits_that_change_nothing_keep_the_light_of_cells),
+        cmocka_unit_test(rays_reach_what_is_gone_until_its_voxels_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

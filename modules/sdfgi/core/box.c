@@ -4,6 +4,11 @@
 #include <assert.h>
 #include <math.h>
 
+struct box sdfgi_box_nothing(void)
+{
+    return (struct box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+}
+
 bool sdfgi_box_overlaps(const struct box *a, const struct box *b)
 {
     for (int i = 0; i < 3; i++)

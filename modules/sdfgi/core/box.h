@@ -11,6 +11,8 @@ struct box {
     double min[3], max[3];
 };
 
+/* A box that holds no point. sdfgi_box_around it and another one is the other one. */
+struct box sdfgi_box_nothing(void);
 bool sdfgi_box_overlaps(const struct box *a, const struct box *b);
 struct box sdfgi_box_around(const struct box *a, const struct box *b);
 double sdfgi_box_volume(const struct box *box);

@@ -67,6 +67,7 @@ static void plan_scroll(struct frame *frame, const struct frame_input *input)
         sdfgi_scroll_cut(&next->scroll, &next->cascades);
     sdfgi_scroll_plan(&next->scroll, &next->cascades, &limits, input->desc->camera_position, nothing_shown,
                       &frame->scroll);
+    sdfgi_volume_note_content(input->scene, next);
     if (frame->scroll.begun)
         sdfgi_accumulation_invalidate(&next->accumulation);
     frame->situation.from_nothing = frame->scroll.from_nothing;

@@ -150,7 +150,7 @@ static void replace(struct instance_tree *tree, uint32_t parent, uint32_t old, u
         return;
     }
     tree->root = child;
-    tree->only = *box;
+    tree->whole = *box;
     set_parent(tree, child, TREE_NONE);
 }
 
@@ -204,7 +204,9 @@ static void mend(struct instance_tree *tree, uint32_t node)
         measure(tree, node);
         node = balanced(tree, node);
         const uint32_t parent = tree->nodes[node].parent;
-        if (parent != TREE_NONE)
+        if (parent == TREE_NONE)
+            tree->whole = box_of_node(tree, node);
+        else
             tree->nodes[parent].boxes[side_of(&tree->nodes[parent], node)] = box_of_node(tree, node);
         node = parent;
     }
@@ -229,7 +231,7 @@ static uint32_t sibling_for(const struct instance_tree *tree, const struct tree_
                             struct tree_box *sibling_box)
 {
     uint32_t at = tree->root;
-    *sibling_box = tree->only;
+    *sibling_box = tree->whole;
     while (!is_leaf(at)) {
         const struct tree_node *n = &tree->nodes[at];
         double growth[2];
@@ -279,6 +281,16 @@ void sdfgi_tree_remove(struct instance_tree *tree, uint32_t slot)
     mend(tree, above);
 }
 
+struct box sdfgi_tree_bounds(const struct instance_tree *tree)
+{
+    struct box bounds = sdfgi_box_nothing();
+    for (int i = 0; i < 3 && tree->root != TREE_NONE; i++) {
+        bounds.min[i] = (double)tree->whole.min[i];
+        bounds.max[i] = (double)tree->whole.max[i];
+    }
+    return bounds;
+}
+
 /* ---- Searches */
 
 void sdfgi_tree_search(struct tree_search *search, const struct instance_tree *tree, const struct box *box)
@@ -286,7 +298,7 @@ void sdfgi_tree_search(struct tree_search *search, const struct instance_tree *t
     search->tree = tree;
     search->box = tree_box_of(box);
     search->count = search->visited = 0;
-    if (tree->root != TREE_NONE && (!is_leaf(tree->root) || overlaps(&tree->only, &search->box)))
+    if (tree->root != TREE_NONE && overlaps(&tree->whole, &search->box))
         search->left[search->count++] = tree->root;
 }
 

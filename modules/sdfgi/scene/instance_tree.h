@@ -33,7 +33,7 @@ struct instance_tree {
     uint32_t capacity;       /* slots, and nodes */
     uint32_t root;           /* a child, or TREE_NONE */
     uint32_t used, free;     /* nodes ever used; first free one below, or TREE_NONE */
-    struct tree_box only;    /* box of the root where that is a leaf */
+    struct tree_box whole;   /* box of the root */
 };
 
 void sdfgi_tree_init(struct instance_tree *tree);
@@ -43,6 +43,9 @@ bool sdfgi_tree_reserve(struct instance_tree *tree, const struct hooks *hooks, u
 /* Adds a slot that is not in the tree, for which there is room. */
 void sdfgi_tree_add(struct instance_tree *tree, uint32_t slot, const struct box *bounds);
 void sdfgi_tree_remove(struct instance_tree *tree, uint32_t slot);
+
+/* A box around the bounds of all slots. */
+struct box sdfgi_tree_bounds(const struct instance_tree *tree);
 
 enum { TREE_MOST_HEIGHT = 48 }; /* an AVL tree of 2^31 leaves is lower */
 

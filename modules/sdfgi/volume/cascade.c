@@ -113,6 +113,17 @@ bool sdfgi_cascades_complete(const struct cascades *cascades)
     return false;
 }
 
+bool sdfgi_cascades_are_current(const struct cascades *cascades)
+{
+    for (uint32_t c = 0; c < cascades->count; c++) {
+        const struct cascade *cascade = &cascades->at[c];
+        if (cascade->place != CASCADE_CURRENT || cascade->change.cause != CHANGE_NONE ||
+            cascade->edit_count > 0)
+            return false;
+    }
+    return true;
+}
+
 bool sdfgi_cascades_rest(const struct cascades *cascades)
 {
     for (uint32_t c = 0; c < cascades->count; c++)

@@ -101,6 +101,8 @@ bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const 
 bool sdfgi_cascade_completes(const struct cascade *cascade);
 /* True if a change completes in this frame, of any cascade. */
 bool sdfgi_cascades_complete(const struct cascades *cascades);
+/* True if all cascades hold the scene as it is: nothing is being changed or waits for its turn. */
+bool sdfgi_cascades_are_current(const struct cascades *cascades);
 /* True if no cascade changes or has to catch up with the camera. */
 bool sdfgi_cascades_rest(const struct cascades *cascades);
 

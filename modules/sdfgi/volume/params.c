@@ -40,6 +40,25 @@ static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_para
     }
 }
 
+/* Cells. Farther off than any cascade reaches, and little enough for floats to tell cells apart. */
+#define FARTHEST_CONTENT 1048576.0
+
+/* Widened by a cell, because surfaces lie in the sub-voxels behind them. */
+static void fill_content(const struct cascade *cascade, const struct box *content,
+                         struct sdfgi_cascade_params *p)
+{
+    int32_t low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        const double cell = cascade->cell_size[i], origin = (double)cascade->origin[i];
+        low[i] = (int32_t)fmin(fmax(floor(content->min[i] / cell - origin) - 1, -FARTHEST_CONTENT),
+                               FARTHEST_CONTENT);
+        high[i] = (int32_t)fmin(fmax(ceil(content->max[i] / cell - origin) + 1, -FARTHEST_CONTENT),
+                                FARTHEST_CONTENT);
+    }
+    p->content_low = cell_of(low);
+    p->content_high = cell_of(high);
+}
+
 static struct sdfgi_cascade_params cascade_params(const struct volume_state *state, uint32_t c)
 {
     const struct cascade *cascade = &state->cascades.at[c], *first = &state->cascades.at[0];
@@ -67,6 +86,7 @@ static struct sdfgi_cascade_params cascade_params(const struct volume_state *sta
         .seen_end = state->gathering.at[c].seen_end,
     };
     fill_change(cascade, &p);
+    fill_content(cascade, &state->content, &p);
     return p;
 }
 

@@ -40,6 +40,7 @@ void sdfgi_volume_forget(struct volume *volume, const struct sdfgi_settings *set
     sdfgi_journal_clear(&volume->journal);
     sdfgi_cascades_init(&state->cascades, settings);
     sdfgi_scroll_init(&state->scroll);
+    state->content = sdfgi_box_nothing();
     sdfgi_accumulation_init(&state->accumulation);
     sdfgi_relight_init(&state->relight);
     sdfgi_gathering_init(&state->gathering);
@@ -83,6 +84,17 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
         return;
     sdfgi_accumulation_invalidate(&state->accumulation);
     sdfgi_gathering_outdate(&state->gathering);
+}
+
+void sdfgi_volume_note_content(const struct scene *scene, struct volume_state *state)
+{
+    const struct box now = sdfgi_tree_bounds(&scene->tree);
+    const bool changing = !sdfgi_cascades_are_current(&state->cascades);
+    if (changing)
+        state->content = sdfgi_box_around(&state->content, &now);
+    else if (state->content_shrinks)
+        state->content = now;
+    state->content_shrinks = changing;
 }
 
 bool sdfgi_volume_has_converged(const struct volume *volume)

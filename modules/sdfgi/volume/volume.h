@@ -19,7 +19,9 @@ struct volume_state {
     struct accumulation accumulation;
     struct relight relight;
     struct gathering gathering;
-    double origin[3]; /* world position of (0, 0, 0) in the host's shaders */
+    struct box content;   /* world: around all that the cascades hold */
+    bool content_shrinks; /* once they are complete: some of it may be gone */
+    double origin[3];     /* world position of (0, 0, 0) in the host's shaders */
     struct exposure exposure;
     uint32_t seed;
     uint32_t seed_asked;              /* by the last frame: taken over once two in a row ask for it */
@@ -96,6 +98,9 @@ void sdfgi_volume_invalidate(struct volume *volume);
 /* Applies what changed in the scene since the last frame to a state: boxes become edits, light is
  * invalidated. */
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state);
+/* Notes what changes of cascades that are under way bring in. What they take out stays until all are
+ * complete. What no cascade touches does not count, so that it costs nothing. */
+void sdfgi_volume_note_content(const struct scene *scene, struct volume_state *state);
 /* True if the light has converged and nothing has changed since. */
 bool sdfgi_volume_has_converged(const struct volume *volume);
 /* And nothing that lookups show moves any more. */
