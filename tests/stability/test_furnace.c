@@ -100,7 +100,7 @@ static void hard_33_furnace_of_albedo_nineteen_twentieths(void **state)
 /* Whose product is 2 at most: the rest of the range. */
 static const struct {
     float albedo, feedback;
-} pairs[] = { { 1, 1.99f }, { 0.99f, 1 }, { 1, 1 }, { 1, 0 }, { 0.6f, 1.7f } };
+} pairs[] = { { 1, 1.99f }, { 0.99f, 1 }, { 1, 1.2f }, { 1, 0 }, { 0.6f, 1.7f } };
 enum { PAIRS = sizeof pairs / sizeof pairs[0], TURN = 60 };
 
 struct endless {
@@ -203,6 +203,17 @@ static void hard_34_light_stays_bounded(void **state)
     HARD_CASE_AT_MOST(34, "updates that did nothing", e.idle, 0);
 }
 
+/* An albedo above 1 means nothing. A gain above 1 comes from `bounce_feedback`. */
+static void hard_34_an_albedo_above_1_is_refused(void **state)
+{
+    const struct gi_test *t = *state;
+    struct sdfgi_material_desc desc = { .albedo = { 1, 1, 1 }, .alpha = 1 };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
+    desc.albedo[1] = 1.2f;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);
+}
+
 static void hard_34_gain_below_the_clamp_is_not_reported(void **state)
 {
     start_furnace(*state, 0.9f, 1);
@@ -243,6 +254,7 @@ int main(void)
         cmocka_unit_test(hard_33_furnace_of_albedo_four_fifths),
         cmocka_unit_test(hard_33_furnace_of_albedo_nineteen_twentieths),
         cmocka_unit_test(hard_34_light_stays_bounded),
+        cmocka_unit_test(hard_34_an_albedo_above_1_is_refused),
         cmocka_unit_test(hard_34_gain_below_the_clamp_is_not_reported),
         cmocka_unit_test(hard_37_a_sphere_that_a_lamp_lights),
     };
