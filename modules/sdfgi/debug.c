@@ -72,6 +72,25 @@ static struct problem debug_problem(const struct sdfgi_debug_desc *d)
     return p;
 }
 
+/* True if the picture that the host has drawn answers, not the volumes. */
+static bool shows_drawn(const struct sdfgi_debug_desc *d)
+{
+    return d->view == SDFGI_DEBUG_REFLECTION_TIER && d->depth && d->normal && d->roughness;
+}
+
+static struct work tier_work(const struct sdfgi_debug_desc *d)
+{
+    struct work work = {
+        .pass = PASS_DEBUG_TIER,
+        .indirect = WORK_DIRECT,
+        .units = (uint64_t)d->width * d->height,
+        .args.gather = { .width = d->width, .height = d->height, .background_depth = d->background_depth },
+    };
+    memcpy(work.args.gather.inverse_view_projection, d->inverse_view_projection,
+           sizeof work.args.gather.inverse_view_projection);
+    return work;
+}
+
 static struct work debug_work(const struct sdfgi *gi, const struct sdfgi_debug_desc *d)
 {
     struct work work = {
@@ -101,13 +120,19 @@ enum sdfgi_result sdfgi_debug_draw(sdfgi *gi, VkCommandBuffer cmd, const struct 
         sdfgi_picture_check_size(&problem, &gi->backend.device.limits, desc->width, desc->height);
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_debug_draw");
-    const struct work work = debug_work(gi, desc);
+    const bool drawn = shows_drawn(desc);
+    const struct work work = drawn ? tier_work(desc) : debug_work(gi, desc);
     VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
     struct sdfgi_view *view =
-        result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->debug_views, &result) : NULL;
+        result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, drawn ? &gi->views : &gi->debug_views, &result)
+                             : NULL;
     if (!view)
         return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_debug_draw");
-    sdfgi_view_write_set(&gi->backend, view, view, &(struct view_pictures){ .diffuse = desc->output });
+    struct view_pictures pictures = { .diffuse = desc->output };
+    if (drawn)
+        pictures = (struct view_pictures){ desc->depth, desc->normal, desc->roughness, desc->input_layout,
+                                           desc->output };
+    sdfgi_view_write_set(&gi->backend, view, view, &pictures);
     sdfgi_picture_record(gi, cmd, view, &work);
     return SDFGI_OK;
 }

@@ -112,7 +112,9 @@
     X(DEBUG_VIEW, COMPUTE, debug_view, PIXELS, DEBUG_VIEW, OWN, DEMAND,                                      \
       PIXELS, debug_view, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(LIGHT) | R(PROBES) |           \
       R(IRRADIANCE) | R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(ALBEDO) | R(SUMS) | R(MASKS) |         \
-      R(OCCLUSION) | R(GATHERED), V(DIFFUSE))
+      R(OCCLUSION) | R(GATHERED), V(DIFFUSE))                                                                \
+    X(DEBUG_TIER, COMPUTE, debug_tier, PIXELS, DEBUG_TIER, OWN, DEMAND,                                      \
+      PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, 0, V(DIFFUSE))
 /* clang-format on */
 
 enum pass {

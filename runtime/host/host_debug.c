@@ -45,8 +45,14 @@ static bool eye_record(struct host_renderer *renderer, VkCommandBuffer cmd,
                                      .width = image->width,
                                      .height = image->height,
                                      .view = desc->view,
-                                     .exposure = desc->exposure };
+                                     .exposure = desc->exposure,
+                                     .depth = renderer->targets.depth.view,
+                                     .normal = renderer->targets.normal.view,
+                                     .roughness = renderer->targets.roughness };
     host_camera_fill_inverse(&renderer->camera, draw.inverse_view_projection);
+    /* Eyes share what the prepass draws: it holds what the last one saw. */
+    if (desc->view == SDFGI_DEBUG_REFLECTION_TIER && renderer->eye_count > 1)
+        host_prepass_record(renderer, cmd);
     image_change(image, cmd, false);
     const bool drawn = host_gi_debug(renderer->gi, cmd, &draw);
     image_change(image, cmd, true);

@@ -36,6 +36,8 @@ void host_eye_begin(struct host_renderer *renderer, uint32_t eye);
 struct host_eye *host_eye_here(struct host_renderer *renderer);
 const struct host_slot_eye *host_slot_here(const struct host_renderer *renderer,
                                            const struct host_slot *slot);
+/* Draws depths, normals and roughness of what the eye sees. */
+void host_prepass_record(struct host_renderer *renderer, VkCommandBuffer cmd);
 /* Column of the picture in which an eye's half begins. */
 uint32_t host_eye_column(const struct host_renderer *renderer, uint32_t eye);
 /* The camera of the frames that follow: both eyes' middle. */

@@ -200,6 +200,13 @@ static bool gi_record(struct host_renderer *renderer, VkCommandBuffer cmd)
     return host_gi_update(renderer->gi, cmd, &desc);
 }
 
+void host_prepass_record(struct host_renderer *renderer, VkCommandBuffer cmd)
+{
+    pass_begin(renderer, cmd, renderer->passes.prepass, renderer->targets.prepass, &renderer->targets.depth);
+    host_draw_prepass(renderer, cmd);
+    vkCmdEndRenderPass(cmd);
+}
+
 /* The picture of the eye that has begun. Times of fog are those of the first one. */
 static bool eye_record(struct host_renderer *renderer, struct host_slot *slot)
 {
@@ -208,9 +215,7 @@ static bool eye_record(struct host_renderer *renderer, struct host_slot *slot)
     VkCommandBuffer cmd = slot->cmd;
 
     /* Find what is visible. */
-    pass_begin(renderer, cmd, renderer->passes.prepass, renderer->targets.prepass, &eye->hdr);
-    host_draw_prepass(renderer, cmd);
-    vkCmdEndRenderPass(cmd);
+    host_prepass_record(renderer, cmd);
 
     /* Look up its light. */
     if (!host_lookup_record(renderer, slot))

@@ -212,6 +212,8 @@ vec3 view_of_surface(surface_hit hit)
     case SDFGI_SHADER_DEBUG_PROBES_IRRADIANCE:
     case SDFGI_SHADER_DEBUG_PROBES_STATE:
         return vec3(0.1 * shade);
+    case SDFGI_SHADER_DEBUG_REFLECTION_TIER: /* volumes do not know how rough a surface is */
+        return DEBUG_UNKNOWN;
     }
     return hit.has_entry ? view_of_cell(hit, shade) : DEBUG_UNKNOWN;
 }

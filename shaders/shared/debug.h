@@ -19,5 +19,6 @@
 #define SDFGI_SHADER_DEBUG_PROBES_STATE      13
 #define SDFGI_SHADER_DEBUG_LEAKS             14
 #define SDFGI_SHADER_DEBUG_WOKE              15
+#define SDFGI_SHADER_DEBUG_REFLECTION_TIER   16
 
 #endif

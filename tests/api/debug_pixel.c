@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-enum { SIDE = 5, PIXELS = SIDE * SIDE };
-
 struct sdfgi_debug_desc debug_desc(enum debug_camera camera, const double eye[static 3], int axis)
 {
     const double near_m = 0.01, tan_half = 0.05;
@@ -50,24 +48,24 @@ static void record(VkCommandBuffer cmd, uint32_t index, void *user)
 
 struct debug_color debug_pixel(struct gi_test *t, const struct sdfgi_debug_desc *desc)
 {
-    uint16_t texels[PIXELS][4];
+    uint16_t texels[DEBUG_PIXELS][4];
     struct gpu_test_image output =
-        gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, SIDE, SIDE, NULL);
+        gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, DEBUG_SIDE, DEBUG_SIDE, NULL);
     struct sdfgi_debug_desc full = *desc;
     full.output = output.view;
-    full.width = full.height = SIDE;
+    full.width = full.height = DEBUG_SIDE;
     struct draw draw = { t->gi, &full };
     gpu_test_submit(&t->gpu, record, &draw);
     gpu_test_image_read(&t->gpu, output.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
                         output.extent, 8, texels);
     gpu_test_image_destroy(&t->gpu, &output);
     struct debug_color color;
-    for (int i = 0; i < PIXELS; i++) {
+    for (int i = 0; i < DEBUG_PIXELS; i++) {
         REQUIRE_CMP(gi_test_half(texels[i][3]), ==, 1.0f);
         for (int k = 0; k < 3; k++) {
             const double value = (double)gi_test_half(texels[i][k]);
             REQUIRE_TRUE(value >= 0 && value <= 1);
-            if (i == PIXELS / 2)
+            if (i == DEBUG_PIXELS / 2)
                 color.rgb[k] = value;
         }
     }

@@ -7,6 +7,9 @@
 
 #include <sdfgi/debug.h>
 
+/* Of the pictures. */
+enum { DEBUG_SIDE = 5, DEBUG_PIXELS = DEBUG_SIDE * DEBUG_SIDE };
+
 struct debug_color {
     double rgb[3];
 };

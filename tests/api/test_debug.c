@@ -106,6 +106,8 @@ static void what_nobody_calls_costs_nothing_and_the_report_says_so(void **state)
     REQUIRE_TRUE(!line->ran);
     REQUIRE_TRUE(strcmp(line->reason, "the host did not call sdfgi_debug_draw") == 0);
     REQUIRE_TRUE(!t.gi->backend.pipelines.passes[PASS_DEBUG_VIEW][0]);
+    REQUIRE_TRUE(!report.passes[PASS_DEBUG_TIER].ran);
+    REQUIRE_TRUE(!t.gi->backend.pipelines.passes[PASS_DEBUG_TIER][0]);
     const uint64_t memory = report.memory.total_bytes;
     for (int i = 0; i < 3; i++)
         debug_look(&t, SDFGI_DEBUG_SOLID, (double[]){ 0, 0, 0 }, 0);
@@ -146,6 +148,77 @@ static void nothing_is_drawn_while_gi_is_off(void **state)
     REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &off), ==, (int)SDFGI_OK);
     REQUIRE_CMP((int)sdfgi_debug_draw(t.gi, (VkCommandBuffer)&t, &(struct sdfgi_debug_desc){ 0 }), ==,
                 (int)SDFGI_OK);
+    gi_test_close(&t);
+}
+
+/* ---- What the host has drawn */
+
+static const struct drawn {
+    float depth, normal[3], roughness;
+    double color[3];
+} drawn[] = {
+    { 0.5f, { 0, 1, 0 }, 0, { 0, 1, 0 } },
+    { 0.5f, { 0, 1, 0 }, 0.4f, { 0, 1, 0 } },
+    { 0.5f, { 0, 1, 0 }, 0.6f, { 1, 1, 0 } },         /* rays count by 1/2 */
+    { 0.5f, { 0, 1, 0 }, 0.7f, { 1, 10.0 / 32, 0 } }, /* and by 5/32 */
+    { 0.5f, { 0, 1, 0 }, 0.8f, { 0.1, 0.3, 1 } },
+    { 0.5f, { 0, 1, 0 }, 1, { 0.1, 0.3, 1 } },
+    { 0.5f, { 0, 1, 0 }, NAN, { 0.1, 0.3, 1 } },
+    { 0.5f, { 0, -2, 0 }, 0, { 0, 0.4, 0 } },
+    { 0.5f, { 1, 0, -1 }, 0, { 0, (0.85 + 0.5) / 2, 0 } },
+    { 1, { 0, 1, 0 }, 0, { 0.01, 0.015, 0.03 } }, /* background */
+};
+enum { DRAWN = sizeof drawn / sizeof *drawn };
+
+/* The pixel of a picture that shows this everywhere. */
+static struct debug_color tier_of(struct gi_test *t, const struct drawn *d)
+{
+    float depths[DEBUG_PIXELS], normals[DEBUG_PIXELS][4], roughness[DEBUG_PIXELS];
+    for (int i = 0; i < DEBUG_PIXELS; i++) {
+        depths[i] = d->depth;
+        memcpy(normals[i], d->normal, sizeof d->normal);
+        normals[i][3] = 0;
+        roughness[i] = d->roughness;
+    }
+    struct gpu_test_image images[] = {
+        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, DEBUG_SIDE, DEBUG_SIDE, depths),
+        gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, DEBUG_SIDE, DEBUG_SIDE, normals),
+        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, DEBUG_SIDE, DEBUG_SIDE, roughness),
+    };
+    struct sdfgi_debug_desc desc = debug_desc(DEBUG_CAMERA_FORWARD, (double[]){ 0, 0, 0 }, 0);
+    desc.view = SDFGI_DEBUG_REFLECTION_TIER;
+    desc.depth = images[0].view;
+    desc.normal = images[1].view;
+    desc.roughness = images[2].view;
+    const struct debug_color color = debug_pixel(t, &desc);
+    for (int i = 0; i < 3; i++)
+        gpu_test_image_destroy(&t->gpu, &images[i]);
+    return color;
+}
+
+static void tiers_of_reflections_follow_roughness(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    open_wall(&t);
+    struct sdfgi_settings settings = t.gi->settings;
+    settings.reflection_blend = 0.4f;
+    settings.reflection_end = 0.8f;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
+    gi_test_update(&t, 1);
+    for (int i = 0; i < DRAWN; i++) {
+        const double *want = drawn[i].color;
+        const struct debug_color found = tier_of(&t, &drawn[i]);
+        REQUIRE_COLOR(found, want[0], want[1], want[2], 0.002);
+    }
+    sdfgi_get_report(t.gi, &report);
+    REQUIRE_CMP(report.passes[PASS_DEBUG_TIER].dispatches, ==, (uint32_t)DRAWN);
+    REQUIRE_CMP(report.passes[PASS_DEBUG_TIER].work, ==, (uint64_t)DRAWN * DEBUG_PIXELS);
+    REQUIRE_TRUE(!report.passes[PASS_DEBUG_VIEW].ran);
+    REQUIRE_TRUE(!t.gi->backend.pipelines.passes[PASS_DEBUG_VIEW][0]);
+    /* Without pictures there is nothing to tell of the wall. */
+    const struct debug_color unknown = debug_look(&t, SDFGI_DEBUG_REFLECTION_TIER, (double[]){ 0, 0, 0 }, 0);
+    REQUIRE_COLOR(unknown, 0.25, 0, 0.3, 0.002);
     gi_test_close(&t);
 }
 
@@ -195,6 +268,7 @@ int main(void)
         cmocka_unit_test(what_nobody_calls_costs_nothing_and_the_report_says_so),
         cmocka_unit_test(a_view_wakes_nothing),
         cmocka_unit_test(nothing_is_drawn_while_gi_is_off),
+        cmocka_unit_test(tiers_of_reflections_follow_roughness),
         cmocka_unit_test(all_kinds_of_cameras_see_the_same),
         cmocka_unit_test(a_matrix_without_directions_shows_the_sky),
     };

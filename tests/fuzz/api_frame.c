@@ -33,6 +33,10 @@ static void record_debug(struct api_world *w, VkCommandBuffer cmd)
                                      .width = gather.width,
                                      .height = gather.height,
                                      .background_depth = gather.background_depth,
+                                     .depth = gather.depth,
+                                     .normal = gather.normal,
+                                     .roughness = gather.normal,
+                                     .input_layout = gather.input_layout,
                                      .view = (enum sdfgi_debug_view)api_below(w, SDFGI_DEBUG_VIEW_COUNT) };
     memcpy(desc.inverse_view_projection, gather.inverse_view_projection, sizeof desc.inverse_view_projection);
     REQUIRE_CMP((int)sdfgi_debug_draw(w->t->gi, cmd, &desc), ==, (int)SDFGI_OK);

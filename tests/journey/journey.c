@@ -203,6 +203,15 @@ static void add_report(const struct journey *j, struct journey_row *row)
     journey_state_require_reasons(&report);
 }
 
+/* Another view of volumes in every frame, and that of the picture. */
+static void add_debug(struct journey *j, struct journey_row *row)
+{
+    const enum sdfgi_debug_view view = (enum sdfgi_debug_view)(row->frame % SDFGI_DEBUG_REFLECTION_TIER);
+    journey_row_add(row, "DEBUG", journey_screen_debug(&j->screen, &j->t, view), sizeof j->screen.pixels);
+    journey_row_add(row, "TIER", journey_screen_debug(&j->screen, &j->t, SDFGI_DEBUG_REFLECTION_TIER),
+                    sizeof j->screen.pixels);
+}
+
 void journey_frame(struct journey *j, const double camera[static 3])
 {
     static const char *const columns[] = { "GATHER", "GATHER_HALF", "GATHER_QUARTER" };
@@ -219,12 +228,8 @@ void journey_frame(struct journey *j, const double camera[static 3])
                         sizeof j->screen.pixels);
     if (j->screen.made)
         journey_row_add(&row, "REFLECT", journey_screen_reflect(&j->screen, &j->t), sizeof j->screen.pixels);
-    /* Another view in every frame. */
     if (j->screen.made)
-        journey_row_add(&row, "DEBUG",
-                        journey_screen_debug(&j->screen, &j->t,
-                                             (enum sdfgi_debug_view)(row.frame % SDFGI_DEBUG_VIEW_COUNT)),
-                        sizeof j->screen.pixels);
+        add_debug(j, &row);
     add_report(j, &row);
     journey_book_take(&row);
 }

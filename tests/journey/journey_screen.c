@@ -105,7 +105,10 @@ const void *journey_screen_debug(struct journey_screen *screen, struct gi_test *
                              .width = JOURNEY_SCREEN_WIDTH,
                              .height = JOURNEY_SCREEN_HEIGHT,
                              .background_depth = 1,
-                             .view = view } };
+                             .view = view,
+                             .depth = screen->depth.view,
+                             .normal = screen->normal.view,
+                             .roughness = screen->depth.view } };
     memcpy(debug.desc.inverse_view_projection, to_position, sizeof to_position);
     gpu_test_submit(&t->gpu, record_debug, &debug);
     return read_pixels(screen, t, screen->output.image);

@@ -165,6 +165,8 @@ static const struct need_row needs[NEED_COUNT] = {
                            "no material is smooth, or the host resolved no view with reflections" },
     [NEED_DEBUG_VIEW] = { needs_picture, "the host called sdfgi_debug_draw",
                           "the host did not call sdfgi_debug_draw" },
+    [NEED_DEBUG_TIER] = { needs_picture, "the host called sdfgi_debug_draw for tiers of reflections",
+                          "the host did not call sdfgi_debug_draw for tiers of reflections" },
 };
 
 struct situation_needs sdfgi_frame_needs(const struct situation *situation)

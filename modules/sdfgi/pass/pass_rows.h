@@ -41,6 +41,7 @@ enum need {
     NEED_GATHER_SPARSE,
     NEED_REFLECTIONS,
     NEED_DEBUG_VIEW,
+    NEED_DEBUG_TIER,
     NEED_COUNT,
 };
 

@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-/* X(id, name, text). Rays from the camera march through the cascades, and a view colours what they meet.
+/* X(id, name, text). Rays from the camera march through the cascades, and a view colours what they meet; but
+ * REFLECTION_TIER colours what the host has drawn.
  *
  * RED TO GREEN  little to much: red, yellow, green
  * BLUE TO RED   little to much: blue, cyan, green, yellow, red
@@ -41,7 +42,9 @@ extern "C" {
       "magenta: a probe near holds NaN or infinity, yellow: light was cut to fit its format")                \
     X(WOKE, "woke",                                                                                          \
       "what changed of late: red voxels of this frame, orange new light cells, yellow light cells whose "    \
-      "lights changed, until their next full gather cycle")
+      "lights changed, until their next full gather cycle")                                                  \
+    X(REFLECTION_TIER, "reflection_tier",                                                                    \
+      "how much rays count in reflections of what the host has drawn, red to green; blue: irradiance alone")
 
 enum sdfgi_debug_view {
 #define SDFGI_DEBUG_ENUM(id, name, text) SDFGI_DEBUG_##id,
@@ -69,11 +72,16 @@ struct sdfgi_debug_desc {
     float exposure; /* factor on light before it is shown, >= 0; 0: the hint of the last sdfgi_update */
     float slice_m;  /* DISTANCE_SLICE: from the camera's near plane to the slice, >= 0; 0: a quarter of the
                        finest cascade */
+    /* REFLECTION_TIER, which is purple without them: as in struct sdfgi_resolve_desc, and as large as the
+     * output. Synchronisation is that of sdfgi_gather. Other views leave them alone. */
+    VkImageView depth, normal, roughness;
+    VkImageLayout input_layout;
 };
 
 /* Records a debug view into `cmd`, after sdfgi_update in the same queue. It shows what that update leaves,
  * and changes nothing. The output is made visible to later compute and fragment reads. Does nothing and
- * returns SDFGI_OK while GI is not active. The first call makes the pipeline of all views. */
+ * returns SDFGI_OK while GI is not active. The first call makes the pipeline of all views of volumes, and the
+ * first one for REFLECTION_TIER that view's. */
 SDFGI_API enum sdfgi_result sdfgi_debug_draw(sdfgi *gi, VkCommandBuffer cmd,
                                              const struct sdfgi_debug_desc *desc);
 
