@@ -16,6 +16,8 @@ layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DIFFUSE,
 /* Per run, roughness below which a pixel's own value is as good, and from which on neighbours count wholly.
  */
 const vec2 FIRST = vec2(0.01, 0.03), SECOND = vec2(0.15, 0.3);
+/* The same of the second run, by the width of the lobe over that of the square of squares. */
+const vec2 LOBE = vec2(0.25, 1.0);
 
 bool is_first()
 {
@@ -34,16 +36,25 @@ float nearness(ivec2 pixel, ivec2 ray, int step)
     return near.x * near.y;
 }
 
+/* How wide the lobe is in the picture, in pixels, where rays of a facet's slope alpha meet something at a
+ * distance. Near the surface all of them meet the same. */
+float lobe_pixels(picture_surface s, float roughness, float distance_m)
+{
+    const float eye_m = length(s.to_eye), seen = max(distance_m, 0.0) / (max(distance_m, 0.0) + eye_m);
+    return 2.0 * roughness * roughness * seen * eye_m / s.pixel_m;
+}
+
 /* The first run interpolates between rays, which may lie apart; the second begins with pixels. */
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
 {
     const vec2 range = is_first() ? FIRST : SECOND;
-    const float spread = smoothstep(range.x, range.y, roughness);
     const int ray_step = int(args.ray_step), step = ray_step * int(args.filter_step);
     const float reach = float(SDFGI_RAYS_SIDE * step);
     const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
     const bool interpolates = is_first() && ray_step > 1;
     const vec4 own = before_at(pixel);
+    const float wide = is_first() ? 0.0 : lobe_pixels(s, roughness, own.a) / reach;
+    const float spread = max(smoothstep(range.x, range.y, roughness), smoothstep(LOBE.x, LOBE.y, wide));
     float weights = own.a < 0.0 ? 0.0 : 1.0;
     vec4 sum = weights * own;
     const int taps = spread > 0.0 || interpolates ? SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE : 0;
