@@ -14,7 +14,7 @@
 struct sample {
     float position[4], direction[4];
     float mean[3], known, towards[4];
-    float irradiance[4], surface[4];
+    float irradiance[4], surface[4], transparent[4];
 };
 
 enum { DIRECTIONS = 128 };
@@ -37,29 +37,35 @@ static void set_direction(struct sample *sample, int i)
 }
 
 /* All directions at one place. */
-static void look_around(struct gi_test *t, const float position[static 3], struct sample samples[DIRECTIONS])
+static void set_around(const float position[static 3], struct sample samples[DIRECTIONS])
 {
     memset(samples, 0, DIRECTIONS * sizeof *samples);
     for (int i = 0; i < DIRECTIONS; i++) {
         memcpy(samples[i].position, position, 3 * sizeof(float));
         set_direction(&samples[i], i);
     }
-    look_up(t, samples, DIRECTIONS);
+}
+
+/* A room of 3 m whose walls reflect one half and glow with 1. */
+static void open_furnace(struct gi_test *t, const struct sdfgi_settings *settings)
+{
+    gi_test_restart(t, settings);
+    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 1, test_rotation_none),
+              0.5f, 1);
 }
 
 static void a_furnace_is_even_in_the_air(void **state)
 {
     struct gi_test *t = *state;
     const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_restart(t, &settings);
-    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 1, test_rotation_none),
-              0.5f, 1);
+    open_furnace(t, &settings);
     gi_test_converge(t, 200);
     static const float places[][3] = { { 0, 0, 0 }, { 1.2f, -0.4f, 0.3f }, { -1.3f, -1.3f, 1.3f } };
     struct sample samples[DIRECTIONS];
     for (int p = 0; p < 3; p++) {
         double worst = 0;
-        look_around(t, places[p], samples);
+        set_around(places[p], samples);
+        look_up(t, samples, DIRECTIONS);
         for (int i = 0; i < DIRECTIONS; i++)
             for (int c = 0; c < 3; c++) {
                 worst = fmax(worst, fabs((double)samples[i].mean[c] / 2 - 1));
@@ -100,14 +106,12 @@ static void the_mean_of_a_gradient_sky_is_exact(void **state)
 }
 
 /* A black room of 6 m of which one wall, at x = -2.5 m, glows with a radiance of 1. */
-static void open_black_room(struct gi_test *t)
+static void open_black_room(struct gi_test *t, const struct sdfgi_settings *settings)
 {
-    const struct sdfgi_settings settings = light_settings(64, 0.125f);
     const float black[3] = { 0, 0, 0 };
-    gi_test_restart(t, &settings);
+    gi_test_restart(t, settings);
     light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 3, 3, 3 }, 0.5, test_rotation_none), 0, 0);
     light_add_box(t, (double[]){ -3, -3, -3 }, (double[]){ -2.5, 3, 3 }, black, 1);
-    gi_test_converge(t, 300);
 }
 
 /* The share of all directions that the glowing wall fills: a rectangle between the foot of the perpendicular
@@ -129,7 +133,9 @@ static void a_glowing_wall_fills_its_solid_angle(void **state)
     struct sample samples[] = { { .position = { 0.1f, 0.2f, -0.3f }, .direction = { 1, 0, 0 } },
                                 { .position = { -1.2f, 1.1f, 0.9f }, .direction = { 1, 0, 0 } },
                                 { .position = { 2.2f, -1, 0.6f }, .direction = { 1, 0, 0 } } };
-    open_black_room(t);
+    const struct sdfgi_settings settings = light_settings(64, 0.125f);
+    open_black_room(t, &settings);
+    gi_test_converge(t, 300);
     look_up(t, samples, 3);
     for (int i = 0; i < 3; i++) {
         const double exact = exact_mean(samples[i].position), found = (double)samples[i].mean[1];
@@ -138,24 +144,139 @@ static void a_glowing_wall_fills_its_solid_angle(void **state)
     }
 }
 
-/* In the middle of the room there are no light cells: probes answer for surfaces, too. */
-static void the_air_and_a_floating_surface_get_the_same(void **state)
+/* ---- One point, asked in all ways */
+
+enum { WIDTH = 16, HEIGHT = DIRECTIONS / WIDTH, FRAMES = 32 };
+
+struct picture {
+    struct gi_test *t;
+    sdfgi_view *view;
+    struct sdfgi_resolve_desc desc;
+};
+
+static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    struct picture *p = user;
+    REQUIRE_CMP((int)sdfgi_view_resolve(p->t->gi, p->view, cmd, &p->desc), ==, (int)SDFGI_OK);
+}
+
+/* Irradiance of opaque surfaces: a picture all of whose pixels show the point, each with the direction of a
+ * sample as its normal. Depth 0 is 0.1 m nearer to the eye than the point. */
+static void resolve_point(struct gi_test *t, const struct sample samples[DIRECTIONS],
+                          double found[DIRECTIONS])
+{
+    const struct sdfgi_view_desc size = { .width = WIDTH, .height = HEIGHT };
+    const float *at = samples[0].position;
+    float depths[DIRECTIONS], normals[DIRECTIONS][4];
+    uint16_t texels[DIRECTIONS][4];
+    struct picture p = { .t = t };
+    for (int i = 0; i < DIRECTIONS; i++) {
+        depths[i] = 0.5f;
+        memcpy(normals[i], samples[i].direction, sizeof normals[i]);
+    }
+    struct gpu_test_image depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, depths),
+                          normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, WIDTH, HEIGHT,
+                                                        normals);
+    p.desc = (struct sdfgi_resolve_desc){ .depth = depth.view, .normal = normal.view, .background_depth = 1 };
+    memcpy(&p.desc.inverse_view_projection[8], (float[]){ 0, -0.2f, 0, 0 }, 4 * sizeof(float));
+    memcpy(&p.desc.inverse_view_projection[12], (float[]){ at[0], at[1] + 0.1f, at[2], 1 },
+           4 * sizeof(float));
+    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &size, &p.view), ==, (int)SDFGI_OK);
+    gpu_test_submit(&t->gpu, record_resolve, &p);
+    gpu_test_image_read(&t->gpu, p.view->diffuse.handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        (VkExtent3D){ WIDTH, HEIGHT, 1 }, 8, texels);
+    for (int i = 0; i < DIRECTIONS; i++)
+        found[i] = (double)gi_test_half(texels[i][1]);
+    sdfgi_view_destroy(t->gi, p.view);
+    gpu_test_image_destroy(&t->gpu, &depth);
+    gpu_test_image_destroy(&t->gpu, &normal);
+}
+
+/* Over the light of the brightest direction, W/m^2. */
+struct difference {
+    double brightest;
+    double fog;         /* between what fog scatters towards a side and the air's irradiance there */
+    double transparent; /* between a surface in a picture and one that is shaded where it is drawn */
+    double air;         /* between a surface in a picture and the air */
+};
+
+/* How far the answers at a point differ: in all directions, or towards `facing` alone. */
+static struct difference differences_at(struct gi_test *t, const float position[static 3],
+                                        const float *facing)
+{
+    struct sample samples[DIRECTIONS];
+    double opaque[DIRECTIONS];
+    struct difference d = { 0 };
+    set_around(position, samples);
+    for (int i = 0; i < DIRECTIONS && facing; i++)
+        memcpy(samples[i].direction, facing, 3 * sizeof(float));
+    look_up(t, samples, DIRECTIONS);
+    resolve_point(t, samples, opaque);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double air = (double)samples[i].irradiance[1];
+        d.brightest = fmax(d.brightest, opaque[i]);
+        d.fog = fmax(d.fog, fabs((double)samples[i].towards[1] * PI - air));
+        d.transparent = fmax(d.transparent, fabs((double)samples[i].surface[1] - opaque[i]));
+        d.transparent = fmax(d.transparent, fabs((double)samples[i].transparent[1] - opaque[i]));
+        d.air = fmax(d.air, fabs(air - opaque[i]));
+    }
+    d.fog /= d.brightest;
+    d.transparent /= d.brightest;
+    d.air /= d.brightest;
+    printf("(%.2f, %.2f, %.2f)%s: fog off by %.6f, transparent by %.4f, air by %.4f; E %.3f\n",
+           (double)position[0], (double)position[1], (double)position[2], facing ? " facing one way" : "",
+           d.fog, d.transparent, d.air, d.brightest);
+    return d;
+}
+
+static void require_same(const struct difference *d)
+{
+    REQUIRE_CMP(d->fog, <=, 1e-3);
+    REQUIRE_CMP(d->transparent, <=, 0.01);
+    REQUIRE_CMP(d->air, <=, 0.01);
+}
+
+static struct sdfgi_settings with_cells(void)
+{
+    struct sdfgi_settings settings = light_quick_settings(32, 0.25f);
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    return settings;
+}
+
+/* In the middle of the room there are no light cells: probes answer for surfaces, too. On a wall its light
+ * cells answer, which have rays of their own, and fog right before it asks probes: in uneven light they
+ * differ. */
+static void opaque_transparent_and_fog_get_the_same(void **state)
 {
     struct gi_test *t = *state;
-    static const float places[][3] = { { 0.1f, 0.2f, -0.3f }, { -1.2f, 1.1f, 0.9f }, { 1.4f, -1, 0.6f } };
-    struct sample samples[DIRECTIONS];
-    open_black_room(t);
+    static const float places[][3] = { { 0.1f, 0.2f, -0.3f }, { -1.2f, 1.1f, 0.9f }, { 1.4f, -1, 0.6f } },
+                       on_floor[] = { 0.3f, -2.99f, 0.3f }, up[] = { 0, 1, 0 };
+    const struct sdfgi_settings settings = with_cells();
+    open_black_room(t, &settings);
+    gi_test_update(t, FRAMES);
     for (int p = 0; p < 3; p++) {
-        double air = 0, surface = 0;
-        look_around(t, places[p], samples);
-        for (int i = 0; i < DIRECTIONS; i++) {
-            const double e = (double)samples[i].irradiance[1], brightest = PI;
-            air = fmax(air, fabs((double)samples[i].towards[1] * PI - e) / brightest);
-            surface = fmax(surface, fabs((double)samples[i].surface[1] - e) / brightest);
-        }
-        printf("place %d: towards off by %.6f, surface by %.6f\n", p, air, surface);
-        REQUIRE_CMP(air, <=, 1e-3);
-        REQUIRE_CMP(surface, <=, 0.01);
+        const struct difference d = differences_at(t, places[p], NULL);
+        require_same(&d);
+    }
+    const struct difference floor = differences_at(t, on_floor, up);
+    REQUIRE_CMP(floor.fog, <=, 1e-3);
+    REQUIRE_CMP(floor.transparent, <=, 0.01);
+}
+
+/* Where light is even, fog before a wall knows as much as the wall. */
+static void they_get_the_same_on_walls_of_a_furnace(void **state)
+{
+    struct gi_test *t = *state;
+    static const float on_walls[][3] = { { 1.49f, -0.4f, 0.3f }, { -1.3f, -1.49f, 1.4f } },
+                       off_walls[][3] = { { -1, 0, 0 }, { 0, 1, 0 } };
+    const struct sdfgi_settings settings = with_cells();
+    open_furnace(t, &settings);
+    gi_test_update(t, FRAMES);
+    for (int i = 0; i < 2; i++) {
+        const struct difference d = differences_at(t, on_walls[i], off_walls[i]);
+        require_same(&d);
+        REQUIRE_NEAR(d.brightest / (2 * PI), 1, 0.01);
     }
 }
 
@@ -168,7 +289,8 @@ int main(void)
         cmocka_unit_test(nothing_is_known_within_a_wall),
         cmocka_unit_test(the_mean_of_a_gradient_sky_is_exact),
         cmocka_unit_test(a_glowing_wall_fills_its_solid_angle),
-        cmocka_unit_test(the_air_and_a_floating_surface_get_the_same),
+        cmocka_unit_test(opaque_transparent_and_fog_get_the_same),
+        cmocka_unit_test(they_get_the_same_on_walls_of_a_furnace),
     };
     return cmocka_run_group_tests(tests, light_open, light_close);
 }
