@@ -39,19 +39,6 @@ static struct picture draw_scene(struct gi_test *t, struct picture_scene *scene)
     return picture_draw(scene, &camera, WIDTH, HEIGHT);
 }
 
-struct resolve {
-    sdfgi *gi;
-    sdfgi_view *view;
-    struct sdfgi_resolve_desc desc;
-};
-
-static void record(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    const struct resolve *r = user;
-    REQUIRE_CMP((int)sdfgi_view_resolve(r->gi, r->view, cmd, &r->desc), ==, (int)SDFGI_OK);
-}
-
 /* Luminance of what each pixel reflects at a roughness. */
 static void reflect(struct gi_test *t, const struct picture *p, float roughness, float light[WIDTH * HEIGHT])
 {
@@ -64,22 +51,23 @@ static void reflect(struct gi_test *t, const struct picture *p, float roughness,
         gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, WIDTH, HEIGHT, p->normals),
         gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, rough),
     };
-    struct resolve r = {
-        .gi = t->gi,
-        .desc = { .depth = images[0].view, .normal = images[1].view, .roughness = images[2].view }
-    };
-    memcpy(r.desc.inverse_view_projection, p->desc.inverse_view_projection,
-           sizeof r.desc.inverse_view_projection);
-    r.desc.background_depth = p->desc.background_depth;
-    const struct sdfgi_view_desc desc = { .width = WIDTH, .height = HEIGHT };
-    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &desc, &r.view), ==, (int)SDFGI_OK);
-    gpu_test_submit(&t->gpu, record, &r);
-    gpu_test_image_read(&t->gpu, r.view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL,
-                        VK_IMAGE_ASPECT_COLOR_BIT, (VkExtent3D){ WIDTH, HEIGHT, 1 }, 8, texels);
+    struct sdfgi_resolve_desc desc = { .depth = images[0].view,
+                                       .normal = images[1].view,
+                                       .roughness = images[2].view,
+                                       .background_depth = p->desc.background_depth };
+    memcpy(desc.inverse_view_projection, p->desc.inverse_view_projection,
+           sizeof desc.inverse_view_projection);
+    const struct sdfgi_view_desc size = { .width = WIDTH, .height = HEIGHT };
+    sdfgi_view *view = NULL;
+    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &size, &view), ==, (int)SDFGI_OK);
+    gi_test_resolve(t, view, &desc);
+    gpu_test_image_read(&t->gpu, view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        (VkExtent3D){ WIDTH, HEIGHT, 1 }, 8, texels);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         light[i] = gi_test_half(texels[i][1]);
     for (int i = 0; i < 3; i++)
         gpu_test_image_destroy(&t->gpu, &images[i]);
+    sdfgi_view_destroy(t->gi, view);
 }
 
 /* How much a square of pixels differs from the mean of those on both sides of it, over the brightest. */

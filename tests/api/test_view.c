@@ -66,19 +66,6 @@ static void close_stage(struct stage *s)
 
 /* ---- Resolves */
 
-struct resolve {
-    struct stage *stage;
-    sdfgi_view *view;
-    struct sdfgi_resolve_desc desc;
-};
-
-static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    struct resolve *r = user;
-    REQUIRE_CMP((int)sdfgi_view_resolve(r->stage->t.gi, r->view, cmd, &r->desc), ==, (int)SDFGI_OK);
-}
-
 static sdfgi_view *create_view_at(struct stage *s, enum sdfgi_gather_resolution reflection)
 {
     sdfgi_view *view = NULL;
@@ -110,8 +97,8 @@ static void resolve(struct stage *s, sdfgi_view *view, float roughness)
     for (int i = 0; i < PIXELS; i++)
         pixels[i] = roughness;
     struct gpu_test_image image = gi_test_gather_image(&s->t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, pixels);
-    struct resolve r = { s, view, resolve_desc(s, roughness < 0 ? VK_NULL_HANDLE : image.view) };
-    gpu_test_submit(&s->t.gpu, record_resolve, &r);
+    const struct sdfgi_resolve_desc desc = resolve_desc(s, roughness < 0 ? VK_NULL_HANDLE : image.view);
+    gi_test_resolve(&s->t, view, &desc);
     gpu_test_image_destroy(&s->t.gpu, &image);
 }
 
@@ -340,10 +327,10 @@ static void eyes_share_an_update_and_see_the_same_light(void **state)
     double worst = 0, brightest = 0;
     for (int eye = 0; eye < 2; eye++) {
         sdfgi_view *view = create_view(&stage);
-        struct resolve r = { &stage, view, resolve_desc(&stage, VK_NULL_HANDLE) };
-        r.desc.inverse_view_projection[8] = eye == 0 ? 0.4f : -0.4f;
-        r.desc.inverse_view_projection[12] = eye == 0 ? -0.2f : 0.2f;
-        gpu_test_submit(&stage.t.gpu, record_resolve, &r);
+        struct sdfgi_resolve_desc desc = resolve_desc(&stage, VK_NULL_HANDLE);
+        desc.inverse_view_projection[8] = eye == 0 ? 0.4f : -0.4f;
+        desc.inverse_view_projection[12] = eye == 0 ? -0.2f : 0.2f;
+        gi_test_resolve(&stage.t, view, &desc);
         read_picture(&stage, &view->diffuse, pictures[eye]);
     }
     REQUIRE_CMP(dispatches(&stage, PASS_GATHER), ==, gathers + 2);

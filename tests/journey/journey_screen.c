@@ -60,29 +60,14 @@ const void *journey_screen_gather(struct journey_screen *screen, struct gi_test 
     return read_pixels(screen, t, screen->output.image);
 }
 
-struct resolve {
-    struct gi_test *t;
-    sdfgi_view *view;
-    struct sdfgi_resolve_desc desc;
-};
-
-static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    const struct resolve *r = user;
-    REQUIRE_CMP((int)sdfgi_view_resolve(r->t->gi, r->view, cmd, &r->desc), ==, (int)SDFGI_OK);
-}
-
 const void *journey_screen_reflect(struct journey_screen *screen, struct gi_test *t)
 {
-    struct resolve resolve = { t,
-                               screen->view,
-                               { .depth = screen->depth.view,
-                                 .normal = screen->normal.view,
-                                 .roughness = screen->depth.view,
-                                 .background_depth = 1 } };
-    memcpy(resolve.desc.inverse_view_projection, to_position, sizeof to_position);
-    gpu_test_submit(&t->gpu, record_resolve, &resolve);
+    struct sdfgi_resolve_desc desc = { .depth = screen->depth.view,
+                                       .normal = screen->normal.view,
+                                       .roughness = screen->depth.view,
+                                       .background_depth = 1 };
+    memcpy(desc.inverse_view_projection, to_position, sizeof to_position);
+    gi_test_resolve(t, screen->view, &desc);
     return read_pixels(screen, t, screen->view->reflection.handle);
 }
 

@@ -148,19 +148,6 @@ static void a_glowing_wall_fills_its_solid_angle(void **state)
 
 enum { WIDTH = 16, HEIGHT = DIRECTIONS / WIDTH, FRAMES = 32 };
 
-struct picture {
-    struct gi_test *t;
-    sdfgi_view *view;
-    struct sdfgi_resolve_desc desc;
-};
-
-static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    struct picture *p = user;
-    REQUIRE_CMP((int)sdfgi_view_resolve(p->t->gi, p->view, cmd, &p->desc), ==, (int)SDFGI_OK);
-}
-
 /* Irradiance of opaque surfaces: a picture all of whose pixels show the point, each with the direction of a
  * sample as its normal. Depth 0 is 0.1 m nearer to the eye than the point. */
 static void resolve_point(struct gi_test *t, const struct sample samples[DIRECTIONS],
@@ -170,7 +157,7 @@ static void resolve_point(struct gi_test *t, const struct sample samples[DIRECTI
     const float *at = samples[0].position;
     float depths[DIRECTIONS], normals[DIRECTIONS][4];
     uint16_t texels[DIRECTIONS][4];
-    struct picture p = { .t = t };
+    sdfgi_view *view = NULL;
     for (int i = 0; i < DIRECTIONS; i++) {
         depths[i] = 0.5f;
         memcpy(normals[i], samples[i].direction, sizeof normals[i]);
@@ -178,17 +165,16 @@ static void resolve_point(struct gi_test *t, const struct sample samples[DIRECTI
     struct gpu_test_image depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, depths),
                           normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, WIDTH, HEIGHT,
                                                         normals);
-    p.desc = (struct sdfgi_resolve_desc){ .depth = depth.view, .normal = normal.view, .background_depth = 1 };
-    memcpy(&p.desc.inverse_view_projection[8], (float[]){ 0, -0.2f, 0, 0 }, 4 * sizeof(float));
-    memcpy(&p.desc.inverse_view_projection[12], (float[]){ at[0], at[1] + 0.1f, at[2], 1 },
-           4 * sizeof(float));
-    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &size, &p.view), ==, (int)SDFGI_OK);
-    gpu_test_submit(&t->gpu, record_resolve, &p);
-    gpu_test_image_read(&t->gpu, p.view->diffuse.handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+    struct sdfgi_resolve_desc desc = { .depth = depth.view, .normal = normal.view, .background_depth = 1 };
+    memcpy(&desc.inverse_view_projection[8], (float[]){ 0, -0.2f, 0, 0 }, 4 * sizeof(float));
+    memcpy(&desc.inverse_view_projection[12], (float[]){ at[0], at[1] + 0.1f, at[2], 1 }, 4 * sizeof(float));
+    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &size, &view), ==, (int)SDFGI_OK);
+    gi_test_resolve(t, view, &desc);
+    gpu_test_image_read(&t->gpu, view->diffuse.handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
                         (VkExtent3D){ WIDTH, HEIGHT, 1 }, 8, texels);
     for (int i = 0; i < DIRECTIONS; i++)
         found[i] = (double)gi_test_half(texels[i][1]);
-    sdfgi_view_destroy(t->gi, p.view);
+    sdfgi_view_destroy(t->gi, view);
     gpu_test_image_destroy(&t->gpu, &depth);
     gpu_test_image_destroy(&t->gpu, &normal);
 }

@@ -72,17 +72,10 @@ static void mirror_close(struct mirror *m)
     gpu_test_image_destroy(&m->t->gpu, &m->roughness);
 }
 
-static void record_resolve(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index;
-    struct mirror *m = user;
-    REQUIRE_CMP((int)sdfgi_view_resolve(m->t->gi, m->view, cmd, &m->desc), ==, (int)SDFGI_OK);
-}
-
 /* Radiance in channel 1, metres in channel 3. */
 static void mirror_read(struct mirror *m, uint16_t (*texels)[4])
 {
-    gpu_test_submit(&m->t->gpu, record_resolve, m);
+    gi_test_resolve(m->t, m->view, &m->desc);
     gpu_test_image_read(&m->t->gpu, m->view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL,
                         VK_IMAGE_ASPECT_COLOR_BIT, (VkExtent3D){ m->width, m->height, 1 }, 8, texels);
 }

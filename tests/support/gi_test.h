@@ -90,6 +90,8 @@ void gi_test_lookup(struct gi_test *t, VkDescriptorSet set, const float *viewer,
 
 /* Records a gather that must succeed, and waits for it. */
 void gi_test_gather(struct gi_test *t, const struct sdfgi_gather_desc *desc);
+/* The same of a view's resolve. */
+void gi_test_resolve(struct gi_test *t, sdfgi_view *view, const struct sdfgi_resolve_desc *desc);
 /* An image for sdfgi_gather: the output if it has four half floats a texel, else a depth or normals. */
 struct gpu_test_image gi_test_gather_image(struct gi_test *t, VkFormat format, uint32_t texel_size,
                                            uint32_t width, uint32_t height, const void *texels);

@@ -65,6 +65,25 @@ void gi_test_gather(struct gi_test *t, const struct sdfgi_gather_desc *desc)
     gpu_test_submit(&t->gpu, gather_record, &g);
 }
 
+struct resolve {
+    sdfgi *gi;
+    sdfgi_view *view;
+    const struct sdfgi_resolve_desc *desc;
+};
+
+static void resolve_record(VkCommandBuffer cmd, uint32_t index, void *user)
+{
+    (void)index;
+    const struct resolve *r = user;
+    REQUIRE_CMP((int)sdfgi_view_resolve(r->gi, r->view, cmd, r->desc), ==, (int)SDFGI_OK);
+}
+
+void gi_test_resolve(struct gi_test *t, sdfgi_view *view, const struct sdfgi_resolve_desc *desc)
+{
+    struct resolve r = { t->gi, view, desc };
+    gpu_test_submit(&t->gpu, resolve_record, &r);
+}
+
 struct gpu_test_image gi_test_gather_image(struct gi_test *t, VkFormat format, uint32_t texel_size,
                                            uint32_t width, uint32_t height, const void *texels)
 {
