@@ -81,8 +81,8 @@
       R(OCCLUSION) | R(ALBEDO) | R(NORMALS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SCRATCH) |                \
       R(IRRADIANCE) | R(SEEN), R(LIGHT) | R(SURFACES) | R(GATHERED) | R(COUNTERS))                           \
     X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
-      ALL_LIGHT_CELLS, cell_gather, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
-      R(GATHERED) | R(SEEN) | R(COUNTERS), R(SURFACES))                                                      \
+      ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
+      R(SEEN) | R(COUNTERS), R(GATHERED) | R(SURFACES))                                                      \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
       ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                 \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \

@@ -121,7 +121,7 @@ static const struct row rows[] = {
         "once; probe_depth compares with mean depths around each probe."),
     RECREATE(surface_light, "sdfgi_surface_light", ENUM, SDFGI_SURFACE_LIGHT_CELLS, 0, 1, "", "probes,cells",
         "accuracy on surfaces: contact shadows, and light that changes within the distance between probes",
-        "cells: sdfgi_cell_rays_per_frame rays in each frame until light has converged, and 100 bytes per "
+        "cells: sdfgi_cell_rays_per_frame rays in each frame until light has converged, and 128 bytes per "
         "light cell",
         "What lights surfaces. cells: each light cell gathers light with rays of its own. probes: light "
         "cells read the probes around them, and send no rays."),

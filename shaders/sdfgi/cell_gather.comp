@@ -35,6 +35,7 @@ shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not
 shared gathered_state states[CELLS]; /* with which the visits begin */
 shared uint changes[CELLS];          /* float bits: how far a mean has changed */
 shared uint lights[CELLS];           /* float bits: luminance of the brightest mean */
+shared uint noises[CELLS];           /* float bits: gathered_noise of the visit */
 shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
 shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
@@ -235,19 +236,33 @@ void send_rays(uint cascade, uint rays)
     }
 }
 
-/* The mean of what the rays of a surface have found, and of what those towards emitters have. */
-vec3 light_of_rays(uint first, uint rays)
+/* Variance of the mean of so many values: from their sum, and from that of their squares. */
+float variance_of_mean(float sum, float squares, float count)
+{
+    const float mean = sum / count;
+    return max(squares / count - mean * mean, 0.0) / count;
+}
+
+/* The mean of what the rays of a surface have found, and of what those towards emitters have. In a: the
+ * variance of its luminance. */
+vec4 light_of_rays(uint first, uint rays)
 {
     vec4 sum = vec4(0.0);
     vec3 emitters = vec3(0.0);
+    vec2 squares = vec2(0.0);
     for (uint i = 0u; i < rays; i++) {
         const vec4 ray = sdfgi_half4_decode(found[first + i]);
+        const float light = sdfgi_light_luminance(ray.rgb);
         if (i < RAYS)
             sum += vec4(ray.rgb * ray.a, ray.a);
         else
             emitters += ray.rgb;
+        squares += light * light * (i < RAYS ? vec2(ray.a, 0.0) : vec2(0.0, 1.0));
     }
-    return sum.rgb / max(sum.a, 1.0) + emitters / float(EMITTER_RAYS);
+    const float count = max(sum.a, 1.0);
+    return vec4(sum.rgb / count + emitters / float(EMITTER_RAYS),
+                variance_of_mean(sdfgi_light_luminance(sum.rgb), squares.x, count) +
+                    variance_of_mean(sdfgi_light_luminance(emitters), squares.y, float(EMITTER_RAYS)));
 }
 
 /* The state with which a visit begins: under new lights a cycle begins anew. */
@@ -304,12 +319,18 @@ uint mean_after(uint cascade, uint own)
     return cycle_of(cascade, own) < sdfgi_frame.cycle_visits ? GATHERED_ROUGH : GATHERED_COMPLETE;
 }
 
+const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half floats */
+
 /* Adds a visit to the sum of a surface. The last visit of a cycle makes the sum the mean. */
-void add_visit(uint cascade, uint surface, vec3 light)
+void add_visit(uint cascade, uint surface, vec4 light)
 {
     const uint own = surface / 6u, axis = surface % 6u, entry = entries[own];
     gathered_light gathered = load_light(cascade, entry, axis);
-    gathered.sum = gathered_add(states[own], gathered, light);
+    gathered.sum = gathered_add(states[own], gathered, light.rgb);
+    const float shown =
+        sdfgi_light_luminance(states[own].mean >= GATHERED_ROUGH ? gathered.mean : gathered.sum) +
+        sdfgi_frame.dark;
+    atomicMax(noises[own], floatBitsToUint(min(light.a / (shown * shown), MOST_NOISE)));
     if (ends_cycle(cascade, own)) {
         const vec3 mean = gathered_mean(states[own], gathered.sum, states[own].visits + 1u);
         const bool known = states[own].mean == mean_after(cascade, own);
@@ -335,6 +356,10 @@ uint next_mark(uint cascade, uint own)
 void end_visit(uint cascade, uint own)
 {
     gathered_state state = states[own];
+    const gathered_noise noise = gathered_load_noise(cascade, entries[own]);
+    gathered_store_noise(
+        cascade, entries[own],
+        gathered_add_noise(state, noise, uintBitsToFloat(noises[own]), ends_cycle(cascade, own)));
     state.visits++;
     if (ends_cycle(cascade, own))
         state = gathered_state(0u, mean_after(cascade, own), state.epoch, next_mark(cascade, own));
@@ -398,7 +423,7 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
     if (axis == 0u) {
         cells[own] = cell;
         entries[own] = entry;
-        facing[own] = changes[own] = lights[own] = 0u;
+        facing[own] = changes[own] = lights[own] = noises[own] = 0u;
         if (there)
             states[own] = state_of_visit(cascade, entry);
     }

@@ -19,7 +19,8 @@
 
 /* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
  * S and P, 48 bits each (lib/rgb48.glsl); the packed gathered_state; and per axis the irradiance before it is
- * filtered, as the surfaces' of sdfgi_resources.glsl. Sums count a visit as 1 / sdfgi_frame.cycle_visits. */
+ * filtered, and between the two runs of the filter, as the surfaces' of sdfgi_resources.glsl; and its noise.
+ * Sums count a visit as 1 / sdfgi_frame.cycle_visits. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
 {
     uint sdfgi_gathered[];
@@ -57,7 +58,7 @@ uint gathered_word(uint cascade, uint plane, uint entry)
     return (cascade * SDFGI_GATHERED_WORDS + plane) * sdfgi_frame.light_cell_room + entry;
 }
 
-const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u;
+const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u, GATHERED_BETWEEN = 25u, GATHERED_NOISE = 31u;
 
 gathered_state gathered_load_state(uint cascade, uint entry)
 {
@@ -69,6 +70,47 @@ void gathered_store_state(uint cascade, uint entry, gathered_state state)
 {
     sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)] =
         state.visits | state.mean << 8u | state.epoch << 10u | state.mark << 18u;
+}
+
+/* Noise: variance over the square of what the cell shows, of the axis with the most of it. */
+struct gathered_noise {
+    float sum;   /* of the means of this cycle's visits so far */
+    float shown; /* of what the cell shows; 0 while that is what probes tell */
+};
+
+/* The high half of the word is that of the float `shown`, which therefore costs nothing to unpack; the low
+ * one is `sum` as a half float. */
+float gathered_load_shown_noise(uint cascade, uint entry)
+{
+    return uintBitsToFloat(sdfgi_gathered[gathered_word(cascade, GATHERED_NOISE, entry)] & 0xffff0000u);
+}
+
+gathered_noise gathered_load_noise(uint cascade, uint entry)
+{
+    const uint packed = sdfgi_gathered[gathered_word(cascade, GATHERED_NOISE, entry)];
+    return gathered_noise(unpackHalf2x16(packed).x, uintBitsToFloat(packed & 0xffff0000u));
+}
+
+void gathered_store_noise(uint cascade, uint entry, gathered_noise noise)
+{
+    sdfgi_gathered[gathered_word(cascade, GATHERED_NOISE, entry)] =
+        (floatBitsToUint(noise.shown) & 0xffff0000u) | packHalf2x16(vec2(noise.sum, 0.0));
+}
+
+/* Noise of one visit in a first cycle, whatever its rays found: rays that would have found more may come. */
+const float GATHERED_NOISE_OF_VISIT = 0.5;
+
+/* Noise after a visit that found `found`; `state` is the one before it. In a first cycle the last two visits
+ * count most. */
+gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, float found, bool ends_cycle)
+{
+    const float visits = float(state.visits + 1u);
+    noise.sum = found + (state.visits > 0u ? noise.sum : 0.0);
+    if (ends_cycle)
+        noise.shown = noise.sum / (visits * visits);
+    else if (state.mean < GATHERED_ROUGH)
+        noise.shown = GATHERED_NOISE_OF_VISIT / min(visits, 2.0);
+    return noise;
 }
 
 /* ---- Marks: logarithms of light in MARK_STEPS parts of an octave, modulo eight octaves. They tell small

@@ -39,8 +39,10 @@ void rescale_gathered(uint cascade, uint entry)
         const gathered_light light = gathered_load(cascade, entry, axis);
         gathered_store(cascade, entry, axis,
                        gathered_light(light.sum * args.factor, light.mean * args.factor));
-        const uint raw = gathered_word(cascade, GATHERED_RAW + axis, entry);
+        const uint raw = gathered_word(cascade, GATHERED_RAW + axis, entry),
+                   between = gathered_word(cascade, GATHERED_BETWEEN + axis, entry);
         sdfgi_gathered[raw] = rescale_surface(sdfgi_gathered[raw]);
+        sdfgi_gathered[between] = rescale_surface(sdfgi_gathered[between]);
     }
 }
 

@@ -95,7 +95,7 @@ struct sdfgi_light_bounce_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 76);
 
-/* cell_gather, cell_filter: per cascade entries [first, end) of the light list. */
+/* Per cascade entries [first, end) of the light list. */
 struct sdfgi_cell_gather_args {
     uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
     uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */
@@ -103,6 +103,12 @@ struct sdfgi_cell_gather_args {
     uint marks;                      /* a bit per cascade: its cells mark how much light they have */
 };
 SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 104);
+
+struct sdfgi_cell_filter_args {
+    uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES]; /* as cell_gather's */
+    uint run;                                                /* 0 or 1 */
+};
+SDFGI_ASSERT_SIZE(sdfgi_cell_filter_args, 68);
 
 struct sdfgi_light_rescale_args {
     float factor; /* a power of two */

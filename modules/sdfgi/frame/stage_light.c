@@ -54,10 +54,14 @@ static void add_bounce(const struct plan_stage *stage, const struct gather_range
     struct sdfgi_light_bounce_args *bounce = &work->args.light_bounce;
     bounce->without_probes = probes_are_dark(stage);
     fill_ranges(work, bounce->first, bounce->end, ranges, count, cascades, 1);
-    work = sdfgi_stage_add(stage, PASS_CELL_FILTER, 0);
-    if (work)
-        fill_ranges(work, work->args.cell_gather.first, work->args.cell_gather.end, ranges, count, cascades,
-                    1);
+    for (uint32_t run = 0; run < 2; run++) {
+        work = sdfgi_stage_add(stage, PASS_CELL_FILTER, 0);
+        if (!work)
+            break;
+        struct sdfgi_cell_filter_args *filter = &work->args.cell_filter;
+        filter->run = run;
+        fill_ranges(work, filter->first, filter->end, ranges, count, cascades, 1);
+    }
 }
 
 /* All entries. */

@@ -184,6 +184,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_light_direct:
     case ARGS_light_bounce:
     case ARGS_cell_gather:
+    case ARGS_cell_filter:
     case ARGS_light_rescale:
     case ARGS_gather:
     case ARGS_debug_view:

@@ -16,6 +16,7 @@ enum {
     SIZE_light_direct = ARGS_SIZE(light_direct),
     SIZE_light_bounce = ARGS_SIZE(light_bounce),
     SIZE_cell_gather = ARGS_SIZE(cell_gather),
+    SIZE_cell_filter = ARGS_SIZE(cell_filter),
     SIZE_light_rescale = ARGS_SIZE(light_rescale),
     SIZE_probe_blend = ARGS_SIZE(probe_blend),
     SIZE_gather = ARGS_SIZE(gather),

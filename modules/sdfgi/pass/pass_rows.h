@@ -84,6 +84,7 @@ enum pass_args {
     ARGS_light_direct,
     ARGS_light_bounce,
     ARGS_cell_gather,
+    ARGS_cell_filter,
     ARGS_light_rescale,
     ARGS_probe_blend,
     ARGS_gather,

@@ -54,6 +54,7 @@ union work_args {
     struct sdfgi_light_direct_args light_direct;
     struct sdfgi_light_bounce_args light_bounce;
     struct sdfgi_cell_gather_args cell_gather;
+    struct sdfgi_cell_filter_args cell_filter;
     struct sdfgi_light_rescale_args light_rescale;
     struct sdfgi_probe_blend_args probe_blend;
     struct sdfgi_gather_args gather; /* also the beginning of what other passes of DOMAIN_PIXELS have */
