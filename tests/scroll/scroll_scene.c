@@ -28,7 +28,7 @@ struct sdfgi_settings scroll_settings(uint32_t resolution)
 void scroll_use_cells(struct sdfgi_settings *settings, uint32_t visits)
 {
     settings->surface_light = SDFGI_SURFACE_LIGHT_CELLS;
-    settings->cell_rays_per_frame = 1 << 22;
+    settings->cell_rays_per_frame = scroll_is_full() ? 1 << 22 : 1 << 15;
     if (!scroll_is_full())
         settings->cell_rays = visits * SDFGI_VISIT_RAYS;
 }
