@@ -20,7 +20,7 @@ SDFGI_PUSH(sdfgi_cell_filter_args);
  * alike; and relative differences of cells without noise, which have rays from different places. Of nine like
  * cells a third of the noise is left to the second run. */
 const int DISTANCE[2] = int[](1, 2);
-const float NOISE_SCALE[2] = float[](3.0, 1.2);
+const float NOISE_SCALE[2] = float[](3.0, 0.9);
 const float LEAST_DIFFERENCE[2] = float[](0.25, 0.05);
 
 /* Relative difference up to which two cells are alike, by the sum of their noise. */
