@@ -4,6 +4,7 @@
 #include "failing_vulkan.h"
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <sdfgi/debug.h>
 #include <vulkan/vulkan.h>
@@ -475,7 +476,7 @@ static void a_device_lost_while_times_are_read_is_noticed(void **state)
     REQUIRE_CMP(counting.live, ==, 0);
 }
 
-int main(void)
+TEST_GROUP(allocation)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * black. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <vulkan/vulkan.h>
 
@@ -144,7 +145,7 @@ static void the_blank_set_holds_at_most_64_kib(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(blank_set)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * test_debug_views.c has the colours. */
 #include "debug_pixel.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -258,7 +259,7 @@ static void a_matrix_without_directions_shows_the_sky(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(debug)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

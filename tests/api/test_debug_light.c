@@ -4,6 +4,7 @@
 #include "debug_pixel.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -233,7 +234,7 @@ static void what_is_not_known_is_purple(void **state)
     REQUIRE_COLOR(look(t, SDFGI_DEBUG_IRRADIANCE), 0, 0, 0, ROUNDING);
 }
 
-int main(void)
+TEST_GROUP(debug_light)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "debug_pixel.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 
@@ -182,7 +183,7 @@ static void emission_is_shown_at_the_exposure(void **state)
     REQUIRE_COLOR(debug_look(t, SDFGI_DEBUG_EMISSION, (double[]){ -3, 0.5, 0 }, 2), 0, 0, 0, 0);
 }
 
-int main(void)
+TEST_GROUP(debug_views)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

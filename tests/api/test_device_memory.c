@@ -6,6 +6,7 @@
 #include "gi_test.h"
 #include "pool_allocator.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 
@@ -222,7 +223,7 @@ static void what_a_careless_host_gives_is_refused(void **state)
     t.gpu.messages->quiet = false;
 }
 
-int main(void)
+TEST_GROUP(device_memory)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

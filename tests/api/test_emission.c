@@ -2,6 +2,7 @@
  * Emission keeps its value whatever else the scene holds. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <sdfgi/inspect.h>
 
@@ -211,7 +212,7 @@ static void brighter_materials_leave_settled_light_alone(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(emission)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(emission_keeps_its_digits),

@@ -3,6 +3,7 @@
  * promise is looked at: they name function, object, field, value and limit. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 
@@ -474,7 +475,7 @@ static void frames_are_checked(void **state)
     REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
 }
 
-int main(void)
+TEST_GROUP(errors)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

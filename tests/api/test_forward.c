@@ -4,6 +4,7 @@
 #include "forward_pass.h"
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 enum { TEXELS = FORWARD_SIDE * FORWARD_SIDE };
 
@@ -107,7 +108,7 @@ static void one_pipeline_does_for_on_and_off(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(forward)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -2,6 +2,7 @@
  * The screen pass and the lookup in a shader of the host's give the same irradiance. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -283,7 +284,7 @@ static void gather_refuses_bad_descriptors(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(gather)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

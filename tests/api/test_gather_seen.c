@@ -2,6 +2,7 @@
  * Light cells that a gathered picture reads are visited more often than others. */
 #include "gather_picture.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,7 +82,7 @@ static void what_a_picture_shows_is_visited_first(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(gather_seen)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

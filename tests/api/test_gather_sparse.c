@@ -2,6 +2,7 @@
  * Gathers at half and quarter resolution against those at full resolution. */
 #include "gather_picture.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -381,7 +382,7 @@ static void the_same_picture_comes_out_the_same_to_the_bit(void **state)
     picture_finish(&p);
 }
 
-int main(void)
+TEST_GROUP(gather_sparse)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

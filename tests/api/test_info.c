@@ -2,6 +2,7 @@
  * What the library says of a life without trouble, to hosts that want to know. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <vulkan/vulkan.h>
 
@@ -121,7 +122,7 @@ static void who_does_not_ask_hears_none(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(info)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -2,6 +2,7 @@
  * Copies of the volumes hold what was voxelised, at the places the header says. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <sdfgi/inspect.h>
@@ -347,7 +348,7 @@ static void what_lies_behind_counts_as_far_as_it_shows(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(inspect)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -2,6 +2,7 @@
  * Updates whose command buffers never run: cancelled ones leave no trace, others are noticed. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -264,7 +265,7 @@ static void a_reset_is_a_fresh_start_in_the_same_memory(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(lost_update)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cancelled_updates_leave_no_trace),

@@ -2,6 +2,7 @@
  * The estimate before creation is what is allocated, by category, and stays within the target. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 
@@ -104,7 +105,7 @@ static void every_memory_category_has_a_name(void **state)
         REQUIRE_TRUE(sdfgi_memory_category_name((enum sdfgi_memory_category)i)[0] != 0);
 }
 
-int main(void)
+TEST_GROUP(memory_report)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

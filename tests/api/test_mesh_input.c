@@ -3,6 +3,7 @@
  * the numbers in the message. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -161,7 +162,7 @@ static int close_context(void **state)
     return 0;
 }
 
-int main(void)
+TEST_GROUP(mesh_input)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

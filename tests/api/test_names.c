@@ -4,6 +4,7 @@
 #include "gi_test.h"
 #include "named_vulkan.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <sdfgi/debug.h>
 
@@ -158,7 +159,7 @@ static void every_object_has_a_name_of_the_library(void **state)
     REQUIRE_CMP(named_vulkan.strays, ==, 0u);
 }
 
-int main(void)
+TEST_GROUP(names)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

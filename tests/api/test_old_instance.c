@@ -3,6 +3,7 @@
  * sdfgi_create says what is wrong. */
 #include "gpu_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <string.h>
 #include <vulkan/vulkan.h>
@@ -158,7 +159,7 @@ static void a_version_that_the_driver_shows_is_too_low_is_refused(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(old_instance)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

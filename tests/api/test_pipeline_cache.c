@@ -4,6 +4,7 @@
 #include "gi_test.h"
 #include "layered_vulkan.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <sdfgi/debug.h>
 #include <vulkan/vulkan.h>
@@ -132,7 +133,7 @@ static void a_host_without_a_cache_gets_none(void **state)
     REQUIRE_CMP(seen.others, ==, 0u);
 }
 
-int main(void)
+TEST_GROUP(pipeline_cache)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "counting_vulkan.h"
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -471,7 +472,7 @@ static void what_makes_no_sense_is_refused(void **state)
 #define WITH_CONTEXT(test)      cmocka_unit_test_setup_teardown(test, open_context, close_context)
 #define WITH_SLOW_CONTEXT(test) cmocka_unit_test_setup_teardown(test, open_slow_context, close_context)
 
-int main(void)
+TEST_GROUP(prepare)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

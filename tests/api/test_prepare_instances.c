@@ -4,6 +4,7 @@
 #include "counting_vulkan.h"
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdlib.h>
 
@@ -132,7 +133,7 @@ static void new_volumes_have_room_for_all_that_is_there(void **state)
 
 #define WITH_CONTEXT(test) cmocka_unit_test_setup_teardown(test, open_context, close_context)
 
-int main(void)
+TEST_GROUP(prepare_instances)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

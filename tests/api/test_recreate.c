@@ -2,6 +2,7 @@
  * What the table of properties says about recreation holds for every property. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -125,7 +126,7 @@ static void settings_that_change_without_an_update_hold_no_memory(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(recreate)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

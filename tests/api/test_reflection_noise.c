@@ -2,6 +2,7 @@
  * Rays of a lobe are few in each pixel: reflections of smooth surfaces show no pattern of them. */
 #include "gather_picture.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -110,7 +111,7 @@ static void squares_of_rays_do_not_show(void **state)
     REQUIRE_CMP(worst, <=, 0.02);
 }
 
-int main(void)
+TEST_GROUP(reflection_noise)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * projected to what they show. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <sdfgi/sky.h>
 
@@ -259,7 +260,7 @@ static int close_context(void **state)
     return 0;
 }
 
-int main(void)
+TEST_GROUP(sky_harmonics)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -7,6 +7,7 @@
 #include "counting_vulkan.h"
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <vulkan/vulkan.h>
 
@@ -320,7 +321,7 @@ static void switches_make_nothing(void **state)
     require_pictures_with_light();
 }
 
-int main(void)
+TEST_GROUP(toggle)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * validation watches. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <vulkan/vulkan.h>
 
@@ -63,7 +64,7 @@ static void an_update_sees_vertices_that_were_uploaded_before_it(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(uploads)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

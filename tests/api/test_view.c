@@ -2,6 +2,7 @@
  * Views: what a resolve makes of a picture, what it needs for that, and what it leaves out. */
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -468,7 +469,7 @@ static int finish(void **state)
     return 0;
 }
 
-int main(void)
+TEST_GROUP(view)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_without_smooth_materials_makes_nothing_for_reflections),

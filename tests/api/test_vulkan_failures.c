@@ -4,6 +4,7 @@
 #include "failing_vulkan.h"
 #include "gi_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <vulkan/vulkan.h>
 
@@ -353,7 +354,7 @@ static int close_device(void **state)
     return 0;
 }
 
-int main(void)
+TEST_GROUP(vulkan_failures)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -5,6 +5,7 @@
 #include "gi_test.h"
 #include "gpu_test_compute.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include "wild_lookup.comp.h"
@@ -121,7 +122,7 @@ static void lookups_of_anything_give_finite_light(void **state)
     REQUIRE_CMP(bad, ==, 0);
 }
 
-int main(void)
+TEST_GROUP(wild_lookups)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

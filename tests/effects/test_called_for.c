@@ -4,6 +4,7 @@
  * Shadow rays are counted in tests/pass/test_trace.c. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,7 +111,7 @@ static void no_cascade_is_read_before_the_blend(void **state)
     REQUIRE_CMP(memcmp(before[2], after[2], sizeof before[2]), !=, 0);
 }
 
-int main(void)
+TEST_GROUP(called_for)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

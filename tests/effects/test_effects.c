@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -409,7 +410,7 @@ static void indirect_energy_scales_a_light_and_0_means_1(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(effects)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

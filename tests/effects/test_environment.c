@@ -12,6 +12,7 @@
 #include "host_internal.h"
 #include "host_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <string.h>
@@ -106,7 +107,7 @@ static void a_white_box_under_an_even_map_vanishes(void **state)
         REQUIRE_NEAR(middle[c], 2, 0.1);
 }
 
-int main(void)
+TEST_GROUP(environment)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_background_is_the_map_the_right_way_round),

@@ -12,6 +12,7 @@
 #include "fog_scene.h"
 #include "host_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,7 +163,7 @@ static void debug_views_have_two_halves(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(eyes)
 {
     device = host_test_open();
     if (!device)

@@ -10,6 +10,7 @@
 #include "fog_scene.h"
 #include "host_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -419,7 +420,7 @@ static void nothing_crawls(void **state)
     fog_stage_close(&stage);
 }
 
-int main(void)
+TEST_GROUP(fog)
 {
     device = host_test_open();
     if (!device)

@@ -2,6 +2,7 @@
  * What a scene calls for is all that is worked on: cells of a step, pixels that show something. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdlib.h>
 
@@ -121,7 +122,7 @@ static void background_calls_for_nothing(void **state)
     REQUIRE_TRUE(lit);
 }
 
-int main(void)
+TEST_GROUP(least)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -14,6 +14,7 @@
 #include "fog_scene.h"
 #include "host_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -167,7 +168,7 @@ static void fog_that_is_left_out_is_no_fog(void **state)
     REQUIRE_CMP(memcmp(none, left_out, sizeof none), ==, 0);
 }
 
-int main(void)
+TEST_GROUP(no_fog)
 {
     device = host_test_open();
     if (!device)

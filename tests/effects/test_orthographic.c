@@ -10,6 +10,7 @@
 #include "fog_scene.h"
 #include "host_test.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -364,7 +365,7 @@ static void a_place_has_the_same_light_in_both_projections(void **state)
     require_same_light(true);
 }
 
-int main(void)
+TEST_GROUP(orthographic)
 {
     device = host_test_open();
     if (!device)

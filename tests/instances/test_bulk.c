@@ -3,6 +3,7 @@
  * and handles that are as those of single ones. */
 #include "box_field.h"
 #include "require.h"
+#include "test_group.h"
 #include "scene/scene_check.h"
 #include "test_memory.h"
 
@@ -251,7 +252,7 @@ static void meshes_and_materials_know_their_instances(void **state)
     test_mesh_destroy(&unit);
 }
 
-int main(void)
+TEST_GROUP(bulk)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "box_field.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <stdlib.h>
@@ -228,7 +229,7 @@ static void changes_far_away_are_there_once_the_camera_is(void **state)
     free(fresh);
 }
 
-int main(void)
+TEST_GROUP(changes)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -2,6 +2,7 @@
  * Instances leave in the volumes what one mesh with the same triangles leaves, bit for bit. */
 #include "box_field.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <stdio.h>
@@ -226,7 +227,7 @@ static int close_context(void **state)
     return 0;
 }
 
-int main(void)
+TEST_GROUP(volumes)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

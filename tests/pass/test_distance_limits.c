@@ -1,50 +1,42 @@
 /* SPDX-License-Identifier: MIT
  * Distances where there is nothing, everything, or one sub-voxel in a corner (HARD_CASES rows 5 to 8). */
-#include "gpu_test_compute.h"
 #include "hard_case.h"
 #include "oracle_edt.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
-
-#include "gi_lookup.comp.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Irradiance of the host's lookup at points of a grid through the whole cascade, in six directions. */
+/* A grid through the whole cascade, in six directions. */
 enum { LOOKUPS_A_SIDE = 6, LOOKUPS = 6 * LOOKUPS_A_SIDE * LOOKUPS_A_SIDE * LOOKUPS_A_SIDE };
 
-struct lookup {
-    float position[4], normal[4], irradiance[4];
-};
-
-static void fill_lookups(struct lookup lookups[LOOKUPS])
+static void fill_points(struct gi_test_point points[LOOKUPS])
 {
     for (uint32_t i = 0; i < LOOKUPS; i++) {
         const uint32_t at = i / 6, side = i % 6;
         const uint32_t index[3] = { at % LOOKUPS_A_SIDE, at / LOOKUPS_A_SIDE % LOOKUPS_A_SIDE,
                                     at / LOOKUPS_A_SIDE / LOOKUPS_A_SIDE };
-        lookups[i] = (struct lookup){ 0 };
+        points[i] = (struct gi_test_point){ 0 };
         for (int k = 0; k < 3; k++)
-            lookups[i].position[k] = -6.37f + 2.51f * (float)index[k];
-        lookups[i].normal[side / 2] = side & 1 ? -1 : 1;
+            points[i].position[k] = -6.37f + 2.51f * (float)index[k];
+        points[i].normal[side / 2] = side & 1 ? -1 : 1;
     }
 }
 
-#define PI 3.14159265358979323846
-
-static const struct lookup *look_up(struct gi_test *t)
+static float (*look_up(struct gi_test *t))[3]
 {
-    static struct lookup lookups[LOOKUPS];
-    fill_lookups(lookups);
-    const struct gpu_test_shader shader = { gi_lookup_comp, sizeof gi_lookup_comp,
-                                            sdfgi_get_descriptor_set_layout(t->gi),
-                                            sdfgi_get_descriptor_set(t->gi) };
-    gpu_test_compute(&t->gpu, &shader, LOOKUPS, lookups, sizeof lookups);
-    return lookups;
+    static struct gi_test_point points[LOOKUPS];
+    static float irradiance[LOOKUPS][3];
+    fill_points(points);
+    gi_test_irradiance(t, points, LOOKUPS, irradiance);
+    return irradiance;
 }
+
+#define PI 3.14159265358979323846
 
 static void hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky(void **state)
 {
@@ -60,11 +52,11 @@ static void hard_05_an_empty_cascade_is_far_from_everything_and_lit_by_the_sky(v
         near += distances[i] != (float)SDFGI_DISTANCE_REACH;
     free(distances);
     HARD_CASE_AT_MOST(5, "cells without the farthest distance", near, 0);
-    const struct lookup *lookups = look_up(&pass_context);
+    float(*irradiance)[3] = look_up(&pass_context);
     double worst = 0;
     for (uint32_t i = 0; i < LOOKUPS; i++)
         for (int k = 0; k < 3; k++) {
-            const double ratio = (double)lookups[i].irradiance[k] / (PI * (double)sky.zenith[k]);
+            const double ratio = (double)irradiance[i][k] / (PI * (double)sky.zenith[k]);
             worst = isfinite(ratio) ? fmax(worst, fabs(ratio - 1)) : INFINITY;
         }
     HARD_CASE_AT_MOST(5, "light off the sky's, relative", worst, 1e-3); /* half floats keep 11 bits */
@@ -104,10 +96,10 @@ static void hard_06_a_full_cascade_has_no_light_cells(void **state)
     uint32_t *groups = gi_test_read(&pass_context, RESOURCE_INDIRECT, NULL);
     HARD_CASE_AT_MOST(6, "groups of work", groups[0], 0);
     free(groups);
-    const struct lookup *lookups = look_up(&pass_context);
+    float(*irradiance)[3] = look_up(&pass_context);
     for (uint32_t i = 0; i < LOOKUPS; i++)
         for (int k = 0; k < 3; k++)
-            REQUIRE_NEAR(lookups[i].irradiance[k], 0, 0);
+            REQUIRE_NEAR(irradiance[i][k], 0, 0);
     test_mesh_destroy(&mesh);
 }
 
@@ -217,7 +209,7 @@ static void hard_07_a_bit_in_any_corner_is_measured_as_far_as_distances_reach(vo
         require_corner_distances(128, 2);
 }
 
-int main(void)
+TEST_GROUP(distance_limits)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

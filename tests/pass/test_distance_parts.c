@@ -6,6 +6,7 @@
 #include "oracle_edt.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -437,7 +438,7 @@ static void where_nothing_is_kept_all_is_searched(void **state)
     REQUIRE_CMP(make_parts(&pass_context, NULL, 0), ==, (uint32_t)CELLS);
 }
 
-int main(void)
+TEST_GROUP(distance_parts)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -5,6 +5,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -119,7 +120,7 @@ static void hard_57_light_is_as_recorded(void **state)
                        fmin(99, 20 * log10(most / sqrt(squares))), 60);
 }
 
-int main(void)
+TEST_GROUP(drivers)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <sdfgi/inspect.h>
@@ -247,7 +248,7 @@ static void layers_count_once(void **state)
     test_mesh_destroy(&layers);
 }
 
-int main(void)
+TEST_GROUP(emitted_power)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Encodings of shaders/lib on the device against references in double precision (HARD_CASES rows 28, 29, 36,
- * 40, 41 and 67). */
+ * 40, 41, 56 and 67). */
 #include "gpu_test_compute.h"
 #include "hard_case.h"
 #include "oracle_encode.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include "encode_light.comp.h"
@@ -384,7 +385,50 @@ static void sky_light_agrees_with_quadrature(void **state)
     }
 }
 
-int main(void)
+/* ---- Denormal numbers */
+
+/* Numbers below the smallest normal one, each beside others of any size. */
+static float maybe_denormal(struct test_random *random)
+{
+    static const float values[] = { 1e-40f, 1e-45f, 0x1.fffffcp-127f, 0, 1e-3f, 1, 3e4f };
+    return values[(int)test_random_real(random, 0, 6.999)];
+}
+
+/* Runs a shader on `count` rows of `floats`, of which the first `inputs` hold such numbers, and on the same
+ * rows with zeros instead. Returns how many outputs differ. */
+static uint32_t outputs_that_differ(const uint32_t *code, size_t code_size, int floats, int inputs)
+{
+    enum { ROWS = 500, MOST = 48 };
+    static float rows[2][ROWS * MOST];
+    struct test_random random = { 56 };
+    memset(rows, 0, sizeof rows);
+    for (int i = 0; i < ROWS * floats; i++)
+        if (i % floats < inputs && (inputs == 3 || i % 4 < 3)) {
+            rows[0][i] = maybe_denormal(&random);
+            rows[1][i] = fabsf(rows[0][i]) < 0x1p-126f ? 0 : rows[0][i];
+        }
+    for (int k = 0; k < 2; k++)
+        gpu_test_compute_alone(code, code_size, ROWS, rows[k], (size_t)ROWS * (size_t)floats * sizeof(float));
+    uint32_t differ = 0;
+    for (int i = 0; i < ROWS * floats; i++)
+        differ +=
+            (i % floats >= inputs || i % 4 == 3) && memcmp(&rows[0][i], &rows[1][i], sizeof(float)) != 0;
+    return differ;
+}
+
+/* Light that is brighter or darker by so little is the same light. */
+static void hard_56_denormals_are_encoded_as_zero(void **state)
+{
+    (void)state;
+    HARD_CASE_AT_MOST(56, "RGB9E5 texels that differ from those of 0",
+                      outputs_that_differ(encode_rgbe_comp, sizeof encode_rgbe_comp, 8, 3), 0);
+    HARD_CASE_AT_MOST(56, "48-bit colours that differ from those of 0",
+                      outputs_that_differ(encode_rgb48_comp, sizeof encode_rgb48_comp, 8, 3), 0);
+    HARD_CASE_AT_MOST(56, "light cells that differ from those of 0",
+                      outputs_that_differ(encode_light_comp, sizeof encode_light_comp, 48, 24), 0);
+}
+
+TEST_GROUP(encodings)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
@@ -396,6 +440,7 @@ int main(void)
         cmocka_unit_test(hard_36_light_cells_neither_gain_nor_lose_on_average),
         cmocka_unit_test(hard_67_random_points_stay_in_the_unit_square),
         cmocka_unit_test(sky_light_agrees_with_quadrature),
+        cmocka_unit_test(hard_56_denormals_are_encoded_as_zero),
     };
     return cmocka_run_group_tests_name("encodings", tests, NULL, NULL);
 }

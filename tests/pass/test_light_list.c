@@ -4,6 +4,7 @@
 #include "frame/stage.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <stdlib.h>
@@ -224,7 +225,7 @@ static void without_room_the_first_cells_are_listed_and_the_others_counted(void 
     REQUIRE_CMP(pass_context.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
 }
 
-int main(void)
+TEST_GROUP(light_list)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

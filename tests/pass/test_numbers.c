@@ -6,12 +6,10 @@
 #include "hard_case.h"
 #include "oracle_encode.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include "encode_chebyshev.comp.h"
-#include "encode_light.comp.h"
-#include "encode_rgb48.comp.h"
-#include "encode_rgbe.comp.h"
 
 #include "shaders/shared/constants.h"
 
@@ -76,46 +74,6 @@ static float flushed(float value)
     return fabsf(value) < 0x1p-126f ? 0 : value;
 }
 
-static float maybe_denormal(struct test_random *random)
-{
-    static const float values[] = { 1e-40f, 1e-45f, 0x1.fffffcp-127f, 0, 1e-3f, 1, 3e4f };
-    return values[(int)test_random_real(random, 0, 6.999)];
-}
-
-/* Runs a shader on `count` rows of `floats`, of which the first `inputs` hold such numbers, and on the same
- * rows with zeros instead. Returns how many outputs differ. */
-static uint32_t outputs_that_differ(const uint32_t *code, size_t code_size, int floats, int inputs)
-{
-    enum { ROWS = 500, MOST = 48 };
-    static float rows[2][ROWS * MOST];
-    struct test_random random = { 56 };
-    memset(rows, 0, sizeof rows);
-    for (int i = 0; i < ROWS * floats; i++)
-        if (i % floats < inputs && (inputs == 3 || i % 4 < 3)) {
-            rows[0][i] = maybe_denormal(&random);
-            rows[1][i] = flushed(rows[0][i]);
-        }
-    for (int k = 0; k < 2; k++)
-        gpu_test_compute_alone(code, code_size, ROWS, rows[k], (size_t)ROWS * (size_t)floats * sizeof(float));
-    uint32_t differ = 0;
-    for (int i = 0; i < ROWS * floats; i++)
-        differ +=
-            (i % floats >= inputs || i % 4 == 3) && memcmp(&rows[0][i], &rows[1][i], sizeof(float)) != 0;
-    return differ;
-}
-
-/* Light that is brighter or darker by so little is the same light. */
-static void hard_56_denormals_are_encoded_as_zero(void **state)
-{
-    (void)state;
-    HARD_CASE_AT_MOST(56, "RGB9E5 texels that differ from those of 0",
-                      outputs_that_differ(encode_rgbe_comp, sizeof encode_rgbe_comp, 8, 3), 0);
-    HARD_CASE_AT_MOST(56, "48-bit colours that differ from those of 0",
-                      outputs_that_differ(encode_rgb48_comp, sizeof encode_rgb48_comp, 8, 3), 0);
-    HARD_CASE_AT_MOST(56, "light cells that differ from those of 0",
-                      outputs_that_differ(encode_light_comp, sizeof encode_light_comp, 48, 24), 0);
-}
-
 /* A box and a lamp of which some numbers are `tiny`, which are denormal or 0, and what was made of them. */
 static void open_tiny(struct gi_test *t, float tiny)
 {
@@ -173,13 +131,12 @@ static void hard_56_denormals_in_a_scene_are_zero(void **state)
     gi_test_close(&denormal);
 }
 
-int main(void)
+TEST_GROUP(numbers)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_43_weights_of_flat_depths_are_shares),
-        cmocka_unit_test(hard_56_denormals_are_encoded_as_zero),
         cmocka_unit_test(hard_56_denormals_in_a_scene_are_zero),
     };
     return cmocka_run_group_tests_name("numbers", tests, NULL, NULL);

@@ -6,6 +6,7 @@
 #include "oracle_trace.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -212,7 +213,7 @@ static void hard_43_depths_of_curved_walls_keep_their_variance(void **state)
     check_scene("torus", test_mesh_torus(center, 4.5, 2, test_rotation_none, 64, 32));
 }
 
-int main(void)
+TEST_GROUP(occlusion)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

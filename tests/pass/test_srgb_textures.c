@@ -3,6 +3,7 @@
  * to decode give the same albedo and the same emission, which are those of IEC 61966-2-1. */
 #include "pass_square.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -120,7 +121,7 @@ static void alpha_is_left_alone(void **state)
     gpu_test_image_destroy(&pass_context.gpu, &texture);
 }
 
-int main(void)
+TEST_GROUP(srgb_textures)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -6,6 +6,7 @@
 #include "oracle_trace.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include "trace_rays.comp.h"
@@ -478,7 +479,7 @@ static void hard_64_hits_without_a_light_cell_are_counted(void **state)
     free(counters);
 }
 
-int main(void)
+TEST_GROUP(trace)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -5,6 +5,7 @@
 #include "gpu_test_compute.h"
 #include "pass_square.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include "encode_vertex.comp.h"
@@ -261,7 +262,7 @@ static void raster_reads_them_too(void **state)
     require_rooms_are_equal(SDFGI_VOXELIZER_RASTER);
 }
 
-int main(void)
+TEST_GROUP(vertex_formats)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

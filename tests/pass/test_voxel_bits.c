@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -326,7 +327,7 @@ static void hard_63_walls_separate_in_coarser_cascades_too(void **state)
                                    SDFGI_Y_SCALE_100 });
 }
 
-int main(void)
+TEST_GROUP(voxel_bits)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -268,7 +269,7 @@ static void hard_17_coincident_triangles_take_little_more_time(void **state)
     test_mesh_destroy(&many);
 }
 
-int main(void)
+TEST_GROUP(voxel_cost)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -196,7 +197,7 @@ static void flood_stays_within_its_envelope(void **state)
     check_mesh("sphere", sphere(5.04), flood, SDFGI_Y_SCALE_50);
 }
 
-int main(void)
+TEST_GROUP(voxel_distance)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

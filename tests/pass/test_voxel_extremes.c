@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -233,7 +234,7 @@ static void raster_voxelizer_gives_the_same_needles(void **state)
     require_voxelizers_agree(mesh, SDFGI_Y_SCALE_100);
 }
 
-int main(void)
+TEST_GROUP(voxel_extremes)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -359,7 +360,7 @@ static void hard_14_raster_skips_and_counts_them_too(void **state)
     require_bad_triangles_are_skipped(SDFGI_VOXELIZER_RASTER);
 }
 
-int main(void)
+TEST_GROUP(voxel_input)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

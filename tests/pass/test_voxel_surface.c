@@ -3,6 +3,7 @@
  * there. A square of 4 m lies level in a cascade; a column of sub-voxels is a 64th of it, a block an 8th. */
 #include "pass_square.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -342,7 +343,7 @@ static void textures_cost_little(void **state)
     picture_destroy(&p);
 }
 
-int main(void)
+TEST_GROUP(voxel_surface)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "pass_square.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -133,7 +134,7 @@ static void hard_60_texels_that_are_no_light(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(voxel_values)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -21,10 +21,7 @@ int far_place_open(struct host_device **device)
     *device = host_test_open();
     if (!*device)
         return HOST_TEST_SKIP;
-    if (files_setup(NULL) == 0)
-        return 0;
-    host_device_destroy(*device);
-    return EXIT_FAILURE;
+    return files_setup(NULL) == 0 ? 0 : EXIT_FAILURE;
 }
 
 int far_place_close(struct host_device *device, int failed)

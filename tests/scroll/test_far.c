@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
 
@@ -167,7 +168,7 @@ static void hard_26_elsewhere_only_the_noise_is_another(void **state)
     gi_test_close(&here);
 }
 
-int main(void)
+TEST_GROUP(far)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

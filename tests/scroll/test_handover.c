@@ -5,6 +5,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 
 #include <math.h>
@@ -225,7 +226,7 @@ static void hard_54_a_colored_box_does_not_jump_while_cascades_step(void **state
     gi_test_close(&w.t);
 }
 
-int main(void)
+TEST_GROUP(handover)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
 
@@ -350,7 +351,7 @@ static void hard_39_light_cells_do_not_drift(void **state)
     REQUIRE_CMP(after.lamp, >, 0.1);
 }
 
-int main(void)
+TEST_GROUP(light)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

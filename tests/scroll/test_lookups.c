@@ -3,6 +3,7 @@
 #include "far_stage.h"
 #include "far_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,7 +107,7 @@ static void lookups_have_names(void **state)
     REQUIRE_CMP((int)host_lookup_from_name("eighth"), ==, (int)HOST_LOOKUP_COUNT);
 }
 
-int main(void)
+TEST_GROUP(lookups)
 {
     const int code = far_place_open(&device);
     if (code)

@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
 
@@ -81,7 +82,7 @@ static void hard_27_light_does_not_depend_on_the_place_within_a_cell(void **stat
     HARD_CASE_AT_MOST(27, "light off its mean over places, rms", worst, 0.1);
 }
 
-int main(void)
+TEST_GROUP(offsets)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * changed are forgotten, others stay, and in the end all end where those of a fresh start do. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 
 #include <stdio.h>
@@ -149,7 +150,7 @@ static void rays_through_new_air_are_remembered(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(rays)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
  * the end all is as after a fresh start. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
 
@@ -302,7 +303,7 @@ static void without_room_for_all_the_first_are_those_of_a_fresh_start(void **sta
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(relight)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * cascades stand outside under the sky. What the room settles at is shown from the first frames on. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 
 #include <math.h>
@@ -150,7 +151,7 @@ static void a_room_with_a_lamp_fills_with_light(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(rooms)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "far_stage.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,7 +116,7 @@ static void without_gi_there_is_nothing_to_sample(void **state)
     far_stage_close(&stage);
 }
 
-int main(void)
+TEST_GROUP(samples)
 {
     const int code = far_place_open(&device);
     if (code)

@@ -3,6 +3,7 @@
  * coarsest first. It ends where a start at once does. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 
 #include <stdio.h>
@@ -146,7 +147,7 @@ static void without_sdfgi_prepare_a_start_is_one_frame(void **state)
     REQUIRE_CMP(scroll.cascades_changing, ==, 0u);
 }
 
-int main(void)
+TEST_GROUP(start)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(the_first_start_takes_a_cascade_a_frame, close_contexts),

@@ -6,6 +6,7 @@
 #include "hard_case.h"
 #include "random_setting.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
 
@@ -433,7 +434,7 @@ static void a_deleted_instance_loses_its_shadow(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(streaming)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

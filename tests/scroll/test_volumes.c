@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "scroll_scene.h"
 #include "test_memory.h"
 
@@ -314,7 +315,7 @@ static void only_depths_that_look_into_news_are_made_again(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(volumes)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "gpu_test_compute.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include "air_light.comp.h"
 
@@ -266,7 +267,7 @@ static void they_get_the_same_on_walls_of_a_furnace(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(air)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -330,7 +331,7 @@ static void a_sealed_room_is_dark_under_the_sun(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(cells)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

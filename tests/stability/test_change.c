@@ -3,6 +3,7 @@
  * changes (PITFALLS: flicker, change). */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -194,7 +195,7 @@ static void light_follows_a_slow_lamp_without_noise(void **state)
     gi_test_close(&r.t);
 }
 
-int main(void)
+TEST_GROUP(change)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

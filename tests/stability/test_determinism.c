@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <stdio.h>
@@ -248,7 +249,7 @@ static void frame_slicing_does_not_change_converged_light(void **state)
         REQUIRE_NEAR((double)found[0][k] / (double)found[1][k], 1, 0.005);
 }
 
-int main(void)
+TEST_GROUP(determinism)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "light_scene.h"
 #include "oracle_encode.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -381,7 +382,7 @@ static void hard_47_a_lamp_on_a_surface_is_bounded(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(direct_light)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -240,7 +241,7 @@ static void hard_69_eight_cascades_of_nothing_render(void **state)
     HARD_CASE_AT_MOST(69, "pictures of eight cascades of nothing, off by", worst, 2e-3);
 }
 
-int main(void)
+TEST_GROUP(edges)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

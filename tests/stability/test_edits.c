@@ -2,6 +2,7 @@
  * Edits that are spread over frames: what they touch keeps its light meanwhile. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,7 +106,7 @@ static void rays_reach_what_is_gone_until_its_voxels_are(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(edits)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_that_change_nothing_keep_the_light),

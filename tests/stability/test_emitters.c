@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -366,7 +367,7 @@ static void lists_do_not_depend_on_the_way(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(emitters)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_49_lamps_of_all_sizes_give_the_light_of_their_power),

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include <math.h>
@@ -401,7 +402,7 @@ static void hard_66_positions_at_ten_kilometres(void **state)
                        position_error(t, &(struct lens){ 0.1, 20000, true, false }), 0.25);
 }
 
-int main(void)
+TEST_GROUP(fields)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -5,6 +5,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include "shaders/shared/constants.h"
 
@@ -245,7 +246,7 @@ static void hard_37_a_sphere_that_a_lamp_lights(void **state)
         HARD_CASE_AT_MOST(37, "sphere of 80 cells, off by", sphere_error(*state, 0.025f, 128), 0.025);
 }
 
-int main(void)
+TEST_GROUP(furnace)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -7,6 +7,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -259,7 +260,7 @@ static void hard_67_light_does_not_depend_on_how_many_frames_went_by(void **stat
     HARD_CASE_AT_MOST(67, "looks after 2^24 to 2^48 frames whose bits differ", differ, 0);
 }
 
-int main(void)
+TEST_GROUP(history)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

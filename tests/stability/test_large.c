@@ -2,6 +2,7 @@
  * Cascades that are too large to be voxelised at once, and many of them. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 #include "test_memory.h"
 
 #include "shaders/shared/scratch.h"
@@ -179,7 +180,7 @@ static void sky_over_eight_cascades_is_exact(void **state)
     require_sky_is_exact(128, 8);
 }
 
-int main(void)
+TEST_GROUP(large)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(parts_of_128_cells_do_not_show) };
     const struct CMUnitTest full[] = {

@@ -2,6 +2,7 @@
  * A list of light cells that was too short ends as one that had room from the start. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -154,7 +155,7 @@ static void a_settled_scene_goes_on_when_its_list_grows(void **state)
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(list_growth)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
  * whichever cascade answers. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -91,7 +92,7 @@ static void the_last_cascade_fades_alike_on_all_sides(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(plain)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_is_even_wherever_cascades_answer),

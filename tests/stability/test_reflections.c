@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include "shaders/shared/constants.h"
 
@@ -212,7 +213,7 @@ static void rays_are_sent_for_tiles_that_are_smooth(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(reflections)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -287,7 +288,7 @@ static void feedback_adds_bounces(void **state)
             REQUIRE_CMP(with[i][k], >, without[i][k]);
 }
 
-int main(void)
+TEST_GROUP(scaling)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -3,6 +3,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -272,7 +273,7 @@ static void a_room_without_a_roof_is_lit(void **state)
     REQUIRE_CMP(least, >=, 0.01);
 }
 
-int main(void)
+TEST_GROUP(sealed_room)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

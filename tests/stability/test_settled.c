@@ -4,6 +4,7 @@
  * the same walls. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -152,7 +153,7 @@ static void marks_tell_that_light_fills(void **state)
     }
 }
 
-int main(void)
+TEST_GROUP(settled)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probes_have_settled),

@@ -4,6 +4,7 @@
 #include "hard_case.h"
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -274,7 +275,7 @@ static void foot_of_a_low_kerb_is_lit_from_afar(void **state)
     REQUIRE_CMP(most, <=, 1.05);
 }
 
-int main(void)
+TEST_GROUP(sky)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -4,6 +4,7 @@
 
 #include "hard_case.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -163,7 +164,7 @@ static void hard_52_settings_that_are_toggled_in_each_frame_leave_nothing(void *
     gi_test_close(&t);
 }
 
-int main(void)
+TEST_GROUP(toggles)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

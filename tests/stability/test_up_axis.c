@@ -2,6 +2,7 @@
  * A world with another axis up, or of the other hand, has the light of the same world with +Y up, turned. */
 #include "light_scene.h"
 #include "require.h"
+#include "test_group.h"
 
 #include <sdfgi/sky.h>
 
@@ -260,7 +261,7 @@ static void other_axes_are_refused(void **state)
     REQUIRE_TRUE(none == NULL);
 }
 
-int main(void)
+TEST_GROUP(up_axis)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;

@@ -6,19 +6,29 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* The device stays for the next group of tests: so do its pipelines. */
+static struct host_device *kept;
+
+static void destroy_kept(void)
+{
+    host_device_destroy(kept);
+}
+
 struct host_device *host_test_open(void)
 {
     char error[256];
     const struct host_device_desc desc = { .select = getenv("SDFGI_TEST_DEVICE") };
-    struct host_device *device = host_device_create(&desc, error, sizeof error);
-    if (!device)
+    if (kept)
+        return kept;
+    kept = host_device_create(&desc, error, sizeof error);
+    if (!kept)
         fprintf(stderr, "skipped: %s\n", error);
-    return device;
+    else
+        atexit(destroy_kept);
+    return kept;
 }
 
 int host_test_close(struct host_device *device, int failed)
 {
-    failed += host_device_validation_count(device) > 0;
-    host_device_destroy(device);
-    return failed;
+    return failed + (host_device_validation_count(device) > 0);
 }

@@ -21,7 +21,7 @@ struct shader {
     VkDevice device;
     uint32_t *code;
     size_t size;
-    VkShaderModule module; /* the newest with this code */
+    VkShaderModule module;
     VkPipeline pipeline;
 };
 
@@ -59,15 +59,16 @@ static struct shader *shader_of_module(VkDevice device, VkShaderModule module)
     return NULL;
 }
 
+/* The validation layer looks through a shader's code for milliseconds: once will do. */
 static VKAPI_ATTR VkResult VKAPI_CALL create_module(VkDevice device, const VkShaderModuleCreateInfo *info,
                                                     const VkAllocationCallbacks *callbacks,
                                                     VkShaderModule *out)
 {
-    const VkResult result = DRIVER(device, vkCreateShaderModule)(device, info, callbacks, out);
-    for (uint32_t i = 0; i < shader_count; i++)
-        if (shaders[i].device == device && shaders[i].module == *out)
-            shaders[i].module = VK_NULL_HANDLE;
-    shader_of_code(device, info->pCode, info->codeSize)->module = *out;
+    struct shader *shader = shader_of_code(device, info->pCode, info->codeSize);
+    VkResult result = VK_SUCCESS;
+    if (!shader->module)
+        result = DRIVER(device, vkCreateShaderModule)(device, info, callbacks, &shader->module);
+    *out = shader->module;
     return result;
 }
 
@@ -111,12 +112,14 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSa
                 return;                                                                                      \
         DRIVER(device, vkDestroy##kind)(device, object, callbacks);                                          \
     }
+DESTROY(ShaderModule, module, shaders, shader_count)
 DESTROY(Pipeline, pipeline, shaders, shader_count)
 DESTROY(Sampler, sampler, samplers, sampler_count)
 
 /* clang-format off */
 static const struct layered_function shared[] = {
     LAYERED("vkCreateShaderModule", create_module),
+    LAYERED("vkDestroyShaderModule", destroy_module),
     LAYERED("vkCreateComputePipelines", create_compute),
     LAYERED("vkDestroyPipeline", destroy_pipeline),
     LAYERED("vkCreateSampler", create_sampler),
@@ -159,6 +162,7 @@ void shared_pipelines_destroy(VkDevice device)
             continue;
         }
         DRIVER(device, vkDestroyPipeline)(device, shaders[i].pipeline, NULL);
+        DRIVER(device, vkDestroyShaderModule)(device, shaders[i].module, NULL);
         free(shaders[i].code);
     }
     shader_count = kept;
