@@ -8,7 +8,6 @@
 #include <stdio.h>
 
 static struct gi_test t;
-
 static const struct sdfgi_transform identity = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 } };
 
 static int open_disabled(void **state)

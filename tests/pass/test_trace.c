@@ -8,7 +8,6 @@
 #include "require.h"
 #include "test_group.h"
 #include "test_memory.h"
-
 #include "trace_rays.comp.h"
 
 #include <math.h>

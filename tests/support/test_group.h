@@ -8,8 +8,8 @@
  *       return cmocka_run_group_tests(tests, NULL, NULL);
  *   }
  *
- * stands where `main` would, and returns what it would. The program runs the groups that its arguments name, in
- * their order, and all of them if there are none.
+ * stands where `main` would, and returns what it would. The program runs the groups that its arguments name,
+ * in their order, and all of them if there are none.
  */
 #ifndef TEST_GROUP_H
 #define TEST_GROUP_H
@@ -25,7 +25,7 @@ void test_group_add(struct test_group *group);
 
 #define TEST_GROUP(group_name)                                                                               \
     static int group_name##_group(void);                                                                     \
-    __attribute__((constructor)) static void group_name##_group_add(void)                                          \
+    __attribute__((constructor)) static void group_name##_group_add(void)                                    \
     {                                                                                                        \
         static struct test_group group = { #group_name, group_name##_group, NULL };                          \
         test_group_add(&group);                                                                              \
