@@ -303,7 +303,7 @@ uint cycle_of(uint cascade, uint own)
 {
     const bool seen_first = sdfgi_frame.cascades[cascade].seen_first < sdfgi_frame.cascades[cascade].seen_end;
     const bool is_ahead =
-        seen_first && states[own].mean >= GATHERED_ROUGH && seen_holds(cascade, entries[own]);
+        seen_first && states[own].mean >= GATHERED_FIRST && seen_holds(cascade, entries[own]);
     return is_ahead ? sdfgi_frame.cycle_visits : args.visits[cascade];
 }
 
@@ -316,7 +316,17 @@ bool ends_cycle(uint cascade, uint own)
 /* What a cell's mean is at the end of a cycle. */
 uint mean_after(uint cascade, uint own)
 {
-    return cycle_of(cascade, own) < sdfgi_frame.cycle_visits ? GATHERED_ROUGH : GATHERED_COMPLETE;
+    if (cycle_of(cascade, own) >= sdfgi_frame.cycle_visits)
+        return GATHERED_COMPLETE;
+    return states[own].mean < GATHERED_FIRST ? GATHERED_FIRST : GATHERED_ROUGH;
+}
+
+/* True if the mean that the end of this cycle makes takes the place of one of as many visits. */
+bool follows_its_like(uint cascade, uint own)
+{
+    const uint before = states[own].mean, after = mean_after(cascade, own);
+    return after == GATHERED_COMPLETE ? before == after
+                                      : before == GATHERED_FIRST || before == GATHERED_ROUGH;
 }
 
 const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half floats */
@@ -328,13 +338,12 @@ void add_visit(uint cascade, uint surface, vec4 light)
     gathered_light gathered = load_light(cascade, entry, axis);
     gathered.sum = gathered_add(states[own], gathered, light.rgb);
     const float shown =
-        sdfgi_light_luminance(states[own].mean >= GATHERED_ROUGH ? gathered.mean : gathered.sum) +
+        sdfgi_light_luminance(states[own].mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
         sdfgi_frame.dark;
     atomicMax(noises[own], floatBitsToUint(min(light.a / (shown * shown), MOST_NOISE)));
     if (ends_cycle(cascade, own)) {
         const vec3 mean = gathered_mean(states[own], gathered.sum, states[own].visits + 1u);
-        const bool known = states[own].mean == mean_after(cascade, own);
-        const float change = known ? relative_change(mean, gathered.mean) : 1.0;
+        const float change = follows_its_like(cascade, own) ? relative_change(mean, gathered.mean) : 1.0;
         atomicMax(changes[own], floatBitsToUint(change));
         atomicMax(lights[own], floatBitsToUint(sdfgi_light_luminance(mean)));
         gathered = gathered_light(vec3(0.0), mean);

@@ -115,11 +115,11 @@ vec4 arriving_light(surface_hit hit)
 
 float confidence(gathered_state state)
 {
-    const float cycle = float(sdfgi_frame.cycle_visits), rough = float(SDFGI_ROUGH_VISITS),
+    const float cycle = float(sdfgi_frame.cycle_visits), rough = gathered_worth(state),
                 visits = float(state.visits);
     if (state.mean == GATHERED_COMPLETE)
         return 1.0;
-    return state.mean == GATHERED_ROUGH ? (visits + rough) / (cycle + rough) : visits / cycle;
+    return state.mean >= GATHERED_FIRST ? (visits + rough) / (cycle + rough) : visits / cycle;
 }
 
 float visible_share(surface_hit hit)

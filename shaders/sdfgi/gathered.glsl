@@ -9,8 +9,9 @@
  *
  * A cell shows P once a cycle has been completed. It does not show S then, because the rays of a part of a
  * cycle have another mean than all of them even while the light stays the same. Only where P is the mean of a
- * rough cycle S is mixed in, once it holds as many visits. In its first cycle, and in the first one after the
- * lights have changed, a cell shows S; a new cell shows what probes tell before its first visit. */
+ * rough cycle S is mixed in: at once if that was a first one, or else once it holds as many visits. In its
+ * first cycle, and in the first one after the lights have changed, a cell shows S; a new cell shows what
+ * probes tell before its first visit. */
 #ifndef SDFGI_GATHERED_GLSL
 #define SDFGI_GATHERED_GLSL
 
@@ -32,16 +33,19 @@ const float GATHERED_PRIOR_VISITS = 0.5;
 /* Weight of a visit in S in a first cycle, at least. With it a room of albedo 0.5 has a tenth of a lamp's
  * light left eight visits after the lamp has gone. */
 const float GATHERED_RECENT = 0.6;
+/* A mean of a first cycle is as noisy as one of so many visits that count alike. */
+const float GATHERED_FIRST_VISITS = (2.0 - GATHERED_RECENT) / GATHERED_RECENT;
 
 /* What P is. */
 const uint GATHERED_NOTHING = 0u;  /* there is none: the cell is new */
 const uint GATHERED_OUTDATED = 1u; /* what the cell showed before the lights changed */
-const uint GATHERED_ROUGH = 2u;    /* the mean of a rough cycle */
-const uint GATHERED_COMPLETE = 3u; /* the mean of a complete cycle */
+const uint GATHERED_FIRST = 2u;    /* the mean of a first cycle that was rough */
+const uint GATHERED_ROUGH = 3u;    /* the mean of a later rough cycle */
+const uint GATHERED_COMPLETE = 4u; /* the mean of a complete cycle */
 
 struct gathered_state {
-    uint visits; /* in this cycle */
-    uint mean;   /* GATHERED_NOTHING, _OUTDATED, _ROUGH or _COMPLETE */
+    uint visits; /* in this cycle, at most 127 */
+    uint mean;   /* GATHERED_NOTHING to _COMPLETE */
     uint epoch;  /* of the lights that S and P belong to; 8 bits */
     uint mark;   /* P when it was last marked, as gathered_mark tells; 14 bits */
 };
@@ -63,13 +67,13 @@ const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u, GATHERED_BETWEEN = 25u, GAT
 gathered_state gathered_load_state(uint cascade, uint entry)
 {
     const uint packed = sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)];
-    return gathered_state(packed & 0xffu, packed >> 8u & 3u, packed >> 10u & 0xffu, packed >> 18u);
+    return gathered_state(packed & 0x7fu, packed >> 7u & 7u, packed >> 10u & 0xffu, packed >> 18u);
 }
 
 void gathered_store_state(uint cascade, uint entry, gathered_state state)
 {
     sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)] =
-        state.visits | state.mean << 8u | state.epoch << 10u | state.mark << 18u;
+        state.visits | state.mean << 7u | state.epoch << 10u | state.mark << 18u;
 }
 
 /* Noise: variance over the square of what the cell shows, of the axis with the most of it. */
@@ -101,15 +105,17 @@ void gathered_store_noise(uint cascade, uint entry, gathered_noise noise)
 const float GATHERED_NOISE_OF_VISIT = 0.5;
 
 /* Noise after a visit that found `found`; `state` is the one before it. In a first cycle the last two visits
- * count most. */
+ * count most. After it each visit adds to its mean. */
 gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, float found, bool ends_cycle)
 {
     const float visits = float(state.visits + 1u);
     noise.sum = found + (state.visits > 0u ? noise.sum : 0.0);
     if (ends_cycle)
-        noise.shown = noise.sum / (visits * visits);
-    else if (state.mean < GATHERED_ROUGH)
+        noise.shown = noise.sum / visits / (state.mean < GATHERED_FIRST ? GATHERED_FIRST_VISITS : visits);
+    else if (state.mean < GATHERED_FIRST)
         noise.shown = GATHERED_NOISE_OF_VISIT / min(visits, 2.0);
+    else if (state.mean == GATHERED_FIRST)
+        noise.shown *= 1.0 - 1.0 / (visits + GATHERED_FIRST_VISITS);
     return noise;
 }
 
@@ -153,6 +159,12 @@ void gathered_store(uint cascade, uint entry, uint axis, gathered_light light)
     sdfgi_gathered[word + 2u * plane] = mean.x;
 }
 
+/* How many visits the mean of a rough cycle is worth. */
+float gathered_worth(gathered_state state)
+{
+    return state.mean == GATHERED_FIRST ? GATHERED_FIRST_VISITS : float(SDFGI_ROUGH_VISITS);
+}
+
 /* The irradiance that a cell shows along an axis. `prior` is what probes tell, with its weight, 0 or 1, in a.
  * False if there is nothing to tell. */
 bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 prior, out vec3 light)
@@ -160,9 +172,10 @@ bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 pri
     light = gathered.mean;
     if (state.mean == GATHERED_OUTDATED && state.visits > 0u)
         light = gathered.sum;
-    if (state.mean == GATHERED_ROUGH && state.visits >= SDFGI_ROUGH_VISITS)
-        light = (gathered.sum * float(sdfgi_frame.cycle_visits) + gathered.mean * float(SDFGI_ROUGH_VISITS)) /
-                float(state.visits + SDFGI_ROUGH_VISITS);
+    const float worth = gathered_worth(state);
+    if (state.mean == GATHERED_FIRST || state.mean == GATHERED_ROUGH && float(state.visits) >= worth)
+        light = (gathered.sum * float(sdfgi_frame.cycle_visits) + gathered.mean * worth) /
+                (float(state.visits) + worth);
     if (state.mean != GATHERED_NOTHING)
         return true;
     const vec4 known = float(state.visits) * vec4(gathered.sum, 1.0) +
@@ -174,7 +187,7 @@ bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 pri
 /* S after a visit that found `light`; `state` is the one before it. */
 vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
 {
-    if (state.mean >= GATHERED_ROUGH)
+    if (state.mean >= GATHERED_FIRST)
         return gathered.sum + light / float(sdfgi_frame.cycle_visits);
     const float before =
         float(state.visits) + (state.mean == GATHERED_OUTDATED ? GATHERED_PRIOR_VISITS : 0.0);
@@ -185,7 +198,7 @@ vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
 /* The mean of a cycle that ends with this S, after so many visits. */
 vec3 gathered_mean(gathered_state state, vec3 sum, uint visits)
 {
-    return state.mean >= GATHERED_ROUGH ? sum * (float(sdfgi_frame.cycle_visits) / float(visits)) : sum;
+    return state.mean >= GATHERED_FIRST ? sum * (float(sdfgi_frame.cycle_visits) / float(visits)) : sum;
 }
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { FRAMES = 60, STATE_PLANE = 18, ROUGH = 2 };
+enum { FRAMES = 60, STATE_PLANE = 18, FIRST = 2 };
 
 static void open_ground(struct gi_test *t, struct picture_scene *scene)
 {
@@ -48,7 +48,7 @@ static void read_progress(struct gi_test *t, struct progress found[static 2])
     for (uint32_t i = 0; i < counters[SDFGI_COUNTER_LIGHT_CELLS]; i++) {
         struct progress *p = &found[seen[i / 32] >> (i % 32) & 1];
         p->cells++;
-        p->complete += (gathered[STATE_PLANE * room + i] >> 8 & 3) >= ROUGH;
+        p->complete += (gathered[STATE_PLANE * room + i] >> 7 & 7) >= FIRST;
         marked += seen[i / 32] >> (i % 32) & 1;
     }
     REQUIRE_CMP(counters[SDFGI_COUNTER_CELLS_SEEN], ==, marked);

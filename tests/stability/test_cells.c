@@ -234,40 +234,82 @@ static void the_filter_smooths_and_keeps_the_sum(void **state)
 
 enum { FLOOR_SIDE = 12, FLOOR_POINTS = FLOOR_SIDE * FLOOR_SIDE };
 
-/* Green on the floor of a room whose wall a lamp lights in one spot, which few rays hit. */
-static void floor_beside_a_spot(uint32_t rays, float found[FLOOR_POINTS][3])
+/* A room whose wall a lamp lights in one spot, which few rays hit. */
+static void open_room_with_a_spot(struct gi_test *t, uint32_t rays)
 {
-    struct gi_test t;
     struct sdfgi_settings settings = light_settings(32, 0.2f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = rays;
     settings.cell_rays_per_frame = 1 << 17;
-    open_room(&t, &settings, 0.3f, 0);
+    open_room(t, &settings, 0.3f, 0);
     const struct sdfgi_light_desc lamp = light_point(0.9, 0.2, 0.1, 1);
-    light_create(&t, &lamp);
-    gi_test_update(&t, 3 * rays / SDFGI_VISIT_RAYS + 48); /* rough cycles, and two long ones */
+    light_create(t, &lamp);
+}
+
+static void look_at_floor(struct gi_test *t, float found[FLOOR_POINTS][3])
+{
     struct gi_test_point at[FLOOR_POINTS];
     for (int i = 0; i < FLOOR_POINTS; i++)
         at[i] = (struct gi_test_point){ { -0.85f + 0.14f * (float)(i % FLOOR_SIDE), -1.0f,
                                           -0.8f + 0.14f * (float)(i / FLOOR_SIDE) },
                                         { 0, 1, 0 } };
-    gi_test_irradiance(&t, at, FLOOR_POINTS, found);
+    gi_test_irradiance(t, at, FLOOR_POINTS, found);
+}
+
+static void floor_beside_a_spot(uint32_t rays, float found[FLOOR_POINTS][3])
+{
+    struct gi_test t;
+    open_room_with_a_spot(&t, rays);
+    gi_test_update(&t, 3 * rays / SDFGI_VISIT_RAYS + 48); /* rough cycles, and two long ones */
+    look_at_floor(&t, found);
     gi_test_close(&t);
+}
+
+/* How far light on the floor is off that of 512 rays, in the root of the mean of squares. */
+static double floor_noise(float found[FLOOR_POINTS][3])
+{
+    static float many[FLOOR_POINTS][3];
+    if (many[0][1] == 0)
+        floor_beside_a_spot(512, many);
+    double squares = 0;
+    for (int i = 0; i < FLOOR_POINTS; i++)
+        squares += pow((double)found[i][1] / (double)many[i][1] - 1, 2);
+    return sqrt(squares / FLOOR_POINTS);
 }
 
 /* Neighbours that miss the spot and neighbours that hit it twice must not look like marble. */
 static void few_rays_leave_no_marble(void **state)
 {
     (void)state;
-    float few[FLOOR_POINTS][3], many[FLOOR_POINTS][3];
+    float few[FLOOR_POINTS][3];
     floor_beside_a_spot(64, few);
-    floor_beside_a_spot(512, many);
-    double squares = 0;
-    for (int i = 0; i < FLOOR_POINTS; i++)
-        squares += pow((double)few[i][1] / (double)many[i][1] - 1, 2);
-    const double noise = sqrt(squares / FLOOR_POINTS);
-    printf("floor beside a bright spot: 64 rays are %.2f %% rms off 512\n", 100 * noise);
+    const double noise = floor_noise(few);
+    printf("floor beside a bright spot: 64 rays are %.2f %% off 512\n", 100 * noise);
     REQUIRE_CMP(noise, <=, 0.075);
+}
+
+/* Noise is no larger after a rough cycle than in it, and falls on the way to the end of the next one. */
+static void noise_falls_from_visit_to_visit(void **state)
+{
+    (void)state;
+    enum { VISITS = 4 * SDFGI_ROUGH_VISITS };
+    struct gi_test t;
+    float found[FLOOR_POINTS][3];
+    double noise[VISITS], most = 0;
+    open_room_with_a_spot(&t, 512);
+    gi_test_update(&t, 2); /* the first visit needs the list */
+    for (int i = 0; i < VISITS; i++) {
+        gi_test_update(&t, 1);
+        look_at_floor(&t, found);
+        noise[i] = floor_noise(found);
+        printf(" %.2f", 100 * noise[i]);
+        if (i >= SDFGI_ROUGH_VISITS)
+            most = fmax(most, noise[i]);
+    }
+    printf(" %% after each visit\n");
+    gi_test_close(&t);
+    REQUIRE_CMP(most, <=, 1.1 * noise[SDFGI_ROUGH_VISITS - 2]);
+    REQUIRE_CMP(noise[VISITS - 1], <=, 0.5 * noise[SDFGI_ROUGH_VISITS - 2]);
 }
 
 /* A budget that visits all cells in a frame, and one that takes several frames. */
@@ -345,6 +387,7 @@ TEST_GROUP(cells)
         cmocka_unit_test(the_same_input_gives_the_same_bits),
         cmocka_unit_test(the_filter_smooths_and_keeps_the_sum),
         cmocka_unit_test(few_rays_leave_no_marble),
+        cmocka_unit_test(noise_falls_from_visit_to_visit),
         cmocka_unit_test(settled_light_does_not_depend_on_the_budget),
         cmocka_unit_test(a_lamp_that_goes_off_is_followed_at_once),
         cmocka_unit_test(a_sealed_room_is_dark_under_the_sun),
