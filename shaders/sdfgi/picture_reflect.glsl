@@ -22,6 +22,8 @@ layout(std430, set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_TILES) buffer 
 
 const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TILES_TILES) + 3u;
 const float PICTURE_NO_RAY = -1.0;
+/* Roughness from which on the filter takes squares of squares in part, and wholly. */
+const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
 
 uint picture_pack(ivec2 place)
 {

@@ -14,6 +14,9 @@ layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
 /* Cosine between a ray and the face's normal, at least. */
 const float LEAST_RISE = 0.02;
+/* The share of a narrow lobe to which rays keep, from its middle on. In the tail one ray of many meets a
+ * lamp, and a square of few rays would show it as a dot. */
+const float NARROW_SHARE = 0.9;
 
 /* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
  * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
@@ -40,6 +43,15 @@ vec2 pattern_point(ivec2 pixel)
     const uvec2 side = uvec2(SDFGI_RAYS_SIDE), at = uvec2(pixel) % side, square = uvec2(pixel) / side % side;
     const uint shift = bitfieldReverse(square.x + side.x * square.y);
     return sdfgi_random_r2(at.x + side.x * at.y, shift >> 4u);
+}
+
+/* The ray of a pixel of a surface. */
+vec3 ray_direction(ivec2 pixel, picture_surface s, float roughness)
+{
+    const float wide = smoothstep(PICTURE_WIDE_LOBES.x, PICTURE_WIDE_LOBES.y, roughness);
+    const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
+    return lobe_direction(s.normal, s.to_eye, roughness * roughness,
+                          point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
 }
 
 /* From a point to the surface of another pixel; far away if there is none. */
@@ -83,10 +95,7 @@ void reflect_pixel(ivec2 pixel)
         return;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
-    const vec3 face = face_normal(pixel, s),
-               dir = off_face(lobe_direction(s.normal, s.to_eye, roughness * roughness,
-                                             pattern_point(pixel / picture_ray_step(roughness))),
-                              face);
+    const vec3 face = face_normal(pixel, s), dir = off_face(ray_direction(pixel, s, roughness), face);
     const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), face, dir);
     const vec3 light = scale * sdfgi_reflection_light(ray, dir, rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));

@@ -10,8 +10,8 @@
 
 enum { WIDTH = 96, HEIGHT = 64, FLOOR = 0, SQUARE = 4 };
 
-/* A dark floor that mirrors a lamp 8 m away, seen through a long lens: a pixel is 1/20 of a degree wide. */
-static struct picture draw_scene(struct gi_test *t, struct picture_scene *scene)
+/* A dark floor that mirrors a lamp 8 m away. `tan_x` is of half the picture's width. */
+static struct picture draw_scene(struct gi_test *t, struct picture_scene *scene, double tan_x)
 {
     struct sdfgi_settings settings = gi_test_settings();
     settings.resolution = 64;
@@ -34,8 +34,8 @@ static struct picture draw_scene(struct gi_test *t, struct picture_scene *scene)
                                            .right = { 1, 0, 0 },
                                            .up = { 0, ahead, -down },
                                            .forward = { 0, -down, -ahead },
-                                           .tan_x = 0.045,
-                                           .tan_y = 0.03,
+                                           .tan_x = tan_x,
+                                           .tan_y = tan_x * HEIGHT / WIDTH,
                                            .near_m = 0.05 };
     return picture_draw(scene, &camera, WIDTH, HEIGHT);
 }
@@ -89,13 +89,14 @@ static double pattern_of(const struct picture *p, const float light[WIDTH * HEIG
     return sum / count / brightest;
 }
 
+/* Through a long lens: a pixel is 1/20 of a degree wide. */
 static void squares_of_rays_do_not_show(void **state)
 {
     (void)state;
     static struct gi_test t;
     static float light[WIDTH * HEIGHT];
     struct picture_scene scene = { .count = 0 };
-    struct picture picture = draw_scene(&t, &scene);
+    struct picture picture = draw_scene(&t, &scene, 0.045);
     static const float roughness[] = { 0.08f, 0.12f, 0.2f, 0.3f };
     double worst = 0;
     for (int i = 0; i < 4; i++) {
@@ -111,10 +112,55 @@ static void squares_of_rays_do_not_show(void **state)
     REQUIRE_CMP(worst, <=, 0.02);
 }
 
+/* How many pixels of the floor show a sixteenth of the lamp, a ray of 16, so far from its reflection that few
+ * rays of the lobe meet it. */
+static int dots_of(const struct picture *p, const float light[WIDTH * HEIGHT])
+{
+    enum { FAR_PIXELS = 20 };
+    double brightest = 0, centre[2] = { 0, 0 };
+    int bright = 0, dots = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        brightest = fmax(brightest, (double)light[i]);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        if ((double)light[i] > 0.5 * brightest) {
+            centre[0] += i % WIDTH;
+            centre[1] += i / WIDTH;
+            bright++;
+        }
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        dots += p->objects[i] == FLOOR && (double)light[i] > 0.03 * brightest &&
+                hypot(i % WIDTH - centre[0] / bright, i / WIDTH - centre[1] / bright) > FAR_PIXELS;
+    return dots;
+}
+
+/* Through a wide lens a lobe is as wide as a pixel or two: the mean of 16 rays is all that a pixel shows. */
+static void a_lamp_far_off_the_mirror_direction_makes_no_dots(void **state)
+{
+    (void)state;
+    static struct gi_test t;
+    static float light[WIDTH * HEIGHT];
+    struct picture_scene scene = { .count = 0 };
+    struct picture picture = draw_scene(&t, &scene, 0.3);
+    int dots = 0;
+    for (int i = 0; i < 2; i++) {
+        reflect(&t, &picture, i == 0 ? 0.08f : 0.12f, light);
+        const int found = dots_of(&picture, light);
+        printf("%d pixels show a ray of the lobe's tail\n", found);
+        dots += found;
+    }
+    picture_finish(&picture);
+    picture_scene_finish(&scene);
+    gi_test_close(&t);
+    REQUIRE_CMP(dots, ==, 0);
+}
+
 TEST_GROUP(reflection_noise)
 {
     if (!gpu_test_available())
         return GPU_TEST_SKIP;
-    const struct CMUnitTest tests[] = { cmocka_unit_test(squares_of_rays_do_not_show) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(squares_of_rays_do_not_show),
+        cmocka_unit_test(a_lamp_far_off_the_mirror_direction_makes_no_dots),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
