@@ -13,7 +13,7 @@ import tempfile
 WIDTH, HEIGHT = 160, 90
 # Small volumes, so that a software driver settles within a minute. The room fits into the coarser one.
 SETTINGS = {"sdfgi_cascades": 2, "sdfgi_resolution": 64, "sdfgi_ray_count": 64,
-            "sdfgi_frames_to_converge": 4, "sdfgi_cell_rays": 64}
+            "sdfgi_frames_to_converge": 2, "sdfgi_cell_rays": 32}
 # Pixels of the floor to the left of the block, where it keeps off the lamp's light: x, y from the upper left.
 SHADOW = [(x, y) for x in range(56, 66) for y in range(55, 58)]
 # The plate of metal, and pixels of its top that show the red wall where the lamp lights it.

@@ -71,8 +71,8 @@ static int use_probes(void **state)
     return 0;
 }
 
-/* Light cells have gone through three rough cycles of 4 visits by then, and through long ones. */
-enum { CELL_FRAMES = 36 };
+/* Light cells have gone through three rough cycles of 8 visits by then. */
+enum { CELL_FRAMES = 26 };
 
 /* Sun and sky shine on `room`, which is taken over. */
 static void open_room(struct gi_test *t, struct test_mesh room, float albedo)
