@@ -30,11 +30,11 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sd
 /* What a cell knows before its first visit counts as half a visit: little, so that cells soon show what they
  * see themselves; not nothing, because the rays of one visit alone are noisy. */
 const float GATHERED_PRIOR_VISITS = 0.5;
-/* Weight of a visit in S in a first cycle, at least. With it a room of albedo 0.5 has a tenth of a lamp's
- * light left eight visits after the lamp has gone. */
-const float GATHERED_RECENT = 0.6;
-/* A mean of a first cycle is as noisy as one of so many visits that count alike. */
-const float GATHERED_FIRST_VISITS = (2.0 - GATHERED_RECENT) / GATHERED_RECENT;
+/* Weight of a visit in S in a first cycle, at least: of the first six and of the others. Light that has gone
+ * is soon forgotten (a room of albedo 0.5 has a tenth of a lamp left after ten), and then noise falls. */
+const vec2 GATHERED_RECENT = vec2(0.6, 0.3);
+/* A mean of eight such visits is as noisy as one of so many that count alike. */
+const float GATHERED_FIRST_VISITS = 4.2;
 
 /* What P is. */
 const uint GATHERED_NOTHING = 0u;  /* there is none: the cell is new */
@@ -192,7 +192,7 @@ vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
     const float before =
         float(state.visits) + (state.mean == GATHERED_OUTDATED ? GATHERED_PRIOR_VISITS : 0.0);
     return mix(state.visits == 0u ? gathered.mean : gathered.sum, light,
-               max(1.0 / (before + 1.0), GATHERED_RECENT));
+               max(1.0 / (before + 1.0), state.visits < 6u ? GATHERED_RECENT.x : GATHERED_RECENT.y));
 }
 
 /* The mean of a cycle that ends with this S, after so many visits. */
