@@ -30,10 +30,11 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sd
 /* What a cell knows before its first visit counts as half a visit: little, so that cells soon show what they
  * see themselves; not nothing, because the rays of one visit alone are noisy. */
 const float GATHERED_PRIOR_VISITS = 0.5;
-/* Weight of a visit in S in a first cycle, at least: of the first six and of the others. Light that has gone
- * is soon forgotten (a room of albedo 0.5 has a tenth of a lamp left after ten), and then noise falls. */
+/* Weight of a visit in S in a first cycle, at least: of six visits and of the two after them, in turn. Light
+ * that has gone is soon forgotten (a room of albedo 0.5 has a tenth of a lamp left after ten), and noise is
+ * low at the end of a cycle of eight visits, or of a multiple of eight. */
 const vec2 GATHERED_RECENT = vec2(0.6, 0.3);
-/* A mean of eight such visits is as noisy as one of so many that count alike. */
+/* A mean of such a cycle is as noisy as one of so many visits that count alike. */
 const float GATHERED_FIRST_VISITS = 4.2;
 
 /* What P is. */
@@ -192,7 +193,7 @@ vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
     const float before =
         float(state.visits) + (state.mean == GATHERED_OUTDATED ? GATHERED_PRIOR_VISITS : 0.0);
     return mix(state.visits == 0u ? gathered.mean : gathered.sum, light,
-               max(1.0 / (before + 1.0), state.visits < 6u ? GATHERED_RECENT.x : GATHERED_RECENT.y));
+               max(1.0 / (before + 1.0), state.visits % 8u < 6u ? GATHERED_RECENT.x : GATHERED_RECENT.y));
 }
 
 /* The mean of a cycle that ends with this S, after so many visits. */
