@@ -3,6 +3,7 @@
 
 #include "empty.comp.h"
 #include "fallible_vulkan.h"
+#include "shared_pipelines.h"
 
 #include <vulkan/vulkan.h>
 
@@ -10,7 +11,7 @@
 
 static uint32_t calls, failing_call;
 static VkResult failure;
-static bool skip_shaders, readback_fails, hide_coherence;
+static bool skip_shaders, share_pipelines, readback_fails, hide_coherence;
 
 void failing_vulkan_reset(uint32_t fail_at, VkResult result)
 {
@@ -27,6 +28,11 @@ uint32_t failing_vulkan_calls(void)
 void failing_vulkan_skip_shaders(bool skip)
 {
     skip_shaders = skip;
+}
+
+void failing_vulkan_share_pipelines(bool share)
+{
+    share_pipelines = share;
 }
 
 void failing_vulkan_readback_fails(bool fails)
@@ -96,7 +102,7 @@ static PFN_vkVoidFunction real_function(VkDevice device, const char *name)
 {
     if (skip_shaders && strcmp(name, "vkCreateComputePipelines") == 0)
         return (PFN_vkVoidFunction)create_empty_pipeline;
-    return vkGetDeviceProcAddr(device, name);
+    return share_pipelines ? shared_pipelines_function(device, name) : vkGetDeviceProcAddr(device, name);
 }
 
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char *name)
@@ -108,7 +114,7 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice de
     }
     FALLIBLE_DEVICE_FUNCTIONS(CHOOSE)
 #undef CHOOSE
-    return vkGetDeviceProcAddr(device, name);
+    return real_function(device, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL failing_vulkan_get_instance_proc_addr(VkInstance instance,

@@ -22,6 +22,9 @@ void failing_vulkan_hide_coherence(bool hide);
 /* Contexts created from then on get pipelines of an empty shader: they take a hundredth of the time. */
 void failing_vulkan_skip_shaders(bool skip);
 
+/* Contexts created from then on share pipelines, as shared_pipelines.h says. */
+void failing_vulkan_share_pipelines(bool share);
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL failing_vulkan_get_instance_proc_addr(VkInstance instance,
                                                                                const char *name);
 

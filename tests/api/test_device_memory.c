@@ -25,14 +25,14 @@ static struct sdfgi_settings small_settings(bool enabled)
 static int open_device(void **state)
 {
     (void)state;
-    gpu_test_open(&t.gpu, sdfgi_get_requirements);
+    gi_test_open_device(&t);
     return 0;
 }
 
 static int close_device(void **state)
 {
     (void)state;
-    gpu_test_close(&t.gpu);
+    gi_test_close(&t);
     return 0;
 }
 
@@ -101,7 +101,8 @@ static float light_of_room(void)
 static float light_without_the_hook(void)
 {
     const struct sdfgi_settings on = small_settings(true);
-    const struct sdfgi_desc desc = gi_test_desc(&t, &on);
+    struct sdfgi_desc desc = gi_test_desc(&t, &on);
+    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader_sharing();
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
     const float light = light_of_room();
     destroy();
@@ -113,7 +114,7 @@ static void all_memory_is_the_hosts_and_goes_back(void **state)
     (void)state;
     const float expected = light_without_the_hook();
     const uint32_t before = counting_vulkan_get().memory;
-    loader = counting_vulkan_loader();
+    loader = counting_vulkan_loader_sharing();
     pool_allocator_open(&pool, &t.gpu);
     REQUIRE_CMP((int)create(false), ==, (int)SDFGI_OK);
     REQUIRE_CMP(pool_allocator_live(&pool), ==, 1u); /* of lookups that answer black */

@@ -114,10 +114,10 @@ static void add_picture(void)
 static int open_context(void **state)
 {
     (void)state;
-    gpu_test_open(&t.gpu, sdfgi_get_requirements);
+    gi_test_open_device(&t);
     const struct sdfgi_settings s = settings(false);
     struct sdfgi_desc desc = gi_test_desc(&t, &s);
-    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader();
+    desc.vulkan.get_instance_proc_addr = counting_vulkan_loader_sharing();
     desc.pipelines_later = true;
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
     const VkQueryPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,

@@ -29,7 +29,7 @@ static void count_message(void *user, enum sdfgi_log_level level, enum sdfgi_mes
     warnings += level == SDFGI_LOG_WARNING;
 }
 
-static struct gpu_test gpu;
+static struct gi_test t; /* its device */
 static struct gpu_test_buffer triangle;
 
 static struct sdfgi_settings small_settings(enum sdfgi_voxelizer voxelizer, bool enabled)
@@ -44,8 +44,8 @@ static struct sdfgi_settings small_settings(enum sdfgi_voxelizer voxelizer, bool
 static sdfgi *create(enum sdfgi_voxelizer voxelizer, bool enabled)
 {
     const struct sdfgi_settings settings = small_settings(voxelizer, enabled);
-    const struct sdfgi_desc desc = { .vulkan = { gpu.instance, gpu.physical_device, gpu.device,
-                                                 gpu.queue_family_index,
+    const struct sdfgi_desc desc = { .vulkan = { t.gpu.instance, t.gpu.physical_device, t.gpu.device,
+                                                 t.gpu.queue_family_index,
                                                  failing_vulkan_get_instance_proc_addr, NULL },
                                      .log = { count_message, NULL },
                                      .settings = &settings };
@@ -90,7 +90,7 @@ static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
 static void update(sdfgi *gi, int pairs)
 {
     for (int i = 0; i < pairs; i++)
-        gpu_test_submit_many(&gpu, 2, record_update, gi);
+        gpu_test_submit_many(&t.gpu, 2, record_update, gi);
 }
 
 /* Until light rests. */
@@ -172,7 +172,7 @@ static void light_rests_even_if_nothing_is_told_of_a_while(void **state)
     add_a_triangle(gi, 0);
     for (uint32_t frame = 0; frame < 60; frame++) {
         failing_vulkan_reset(1, VK_ERROR_OUT_OF_HOST_MEMORY);
-        gpu_test_submit_many(&gpu, 1, record_update, gi);
+        gpu_test_submit_many(&t.gpu, 1, record_update, gi);
     }
     update_until_converged(gi);
     REQUIRE_CMP(errors, ==, 0u);
@@ -220,7 +220,7 @@ static void room_for_instances_comes_as_soon_as_there_is_memory(void **state)
         errors = 0;
         gi->volume.feedback.instances_refused = 0;
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
-        gpu_test_submit_many(&gpu, 1, record_update, gi);
+        gpu_test_submit_many(&t.gpu, 1, record_update, gi);
         if (failing_vulkan_calls() < k)
             break;
         if (k == 1)
@@ -241,7 +241,7 @@ static void room_for_instances_comes_as_soon_as_there_is_memory(void **state)
     update(gi, 2);
     failing_vulkan_reset(0, VK_SUCCESS);
     REQUIRE_CMP((int)sdfgi_instance_set_transform(gi, last, &moved), ==, (int)SDFGI_OK);
-    gpu_test_submit_many(&gpu, 1, record_update, gi);
+    gpu_test_submit_many(&t.gpu, 1, record_update, gi);
     REQUIRE_CMP(triangles_drawn(gi), ==, (uint64_t)MANY);
     sdfgi_destroy(gi);
 }
@@ -304,8 +304,8 @@ static void preparing_may_fail_anywhere(void **state)
     (void)state;
     const struct sdfgi_settings on = small_settings(SDFGI_VOXELIZER_RASTER, true);
     const struct sdfgi_prepare_desc prepare = { .settings = &on };
-    const struct sdfgi_desc desc = { .vulkan = { gpu.instance, gpu.physical_device, gpu.device,
-                                                 gpu.queue_family_index,
+    const struct sdfgi_desc desc = { .vulkan = { t.gpu.instance, t.gpu.physical_device, t.gpu.device,
+                                                 t.gpu.queue_family_index,
                                                  failing_vulkan_get_instance_proc_addr, NULL },
                                      .log = { count_message, NULL },
                                      .pipelines_later = true };
@@ -340,17 +340,19 @@ static void preparing_may_fail_anywhere(void **state)
 static int open_device(void **state)
 {
     (void)state;
-    gpu_test_open(&gpu, sdfgi_get_requirements);
+    gi_test_open_device(&t);
+    failing_vulkan_share_pipelines(true);
     const float corners[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
-    triangle = gpu_test_buffer_device(&gpu, sizeof corners, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, corners);
+    triangle = gpu_test_buffer_device(&t.gpu, sizeof corners, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, corners);
     return 0;
 }
 
 static int close_device(void **state)
 {
     (void)state;
-    gpu_test_buffer_destroy(&gpu, &triangle);
-    gpu_test_close(&gpu);
+    gpu_test_buffer_destroy(&t.gpu, &triangle);
+    failing_vulkan_share_pipelines(false);
+    gi_test_close(&t);
     return 0;
 }
 

@@ -21,9 +21,10 @@ static const struct gi_test_point points[] = {
 };
 enum { POINTS = sizeof points / sizeof *points };
 
-static const uint32_t patterns[] = { 0xffffffff, 0xff800000, 0xdeadbeef, 0x7f800000, 0x7fc00001,
+/* The brightest light that cells can keep, a number that is none, and any bits; and, in full, more. */
+static const uint32_t patterns[] = { 0xffffffff, 0x7fc00001, 0xdeadbeef, 0xff800000, 0x7f800000,
                                      0x7c007c00, 0xfc00fc00, 0x7e007e00, 0x7f7fffff };
-enum { PATTERNS = sizeof patterns / sizeof *patterns, MOST_HISTORIES = 3, PARTS = 8 };
+enum { PATTERNS = sizeof patterns / sizeof *patterns, FEW_PATTERNS = 3, MOST_HISTORIES = 3, PARTS = 8 };
 
 /* What is spoiled. */
 struct histories {
@@ -115,10 +116,11 @@ static double spoil(struct gi_test *t, const struct histories *histories)
     settings.surface_light = histories->surface_light;
     float before[POINTS][3], found[POINTS][3];
     double worst = 0;
+    const int count = getenv("SDFGI_TEST_FULL") ? PATTERNS : FEW_PATTERNS;
     start_corner(t, &settings);
     gi_test_converge(t, 2000);
     gi_test_irradiance(t, points, POINTS, before);
-    for (int i = 0; i < PATTERNS; i++) {
+    for (int i = 0; i < count; i++) {
         gpu_test_submit(&t->gpu, record_fill, &(struct spoiling){ t, histories, patterns[i] });
         uint32_t spoiled = values_spoiled(t, found);
         printf("0x%08x: off by", patterns[i]);

@@ -28,6 +28,17 @@ struct shader {
 static struct shader shaders[MOST];
 static uint32_t shader_count;
 
+/* Pipelines that draw are told apart by their fragment shader and their viewport. */
+struct raster {
+    VkDevice device;
+    VkShaderModule fragment;
+    float width;
+    VkPipeline pipeline;
+};
+
+static struct raster rasters[MOST];
+static uint32_t raster_count;
+
 struct sampler {
     VkDevice device;
     VkSamplerCreateInfo info;
@@ -86,6 +97,27 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_compute(VkDevice device, VkPipeline
     return result;
 }
 
+static VKAPI_ATTR VkResult VKAPI_CALL create_graphics(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                                      const VkGraphicsPipelineCreateInfo *infos,
+                                                      const VkAllocationCallbacks *callbacks, VkPipeline *out)
+{
+    REQUIRE_CMP(count, ==, 1u);
+    REQUIRE_CMP(infos->stageCount, ==, 2u);
+    const VkShaderModule fragment = infos->pStages[1].module;
+    const float width = infos->pViewportState->pViewports->width;
+    for (uint32_t i = 0; i < raster_count; i++)
+        if (rasters[i].device == device && rasters[i].fragment == fragment && rasters[i].width == width) {
+            *out = rasters[i].pipeline;
+            return VK_SUCCESS;
+        }
+    const VkResult result =
+        DRIVER(device, vkCreateGraphicsPipelines)(device, cache, 1, infos, callbacks, out);
+    REQUIRE_CMP(raster_count, <, (uint32_t)MOST);
+    if (result == VK_SUCCESS)
+        rasters[raster_count++] = (struct raster){ device, fragment, width, *out };
+    return result;
+}
+
 static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSamplerCreateInfo *info,
                                                      const VkAllocationCallbacks *callbacks, VkSampler *out)
 {
@@ -102,25 +134,38 @@ static VKAPI_ATTR VkResult VKAPI_CALL create_sampler(VkDevice device, const VkSa
     return result;
 }
 
-/* What is shared stays. */
-#define DESTROY(kind, member, rows, count)                                                                   \
-    static VKAPI_ATTR void VKAPI_CALL destroy_##member(VkDevice device, Vk##kind object,                     \
-                                                       const VkAllocationCallbacks *callbacks)               \
+/* ---- What is shared stays */
+
+#define HOLD(kind, rows, count, member)                                                                      \
+    static bool rows##_hold_##member(VkDevice device, Vk##kind object)                                       \
     {                                                                                                        \
         for (uint32_t i = 0; i < count; i++)                                                                 \
             if (rows[i].device == device && rows[i].member == object)                                        \
-                return;                                                                                      \
-        DRIVER(device, vkDestroy##kind)(device, object, callbacks);                                          \
+                return true;                                                                                 \
+        return false;                                                                                        \
     }
-DESTROY(ShaderModule, module, shaders, shader_count)
-DESTROY(Pipeline, pipeline, shaders, shader_count)
-DESTROY(Sampler, sampler, samplers, sampler_count)
+HOLD(ShaderModule, shaders, shader_count, module)
+HOLD(Pipeline, shaders, shader_count, pipeline)
+HOLD(Pipeline, rasters, raster_count, pipeline)
+HOLD(Sampler, samplers, sampler_count, sampler)
+
+#define DESTROY(kind, name, is_shared)                                                                       \
+    static VKAPI_ATTR void VKAPI_CALL destroy_##name(VkDevice device, Vk##kind object,                       \
+                                                     const VkAllocationCallbacks *callbacks)                 \
+    {                                                                                                        \
+        if (!(is_shared))                                                                                    \
+            DRIVER(device, vkDestroy##kind)(device, object, callbacks);                                      \
+    }
+DESTROY(ShaderModule, module, shaders_hold_module(device, object))
+DESTROY(Pipeline, pipeline, shaders_hold_pipeline(device, object) || rasters_hold_pipeline(device, object))
+DESTROY(Sampler, sampler, samplers_hold_sampler(device, object))
 
 /* clang-format off */
 static const struct layered_function shared[] = {
     LAYERED("vkCreateShaderModule", create_module),
     LAYERED("vkDestroyShaderModule", destroy_module),
     LAYERED("vkCreateComputePipelines", create_compute),
+    LAYERED("vkCreateGraphicsPipelines", create_graphics),
     LAYERED("vkDestroyPipeline", destroy_pipeline),
     LAYERED("vkCreateSampler", create_sampler),
     LAYERED("vkDestroySampler", destroy_sampler),
@@ -152,9 +197,21 @@ static void destroy_samplers(VkDevice device)
     sampler_count = kept;
 }
 
+static void destroy_rasters(VkDevice device)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < raster_count; i++)
+        if (rasters[i].device != device)
+            rasters[kept++] = rasters[i];
+        else
+            DRIVER(device, vkDestroyPipeline)(device, rasters[i].pipeline, NULL);
+    raster_count = kept;
+}
+
 void shared_pipelines_destroy(VkDevice device)
 {
     destroy_samplers(device);
+    destroy_rasters(device);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < shader_count; i++) {
         if (shaders[i].device != device) {
