@@ -187,7 +187,7 @@ typedef bool (*host_progress_fn)(void *user, const struct host_frame *frame);
 
 struct host_until_desc {
     uint32_t frames;           /* how many to render; 0: until GI has converged */
-    uint32_t max_frames;       /* limit while waiting for convergence; 0: 2000 */
+    uint32_t max_frames;       /* limit while waiting for convergence; 0: 8000 */
     host_progress_fn progress; /* may be NULL */
     void *user;
 };

@@ -354,7 +354,7 @@ bool host_renderer_frame_without_gi(struct host_renderer *renderer, const struct
 
 /* ---- The loop --------------------------------------------------------------------------------------- */
 
-enum { DEFAULT_MAX_FRAMES = 2000 };
+enum { DEFAULT_MAX_FRAMES = 8000 };
 
 static bool loop_done(const struct host_until_desc *desc, const struct sdfgi_report *report, uint32_t frames)
 {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * Materials: what the shaders read, and what the library is told.
  *
- * The library bounces light diffusely, and what metal reflects is not lost to the room: its albedo there is
- * the base colour, as that of all else. Without it, light on the white solids of glossy_emissive, which stand
- * on a metal floor, was 3 % lower. A blended material blocks and bounces light where its alpha is at least
+ * The library bounces light diffusely, and what metal and gloss reflect is not lost to the room. A map tells
+ * where a material is metal, and how rough. It is not read here: all of such a material then bounces its base
+ * colour. A blended material blocks and bounces light where its alpha is at least
  * one half, and one whose factor is below that does nothing to light at all. */
+#include "host_albedo.h"
 #include "host_internal.h"
 #include "host_texture.h"
 
@@ -87,14 +88,25 @@ static struct sdfgi_texture gi_texture(const VkDescriptorImageInfo *info, const 
     return texture;
 }
 
+static void gi_albedo_fill(const struct gltf_material *m, uint32_t flags, struct sdfgi_material_desc *out)
+{
+    if (m->unlit)
+        return;
+    for (int i = 0; i < 3; i++)
+        out->albedo[i] = fminf(fmaxf(m->base_color[i], 0), 1);
+    if (flags & (HOST_MATERIAL_LAMBERT | HOST_MATERIAL_SURFACE_MAP))
+        return;
+    const struct host_albedo albedo = host_albedo_of(out->albedo, m->metallic, m->roughness);
+    memcpy(out->albedo, albedo.color, sizeof out->albedo);
+    out->specular_albedo = albedo.specular;
+}
+
 static void gi_fill(const struct gltf_scene *gltf, const struct gltf_material *m,
                     const struct host_material_data *data,
                     const VkDescriptorImageInfo images[HOST_TEXTURE_COUNT], struct host_material *out)
 {
-    for (int i = 0; i < 3; i++) {
-        out->gi.albedo[i] = m->unlit ? 0.0f : fminf(fmaxf(m->base_color[i], 0.0f), 1.0f);
-        out->gi.emission[i] = data->emissive[i];
-    }
+    gi_albedo_fill(m, out->flags, &out->gi);
+    memcpy(out->gi.emission, data->emissive, sizeof out->gi.emission);
     /* To the library an alpha of 0 means 1, and there is no cutoff beyond 1. */
     out->gi.alpha = m->alpha_cutoff > 1.0f ? FLT_MIN : fminf(fmaxf(m->base_color[3], FLT_MIN), 1.0f);
     out->gi.double_sided_emission = m->double_sided;

@@ -70,6 +70,7 @@ surface_sample material_sample(uint index[3], vec3 bary, float area2)
                           .rgb;
     }
 #endif
+    s.albedo.rgb += m.specular_albedo;
     return s;
 }
 

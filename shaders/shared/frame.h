@@ -115,8 +115,9 @@ struct sdfgi_material_params {
     float alpha_cutoff; /* 0: opaque */
     vec4 albedo_uv[2];  /* rows of uv' = M (u, v, 1); w unused */
     vec4 emission_uv[2];
-    uint flags; /* SDFGI_MATERIAL_* */
-    uint padding_0, padding_1, padding_2;
+    uint flags;            /* SDFGI_MATERIAL_* */
+    float specular_albedo; /* added to albedo and its texture */
+    uint padding_0, padding_1;
 };
 SDFGI_ASSERT_SIZE(sdfgi_material_params, 112);
 

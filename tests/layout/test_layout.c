@@ -92,9 +92,9 @@
     X(sdfgi_material_params, albedo_uv)                                                                      \
     X(sdfgi_material_params, emission_uv)                                                                    \
     X(sdfgi_material_params, flags)                                                                          \
+    X(sdfgi_material_params, specular_albedo)                                                                \
     X(sdfgi_material_params, padding_0)                                                                      \
     X(sdfgi_material_params, padding_1)                                                                      \
-    X(sdfgi_material_params, padding_2)                                                                      \
     X(sdfgi_cascade_args, cascade)                                                                           \
     X(sdfgi_region_args, low)                                                                                \
     X(sdfgi_region_args, cascade)                                                                            \

@@ -229,6 +229,7 @@ struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
         .alpha = m->alpha,
         .emission = scaled(m->emission, 1 / scene->emission_unit),
         .alpha_cutoff = m->alpha_cutoff,
+        .specular_albedo = m->specular_albedo,
         .flags = (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
                  (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
                  (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0) |
