@@ -13,6 +13,7 @@
 #include "dirty_bounds.glsl"
 #include "emitters.glsl"
 #include "surface.glsl"
+#include "surface_front.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -56,16 +57,6 @@ color_sum albedo_sum(uint side, uint layer, uint block)
     return color_sum(accumulated3(plane, block), float(accumulated(plane + 3u, block)));
 }
 
-/* What is seen from a side: the layer of cells that is nearer to the viewer, and behind it as much of the
- * other one as that leaves open. */
-color_sum albedo_from(uint side, uint block)
-{
-    const uint nearer = 1u - (side & 1u);
-    const color_sum front = albedo_sum(side, nearer, block), back = albedo_sum(side, 1u - nearer, block);
-    const float open = clamp((COLUMNS - front.count) / max(back.count, 1.0), 0.0, 1.0);
-    return color_sum(front.sum + open * back.sum, front.count + open * back.count);
-}
-
 float contrast(vec3 a, vec3 b)
 {
     const vec3 difference = abs(a - b);
@@ -75,6 +66,39 @@ float contrast(vec3 a, vec3 b)
 vec3 mean_albedo(color_sum from)
 {
     return from.sum / (max(from.count, 1.0) * SDFGI_ALBEDO_STEPS);
+}
+
+/* A side with more samples than columns, in this ratio, has a surface before another. */
+const float LAYERED = 1.25;
+/* Fronts whose mean differs by less tell no more than the mean of all samples, which has more digits. */
+const float FRONT_CONTRAST = 0.02;
+
+/* What a side shows first, if surfaces hide others of the same cells: a mean of its fronts. */
+color_sum without_hidden(uint side, uint block, color_sum all, float samples)
+{
+    vec3 sum = vec3(0.0);
+    float fronts = 0.0;
+    for (uint i = 0u; i < FRONTS; i++) {
+        const uint packed = accumulated(SDFGI_ACCUM_FRONT + FRONTS * side + i, block);
+        sum += front_color(packed);
+        fronts += float(packed != 0u);
+    }
+    const vec3 shown = sum / max(fronts, 1.0);
+    const bool layered = samples > LAYERED * COLUMNS / float(FRONTS) * fronts;
+    return layered && contrast(shown, mean_albedo(all)) > FRONT_CONTRAST
+               ? color_sum(shown * SDFGI_ALBEDO_STEPS * all.count, all.count)
+               : all;
+}
+
+/* What is seen from a side: the layer of cells that is nearer to the viewer, and behind it as much of the
+ * other one as that leaves open. */
+color_sum albedo_from(uint side, uint block)
+{
+    const uint nearer = 1u - (side & 1u);
+    const color_sum front = albedo_sum(side, nearer, block), back = albedo_sum(side, 1u - nearer, block);
+    const float open = clamp((COLUMNS - front.count) / max(back.count, 1.0), 0.0, 1.0);
+    const color_sum all = color_sum(front.sum + open * back.sum, front.count + open * back.count);
+    return all.count > 0.0 ? without_hidden(side, block, all, front.count + back.count) : all;
 }
 
 /* Two colours for the six sides: that of the side of which most is seen, and that of the side which differs

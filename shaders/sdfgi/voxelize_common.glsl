@@ -15,6 +15,7 @@
  * more: every column that they cover in part. */
 #include "voxelize_material.glsl"
 #include "accumulators.glsl" /* what voxelize_material.glsl includes says what is written */
+#include "surface_front.glsl"
 
 /* In sub-voxels. Points this far outside an edge count as inside, so that rounding cannot open a seam between
  * triangles that share the edge. */
@@ -244,16 +245,34 @@ bool has_room(uint plane, uint block, uint limit)
     return room;
 }
 
-/* Sums are integers, so that they do not depend on the order of additions. */
-void accumulate_surface(triangle t, ivec3 cell, uint block, surface_sample s)
+/* Keeps the sample if it is the front of its columns. `sub` counts sub-voxels from the cascade's first. */
+void accumulate_front(triangle t, ivec3 sub, uint block, uint side, vec3 albedo)
 {
+    const ivec3 at = sub - drawn.anchor;
+    const ivec2 column = permute(at, t.axis).xy;
+    const float above = sdfgi_finite_clamp(inset_height(t, vec2(column) + 0.5) - float(at[t.axis]), 0.0, 1.0);
+    const uint major = side >> 1u;
+    const float level = float(sub[major] & 7) + (int(major) == t.axis ? above : 0.5),
+                height = (side & 1u) == 0u ? level : 8.0 - level;
+    const uvec2 in_block = uvec2(sub[(major + 1u) % 3u], sub[(major + 2u) % 3u]) & 7u;
+    const uint plane = SDFGI_ACCUM_FRONT + FRONTS * side + front_of_columns(in_block);
+    atomicMax(sdfgi_scratch[accumulator(plane, block)], front_pack(height, in_block, albedo));
+}
+
+/* Sums are integers, so that they do not depend on the order of additions. */
+void accumulate_surface(triangle t, ivec3 sub, uint block, surface_sample s)
+{
+    const ivec3 cell = sub >> 2;
     const vec3 height = abs(t.normal);
     const uint major = height.x >= height.y && height.x >= height.z ? 0u : (height.y >= height.z ? 1u : 2u);
     if (!has_room(SDFGI_ACCUM_NORMAL + 3u * major, block, SDFGI_ACCUM_MOST_SAMPLES))
         return;
     const bool negative = t.normal[major] < 0.0;
-    const uint plane = accumulator_albedo(2u * major + uint(negative), uint(cell[major] & 1));
-    const uvec3 albedo = uvec3(sdfgi_finite_color(s.albedo.rgb, 1.0) * SDFGI_ALBEDO_STEPS + 0.5);
+    const uint facing = 2u * major + uint(negative),
+               plane = accumulator_albedo(facing, uint(cell[major] & 1));
+    const vec3 color = sdfgi_finite_color(s.albedo.rgb, 1.0);
+    const uvec3 albedo = uvec3(color * SDFGI_ALBEDO_STEPS + 0.5);
+    accumulate_front(t, sub, block, facing, color);
     for (uint i = 0u; i < 3u; i++)
         accumulate(plane + i, block, albedo[i]);
     accumulate(plane + 3u, block, 1u);
@@ -378,7 +397,7 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
     const uint block = part_block(drawn_part(), cell);
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
-    accumulate_surface(t, cell, block, s);
+    accumulate_surface(t, sub, block, s);
     if (emission_is_kept() && s.emission != vec3(0.0))
         store_emitter(t, cell, bit);
 }

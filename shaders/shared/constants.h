@@ -118,20 +118,21 @@
 #define SDFGI_SAMPLE_STEP_MAX 4
 
 /* A cascade is voxelised in parts, one after another, which share the accumulators: in SDFGI_VOXEL_PARTS, or
- * fewer if they have less than SDFGI_VOXEL_PART_CELLS. The accumulators of 2^18 cells take less than the
+ * fewer if they have less than SDFGI_VOXEL_PART_CELLS. The accumulators of 2^17 cells take less than the
  * distance search of 128^3. */
-#define SDFGI_VOXEL_PARTS      8
-#define SDFGI_VOXEL_PART_CELLS (1u << 18)
+#define SDFGI_VOXEL_PARTS      16
+#define SDFGI_VOXEL_PART_CELLS (1u << 17)
 
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h).
  * Those from SDFGI_ACCUM_EMISSION on are there only if something emits. Sides are +x -x +y -y +z -z, and a
  * side has two layers of cells along its axis. */
 #define SDFGI_ACCUM_ALBEDO         0  /* per side and layer 4 planes: sum in 1/SDFGI_ALBEDO_STEPS, count */
 #define SDFGI_ACCUM_NORMAL         48 /* per dominant axis 3 planes: count, sums of two slopes */
-#define SDFGI_ACCUM_EMISSION       57 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */
-#define SDFGI_ACCUM_EMISSION_AREA  63 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
-#define SDFGI_ACCUM_EMISSION_SIDES 64 /* 6 planes: columns of it that +x -x +y -y +z -z see, in the same */
-#define SDFGI_ACCUM_PLANES         70
+#define SDFGI_ACCUM_FRONT          57 /* per side 16 planes: fronts, see surface_front.glsl */
+#define SDFGI_ACCUM_EMISSION       153 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */
+#define SDFGI_ACCUM_EMISSION_AREA  159 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
+#define SDFGI_ACCUM_EMISSION_SIDES 160 /* 6 planes: columns of it that +x -x +y -y +z -z see, in the same */
+#define SDFGI_ACCUM_PLANES         166
 #define SDFGI_ALBEDO_STEPS         1023.0 /* as many as 10 bits hold */
 #define SDFGI_AREA_STEPS           65535.0
 /* Radiance in units of stored emission, W/(m^2 sr) unless something is brighter than the last of these: the

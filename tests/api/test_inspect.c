@@ -275,15 +275,21 @@ static void coincident_emitters_keep_their_colour(void **state)
 }
 
 /* A square of 2 m around a point, which faces along +x -x +y -y +z -z. */
-static void add_square(struct gi_test *t, const double at[static 3], int axis, double half,
-                       const float color[static 3])
+static void add_square_of(struct gi_test *t, const double at[static 3], int axis, double half,
+                          sdfgi_material material)
 {
     double u[3] = { 0 }, v[3] = { 0 };
     u[(axis / 2 + 1) % 3] = half;
     v[(axis / 2 + 2) % 3] = axis % 2 ? -half : half;
     struct test_mesh mesh = test_mesh_plane(at, u, v, 1);
-    gi_test_add(t, &mesh, gi_test_material(t, color, (float[3]){ 0 }));
+    gi_test_add(t, &mesh, material);
     test_mesh_destroy(&mesh);
+}
+
+static void add_square(struct gi_test *t, const double at[static 3], int axis, double half,
+                       const float color[static 3])
+{
+    add_square_of(t, at, axis, half, gi_test_material(t, color, (float[3]){ 0 }));
 }
 
 /* What the block shows whose low corner is the origin. */
@@ -307,6 +313,22 @@ static void require_color(const uint16_t found[static 3], const float color[stat
 
 static const float red[3] = { 0.75f, 0.125f, 0.0625f }, white[3] = { 0.9f, 0.85f, 0.95f };
 
+/* Beyond 1 it is cut. */
+static void gloss_is_added_to_albedo(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    const struct sdfgi_settings settings = gi_test_settings();
+    gi_test_open(&t, &settings);
+    const struct sdfgi_material_desc desc = { .albedo = { 0.25f, 0.5f, 0.95f }, .specular_albedo = 0.125f };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t.gi, &desc, &material), ==, (int)SDFGI_OK);
+    add_square_of(&t, (double[]){ 0, 0.12, 0 }, 2, 1, material);
+    const struct sdfgi_inspect_surface s = middle_block(&t);
+    require_color(s.albedo[2], (float[]){ 0.375f, 0.625f, 1 });
+    gi_test_close(&t);
+}
+
 /* Two colours within a cell, back to back. */
 static void faces_of_a_thin_wall_have_colours_of_their_own(void **state)
 {
@@ -325,6 +347,33 @@ static void faces_of_a_thin_wall_have_colours_of_their_own(void **state)
         require_color(s.albedo[axis ^ 1], white);
         gi_test_close(&t);
     }
+}
+
+/* A rug on a floor, or a poster on a wall: 2 cm before it, in the same sub-voxels of 6.25 cm. It covers all
+ * of the block, or half. Colours are those that fronts can hold. */
+static void a_rug_hides_the_floor(void **state)
+{
+    (void)state;
+    const float rug[3] = { 96 / 127.0f, 32 / 255.0f, 16 / 127.0f },
+                floor[3] = { 20 / 127.0f, 200 / 255.0f, 120 / 127.0f };
+    for (int axis = 0; axis < 6; axis++)
+        for (int half_covered = 0; half_covered < 2; half_covered++) {
+            struct gi_test t;
+            const struct sdfgi_settings settings = gi_test_settings();
+            gi_test_open(&t, &settings);
+            double low[3] = { 0 }, high[3] = { 0 };
+            low[axis / 2] = axis % 2 ? 0.09 : 0.1;
+            high[axis / 2] = axis % 2 ? 0.07 : 0.12;
+            high[(axis / 2 + 1) % 3] = half_covered ? 1 + (double)settings.min_cell_size_m : 0;
+            add_square(&t, low, axis, 2, floor);
+            add_square(&t, high, axis, 1, rug);
+            const struct sdfgi_inspect_surface s = middle_block(&t);
+            float mean[3];
+            for (int i = 0; i < 3; i++)
+                mean[i] = half_covered ? 0.5f * (rug[i] + floor[i]) : rug[i];
+            require_color(s.albedo[axis], mean);
+            gi_test_close(&t);
+        }
 }
 
 /* A floor above the ground: of what faces alike the nearer counts, and what lies behind it as far as it
@@ -355,7 +404,9 @@ TEST_GROUP(inspect)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_are_where_the_header_says),
         cmocka_unit_test(blocks_tell_what_they_hold),
+        cmocka_unit_test(gloss_is_added_to_albedo),
         cmocka_unit_test(faces_of_a_thin_wall_have_colours_of_their_own),
+        cmocka_unit_test(a_rug_hides_the_floor),
         cmocka_unit_test(what_lies_behind_counts_as_far_as_it_shows),
         cmocka_unit_test(coincident_emitters_keep_their_colour),
         cmocka_unit_test(plates_emit_away_from_the_wall_behind_them),
