@@ -42,16 +42,21 @@ surface_light light_from_probes(uint cascade, ivec3 cell, vec3 normal)
     return surface_light(light.weight > 0.0, light.estimate, light.displayed);
 }
 
-/* What the cell has gathered itself, or what probes tell as long as that is little or nothing. */
+/* What the cell has gathered itself, or what probes tell as long as that is little or nothing. A loop asks
+ * probes, because software drivers run what is under a condition in any case. */
 surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, vec3 normal)
 {
-    if (!gathers())
-        return light_from_probes(cascade, cell, normal);
-    const gathered_state state = gathered_load_state(cascade, entry);
-    const gathered_light gathered = gathered_load(cascade, entry, axis);
+    gathered_state state = gathered_state(0u, GATHERED_NOTHING, 0u, 0u);
+    gathered_light gathered = gathered_light(vec3(0.0), vec3(0.0));
+    if (gathers()) {
+        state = gathered_load_state(cascade, entry);
+        gathered = gathered_load(cascade, entry, axis);
+    }
     surface_light probes = surface_light(false, vec3(0.0), vec3(0.0));
-    if (state.mean == GATHERED_NOTHING)
+    for (uint asked = 0u; asked < uint(state.mean == GATHERED_NOTHING); asked++)
         probes = light_from_probes(cascade, cell, normal);
+    if (!gathers())
+        return probes;
     surface_light light;
     light.known =
         gathered_irradiance(state, gathered, vec4(probes.displayed, float(probes.known)), light.displayed);
