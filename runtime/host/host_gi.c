@@ -186,6 +186,7 @@ static bool context_create(struct host_gi *gi, const struct host_renderer_desc *
         .frames_in_flight = frames_in_flight,
         .log = { message_received, gi },
         .pipeline_cache = gi->device->cache.handle,
+        .pipelines_later = true, /* with GI off there are none */
     };
     return gi_check(gi, sdfgi_create(&info, &gi->context), "creating the context") &&
            (!desc->settings || host_gi_set_settings(gi, desc->settings));
