@@ -120,7 +120,7 @@ static void a_room_with_a_window_is_not_lit_by_the_sky(void **state)
 {
     (void)state;
     double ratio[FRAMES];
-    arrive(&(struct arrival){ .window = 0.4, .away_m = 30, .speed_m = 0.5, .rays = 25 }, ratio);
+    arrive(&(struct arrival){ .window = 0.4, .away_m = 15, .speed_m = 0.5, .rays = 25 }, ratio);
     for (int i = 0; i < FRAMES; i++) {
         REQUIRE_CMP(ratio[i], >=, 0.65);
         REQUIRE_CMP(ratio[i], <=, 1.2);
@@ -133,7 +133,7 @@ static void a_dark_room_is_dark_in_the_first_frame(void **state)
 {
     (void)state;
     double ratio[FRAMES];
-    arrive(&(struct arrival){ .away_m = 100, .speed_m = 5, .rays = 125 }, ratio);
+    arrive(&(struct arrival){ .away_m = 60, .speed_m = 5, .rays = 125 }, ratio);
     for (int i = 1; i < FRAMES; i++)
         REQUIRE_CMP(ratio[i], <=, 1.2);
 }
@@ -142,7 +142,7 @@ static void a_room_with_a_lamp_fills_with_light(void **state)
 {
     (void)state;
     double ratio[FRAMES];
-    arrive(&(struct arrival){ .lamp = 5, .away_m = 100, .speed_m = 5, .rays = 125 }, ratio);
+    arrive(&(struct arrival){ .lamp = 5, .away_m = 60, .speed_m = 5, .rays = 125 }, ratio);
     REQUIRE_CMP(ratio[1], >=, 0.25);
     REQUIRE_CMP(ratio[FRAMES - 1], >=, 0.7);
     for (int i = 2; i < FRAMES; i++) {

@@ -86,7 +86,7 @@ static void light_that_stays_is_shown_unchanged(void **state)
     room_open(&r, &settings, &lamp);
     room_look(&r);
     double worst = 0;
-    for (int frame = 0; frame < 50; frame++) {
+    for (int frame = 0; frame < 30; frame++) {
         float before[POINTS][3];
         memcpy(before, r.light, sizeof before);
         sdfgi_accumulation_invalidate(&r.t.gi->volume.state.accumulation);
@@ -100,7 +100,7 @@ static void light_that_stays_is_shown_unchanged(void **state)
     gi_test_close(&r.t);
 }
 
-enum { FRAMES = 60 };
+enum { FRAMES = 40 };
 
 /* The light that is shown in each frame after a lamp is switched. */
 static void watch(struct room *r, const struct sdfgi_light_desc *lamp, double shown[static FRAMES])
