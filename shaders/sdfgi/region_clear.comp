@@ -16,11 +16,12 @@
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_region_args);
 
+/* The four threads at the cells of a block take turns from plane to plane. */
 void clear_accumulators(ivec3 cell)
 {
     const uint block = part_block(voxel_part(args.low, args.high), cell);
     const uint planes = emission_is_kept() ? uint(SDFGI_ACCUM_PLANES) : uint(SDFGI_ACCUM_EMISSION);
-    for (uint plane = 0u; plane < planes; plane++)
+    for (uint plane = uint(cell.x & 1 | (cell.z & 1) << 1); plane < planes; plane += 4u)
         sdfgi_scratch[accumulator(plane, block)] = 0u;
 }
 
@@ -59,8 +60,6 @@ void main()
         sdfgi_bits[sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0))] = uvec2(0u);
     for (int k = 0; k < (emission_is_kept() ? 4 : 0); k++)
         clear_emissive_bits(first + ivec3(0, k, 0));
-    if (((first.x | first.z) & 1) == 0) {
-        clear_accumulators(first);
-        clear_accumulators(first + ivec3(0, 2, 0));
-    }
+    clear_accumulators(first);
+    clear_accumulators(first + ivec3(0, 2, 0));
 }
