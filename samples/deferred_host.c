@@ -103,7 +103,7 @@ static void add_object(sdfgi *gi, const struct renderer *r, const struct sample_
     mesh.vertex_count = own->vertex_count, mesh.triangle_count = own->index_count / 3;
     for (int i = 0; i < 3; i++) {
         mesh.bounds_min[i] = own->low[i], mesh.bounds_max[i] = own->high[i];
-        material.albedo[i] = matter->base_color[i] * (1 - matter->base_color[3]);
+        material.albedo[i] = matter->base_color[i]; /* of metal, too: it sends light back */
         material.emission[i] = matter->glow[i];
         memcpy(placed.transform.basis + 3 * i, object->matrix + 4 * i, 3 * sizeof(float));
         placed.transform.translation[i] = object->matrix[12 + i];

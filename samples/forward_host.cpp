@@ -84,8 +84,7 @@ static void add_objects(sdfgi *gi, const sample_scene &scene, const sample_drawi
         std::copy_n(own.high, 3, mesh.bounds_max);
         sdfgi_material_desc material = {};
         const sample_material &matter = scene.materials[object.material];
-        std::transform(matter.base_color, matter.base_color + 3, material.albedo,
-                       [&](float color) { return color * (1 - matter.base_color[3]); });
+        std::copy_n(matter.base_color, 3, material.albedo); /* of metal, too: it sends light back */
         std::copy_n(matter.glow, 3, material.emission);
         material.smoothness = 1 - matter.glow[3];
         sdfgi_instance_desc placed = {};
