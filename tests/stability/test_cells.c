@@ -288,7 +288,8 @@ static void few_rays_leave_no_marble(void **state)
     REQUIRE_CMP(noise, <=, 0.075);
 }
 
-/* Noise hardly grows at the end of the first cycle, and falls on the way to the end of the next one. */
+/* Noise grows nowhere after the seventh visit, and falls on the way to the end of the second cycle. Measured,
+ * of that visit's: 0.98 and 0.53, on lavapipe and on a GPU. */
 static void noise_falls_from_visit_to_visit(void **state)
 {
     (void)state;
@@ -308,8 +309,8 @@ static void noise_falls_from_visit_to_visit(void **state)
     }
     printf(" %% after each visit\n");
     gi_test_close(&t);
-    REQUIRE_CMP(most, <=, 1.2 * noise[IN_FIRST]);
-    REQUIRE_CMP(noise[VISITS - 1], <=, 0.7 * noise[IN_FIRST]);
+    REQUIRE_CMP(most, <=, noise[IN_FIRST]);
+    REQUIRE_CMP(noise[VISITS - 1], <=, 0.6 * noise[IN_FIRST]);
 }
 
 /* A budget that visits all cells in a frame, and one that takes several frames. */
