@@ -3,8 +3,8 @@
  *
  * The library bounces light diffusely, and what metal and gloss reflect is not lost to the room. A map tells
  * where a material is metal, and how rough. It is not read here: all of such a material then bounces its base
- * colour. A blended material blocks and bounces light where its alpha is at least
- * one half, and one whose factor is below that does nothing to light at all. */
+ * colour. A blended material blocks and bounces light where its alpha is at least one half, and one whose
+ * factor is below that does nothing to light at all. */
 #include "host_albedo.h"
 #include "host_internal.h"
 #include "host_texture.h"

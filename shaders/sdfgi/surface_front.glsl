@@ -16,13 +16,13 @@ uint front_of_columns(uvec2 column)
     return (column.x >> 1u) + 4u * (column.y >> 1u);
 }
 
-/* `height` in sub-voxels from the back of the block, 0 to 8. Samples of one height take turns from word to
- * word. */
+/* `height` in sub-voxels from the back of the block, 0 to 8; `albedo` 0 to 1. Samples of one height take
+ * turns from word to word. */
 uint front_pack(float height, uvec2 column, vec3 albedo)
 {
     const uint level = uint(clamp(height * FRONT_STEPS, 1.0, 255.0)),
                turn = (column.x & 1u | (column.y & 1u) << 1u) ^ (column.x >> 1u) + (column.y >> 1u) & 3u;
-    const uvec3 color = uvec3(clamp(albedo, 0.0, 1.0) * FRONT_COLOR_STEPS + 0.5);
+    const uvec3 color = uvec3(albedo * FRONT_COLOR_STEPS + 0.5);
     return level << 24u | turn << 22u | color.r << 15u | color.g << 7u | color.b;
 }
 

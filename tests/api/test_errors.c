@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Every documented error: its code, its message id, what its message names; and that nothing has changed. */
+ * Every documented error: its code, its message id and what its message names. Nothing has changed by it. */
 #include "gi_test.h"
 #include "require.h"
 #include "test_group.h"

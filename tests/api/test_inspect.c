@@ -274,22 +274,21 @@ static void coincident_emitters_keep_their_colour(void **state)
     gi_test_close(&t);
 }
 
-/* A square of 2 m around a point, which faces along +x -x +y -y +z -z. */
-static void add_square_of(struct gi_test *t, const double at[static 3], int axis, double half,
-                          sdfgi_material material)
+/* A square, half a side and its middle in metres, which faces along +x -x +y -y +z -z. */
+struct square {
+    double at[3];
+    int axis;
+    double half;
+};
+
+static void add_square(struct gi_test *t, const struct square *square, sdfgi_material material)
 {
     double u[3] = { 0 }, v[3] = { 0 };
-    u[(axis / 2 + 1) % 3] = half;
-    v[(axis / 2 + 2) % 3] = axis % 2 ? -half : half;
-    struct test_mesh mesh = test_mesh_plane(at, u, v, 1);
+    u[(square->axis / 2 + 1) % 3] = square->half;
+    v[(square->axis / 2 + 2) % 3] = square->axis % 2 ? -square->half : square->half;
+    struct test_mesh mesh = test_mesh_plane(square->at, u, v, 1);
     gi_test_add(t, &mesh, material);
     test_mesh_destroy(&mesh);
-}
-
-static void add_square(struct gi_test *t, const double at[static 3], int axis, double half,
-                       const float color[static 3])
-{
-    add_square_of(t, at, axis, half, gi_test_material(t, color, (float[3]){ 0 }));
 }
 
 /* What the block shows whose low corner is the origin. */
@@ -302,6 +301,20 @@ static struct sdfgi_inspect_surface middle_block(struct gi_test *t)
         cell[i] = (uint32_t)lrint(-v.where.origin_m[i] / v.where.cell_m[i]);
     const struct sdfgi_inspect_surface s = surface_at(&v, cell);
     free_surfaces(&v);
+    return s;
+}
+
+/* The same with two squares alone. */
+static struct sdfgi_inspect_surface block_of(const struct square squares[static 2],
+                                             const float *const colors[static 2])
+{
+    struct gi_test t;
+    const struct sdfgi_settings settings = gi_test_settings();
+    gi_test_open(&t, &settings);
+    for (int i = 0; i < 2; i++)
+        add_square(&t, &squares[i], gi_test_material(&t, colors[i], (float[3]){ 0 }));
+    const struct sdfgi_inspect_surface s = middle_block(&t);
+    gi_test_close(&t);
     return s;
 }
 
@@ -323,7 +336,7 @@ static void gloss_is_added_to_albedo(void **state)
     const struct sdfgi_material_desc desc = { .albedo = { 0.25f, 0.5f, 0.95f }, .specular_albedo = 0.125f };
     sdfgi_material material;
     REQUIRE_CMP((int)sdfgi_material_create(t.gi, &desc, &material), ==, (int)SDFGI_OK);
-    add_square_of(&t, (double[]){ 0, 0.12, 0 }, 2, 1, material);
+    add_square(&t, &(struct square){ { 0, 0.12, 0 }, 2, 1 }, material);
     const struct sdfgi_inspect_surface s = middle_block(&t);
     require_color(s.albedo[2], (float[]){ 0.375f, 0.625f, 1 });
     gi_test_close(&t);
@@ -334,45 +347,46 @@ static void faces_of_a_thin_wall_have_colours_of_their_own(void **state)
 {
     (void)state;
     for (int axis = 0; axis < 6; axis++) {
-        struct gi_test t;
-        const struct sdfgi_settings settings = gi_test_settings();
-        gi_test_open(&t, &settings);
-        double front[3] = { 0 }, back[3] = { 0 };
-        front[axis / 2] = axis % 2 ? 0.08 : 0.14;
-        back[axis / 2] = axis % 2 ? 0.14 : 0.08;
-        add_square(&t, front, axis, 1, red);
-        add_square(&t, back, axis ^ 1, 1, white);
-        const struct sdfgi_inspect_surface s = middle_block(&t);
+        struct square sides[2] = { { .axis = axis, .half = 1 }, { .axis = axis ^ 1, .half = 1 } };
+        sides[0].at[axis / 2] = axis % 2 ? 0.08 : 0.14;
+        sides[1].at[axis / 2] = axis % 2 ? 0.14 : 0.08;
+        const struct sdfgi_inspect_surface s = block_of(sides, (const float *[]){ red, white });
         require_color(s.albedo[axis], red);
         require_color(s.albedo[axis ^ 1], white);
-        gi_test_close(&t);
     }
 }
 
-/* A rug on a floor, or a poster on a wall: 2 cm before it, in the same sub-voxels of 6.25 cm. It covers all
- * of the block, or half. Colours are those that fronts can hold. */
+/* All of a block, or half of it, shows the nearer of two squares that face alike. */
+static void require_nearer(const struct square squares[static 2], const float *const colors[static 2],
+                           bool half_covered)
+{
+    const struct sdfgi_inspect_surface s = block_of(squares, colors);
+    float mean[3];
+    for (int i = 0; i < 3; i++)
+        mean[i] = half_covered ? 0.5f * (colors[0][i] + colors[1][i]) : colors[1][i];
+    require_color(s.albedo[squares[0].axis], mean);
+}
+
+/* Where a square of 2 m begins in the middle of the block. */
+static double aside(bool half_covered)
+{
+    return half_covered ? 1 + (double)gi_test_settings().min_cell_size_m : 0;
+}
+
+/* A rug on a floor, or a poster on a wall: 2 cm before it, in the same sub-voxels of 6.25 cm. Colours are
+ * those that fronts can hold. */
 static void a_rug_hides_the_floor(void **state)
 {
     (void)state;
-    const float rug[3] = { 96 / 127.0f, 32 / 255.0f, 16 / 127.0f },
-                floor[3] = { 20 / 127.0f, 200 / 255.0f, 120 / 127.0f };
+    static const float rug[3] = { 96 / 127.0f, 32 / 255.0f, 16 / 127.0f },
+                       floor[3] = { 20 / 127.0f, 200 / 255.0f, 120 / 127.0f };
     for (int axis = 0; axis < 6; axis++)
         for (int half_covered = 0; half_covered < 2; half_covered++) {
-            struct gi_test t;
-            const struct sdfgi_settings settings = gi_test_settings();
-            gi_test_open(&t, &settings);
-            double low[3] = { 0 }, high[3] = { 0 };
-            low[axis / 2] = axis % 2 ? 0.09 : 0.1;
-            high[axis / 2] = axis % 2 ? 0.07 : 0.12;
-            high[(axis / 2 + 1) % 3] = half_covered ? 1 + (double)settings.min_cell_size_m : 0;
-            add_square(&t, low, axis, 2, floor);
-            add_square(&t, high, axis, 1, rug);
-            const struct sdfgi_inspect_surface s = middle_block(&t);
-            float mean[3];
-            for (int i = 0; i < 3; i++)
-                mean[i] = half_covered ? 0.5f * (rug[i] + floor[i]) : rug[i];
-            require_color(s.albedo[axis], mean);
-            gi_test_close(&t);
+            struct square squares[2] = { { .axis = axis, .half = 2 }, { .axis = axis, .half = 1 } };
+            squares[0].at[axis / 2] = axis % 2 ? 0.09 : 0.1;
+            squares[1].at[axis / 2] = axis % 2 ? 0.07 : 0.12;
+            squares[1].at[(axis / 2 + 1) % 3] = aside(half_covered);
+            require_nearer(squares, (const float *[]){ floor, rug }, half_covered);
         }
 }
 
@@ -381,20 +395,11 @@ static void a_rug_hides_the_floor(void **state)
 static void what_lies_behind_counts_as_far_as_it_shows(void **state)
 {
     (void)state;
-    for (int half_covered = 0; half_covered < 2; half_covered++) {
-        struct gi_test t;
-        const struct sdfgi_settings settings = gi_test_settings();
-        gi_test_open(&t, &settings);
-        const double aside = half_covered ? 1 + (double)settings.min_cell_size_m : 0;
-        add_square(&t, (double[]){ 0, 0.12, 0 }, 2, 2, red);
-        add_square(&t, (double[]){ aside, 0.12 + (double)settings.min_cell_size_m, 0 }, 2, 1, white);
-        const struct sdfgi_inspect_surface s = middle_block(&t);
-        float mean[3];
-        for (int i = 0; i < 3; i++)
-            mean[i] = half_covered ? 0.5f * (red[i] + white[i]) : white[i];
-        require_color(s.albedo[2], mean);
-        gi_test_close(&t);
-    }
+    const double above = 0.12 + (double)gi_test_settings().min_cell_size_m;
+    for (int half_covered = 0; half_covered < 2; half_covered++)
+        require_nearer(
+            (struct square[]){ { { 0, 0.12, 0 }, 2, 2 }, { { aside(half_covered), above, 0 }, 2, 1 } },
+            (const float *[]){ red, white }, half_covered);
 }
 
 TEST_GROUP(inspect)

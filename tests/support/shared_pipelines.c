@@ -186,27 +186,19 @@ PFN_vkGetInstanceProcAddr shared_pipelines_loader(void)
     return layered_vulkan_loader(shared);
 }
 
-static void destroy_samplers(VkDevice device)
-{
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < sampler_count; i++)
-        if (samplers[i].device != device)
-            samplers[kept++] = samplers[i];
-        else
-            DRIVER(device, vkDestroySampler)(device, samplers[i].sampler, NULL);
-    sampler_count = kept;
-}
-
-static void destroy_rasters(VkDevice device)
-{
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < raster_count; i++)
-        if (rasters[i].device != device)
-            rasters[kept++] = rasters[i];
-        else
-            DRIVER(device, vkDestroyPipeline)(device, rasters[i].pipeline, NULL);
-    raster_count = kept;
-}
+#define DESTROY_ALL(kind, rows, count, member)                                                               \
+    static void destroy_##rows(VkDevice device)                                                              \
+    {                                                                                                        \
+        uint32_t kept = 0;                                                                                   \
+        for (uint32_t i = 0; i < count; i++)                                                                 \
+            if (rows[i].device != device)                                                                    \
+                rows[kept++] = rows[i];                                                                      \
+            else                                                                                             \
+                DRIVER(device, vkDestroy##kind)(device, rows[i].member, NULL);                               \
+        count = kept;                                                                                        \
+    }
+DESTROY_ALL(Sampler, samplers, sampler_count, sampler)
+DESTROY_ALL(Pipeline, rasters, raster_count, pipeline)
 
 void shared_pipelines_destroy(VkDevice device)
 {
