@@ -9,16 +9,26 @@ enum {
             SDFGI_PREPARE_REFLECTIONS | SDFGI_PREPARE_DEBUG
 };
 
-static void *run(void *user)
+/* False if told to stop before all is made. What cannot be made ends it too. */
+static bool make_all(struct host_prepare *prepare)
 {
-    struct host_prepare *prepare = user;
     const struct sdfgi_prepare_desc desc = { .settings = &prepare->settings,
                                              .parts = PARTS,
                                              .max_objects = 1 };
     struct sdfgi_progress progress = { 0, 1 };
-    while (progress.made < progress.total && !prepare->stop)
+    while (progress.made < progress.total) {
+        if (prepare->stop)
+            return false;
         if (sdfgi_prepare(prepare->gi, &desc, &progress) != SDFGI_OK)
-            break;
+            return true;
+    }
+    return true;
+}
+
+static void *run(void *user)
+{
+    struct host_prepare *prepare = user;
+    prepare->complete = make_all(prepare);
     prepare->done = true;
     return NULL;
 }
@@ -40,7 +50,7 @@ bool host_prepare_step(struct host_prepare *prepare, const struct sdfgi_settings
     if (!prepare->done)
         return false;
     host_prepare_finish(prepare);
-    return same;
+    return same && prepare->complete;
 }
 
 bool host_prepare_stop(struct host_prepare *prepare)

@@ -16,6 +16,7 @@ struct host_prepare {
     pthread_t thread;
     bool runs;
     atomic_bool stop, done; /* done: the thread is about to end */
+    bool complete;          /* it was not stopped before; to be read once it is done */
 };
 
 /* Called in each frame until it says true: all that GI needs with these settings has then been made, or
