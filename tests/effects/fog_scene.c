@@ -40,11 +40,11 @@ static void cube_fill(struct cube *cube)
     }
 }
 
-static struct gltf_material material_of(const struct fog_box *box, bool mirror)
+static struct gltf_material material_of(const struct fog_box *box)
 {
     const struct gltf_texture_ref none = { .texture = -1 };
-    struct gltf_material m = { .roughness = mirror ? 0 : 1,
-                               .metallic = mirror ? 1 : 0,
+    struct gltf_material m = { .roughness = 1 - box->smoothness,
+                               .metallic = box->metal,
                                .normal_scale = 1,
                                .emissive = { box->emission, box->emission, box->emission },
                                .alpha_mode = box->color[3] < 1 ? GLTF_ALPHA_BLEND : GLTF_ALPHA_OPAQUE,
@@ -76,7 +76,7 @@ static struct host_scene *scene_create(struct host_device *device, const struct 
     cube_fill(&cube);
     assert_in_range(scene->box_count, 0, MAX_BOXES);
     for (uint32_t i = 0; i < scene->box_count; i++) {
-        materials[i] = material_of(&scene->boxes[i], scene->mirrors >> i & 1);
+        materials[i] = material_of(&scene->boxes[i]);
         instances[i] = instance_of(&scene->boxes[i], i);
         primitives[i] = (struct gltf_primitive){ .vertex_count = VERTICES,
                                                  .index_count = INDICES,

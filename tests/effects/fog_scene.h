@@ -12,14 +12,14 @@ struct fog_box {
     double center[3], size[3];
     float color[4]; /* albedo and alpha; less than 1: blended */
     float emission;
+    bool metal;       /* unless materials are Lambertian */
+    float smoothness; /* 1 - roughness, likewise */
 };
 
 struct fog_scene {
     struct host_view view;
     const struct fog_box *boxes;
     uint32_t box_count;
-    uint32_t
-        mirrors; /* bits of the boxes that are metals without roughness, unless materials are Lambertian */
     bool gi;
     float eye_distance_m; /* above 0: two eyes, in a picture that is twice as wide */
     bool forward;         /* light is looked up where surfaces are shaded, not for the whole picture */

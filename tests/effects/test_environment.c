@@ -54,7 +54,7 @@ static struct fog_scene scene_with_map(const struct fog_box *box)
     return scene;
 }
 
-static const struct fog_box far_box = { { 0, -500, 0 }, { 1, 1, 1 }, { 0.5f, 0.5f, 0.5f, 1 }, 0 };
+static const struct fog_box far_box = { { 0, -500, 0 }, { 1, 1, 1 }, .color = { 0.5f, 0.5f, 0.5f, 1 } };
 
 static void the_background_is_the_map_the_right_way_round(void **state)
 {
@@ -96,7 +96,7 @@ static void an_even_map_is_an_even_sky(void **state)
 static void a_white_box_under_an_even_map_vanishes(void **state)
 {
     (void)state;
-    static const struct fog_box box = { { 0, 0, -4 }, { 1, 1, 1 }, { 1, 1, 1, 1 }, 0 };
+    static const struct fog_box box = { { 0, 0, -4 }, { 1, 1, 1 }, .color = { 1, 1, 1, 1 } };
     static float rgba[4 * FOG_PIXELS];
     map_fill(true);
     struct fog_scene scene = scene_with_map(&box);

@@ -24,10 +24,10 @@ static struct host_device *device;
 static float both[8 * FOG_PIXELS], one[4 * FOG_PIXELS];
 
 static const struct fog_box room[] = {
-    { { 0, -1.25, -2 }, { 4, 0.5, 3 }, { 0.8f, 0.8f, 0.8f, 1 }, 0 },
-    { { -0.6, -0.6, -2 }, { 0.8, 0.8, 0.8 }, { 0.9f, 0.2f, 0.1f, 1 }, 0 },
-    { { 0.7, 0, -2.4 }, { 0.6, 2, 0.05 }, { 1, 1, 1, 1 }, 0 },
-    { { 0.2, 0, -1.5 }, { 0.5, 0.5, 0.02 }, { 0.2f, 0.3f, 0.9f, 0.5f }, 0 },
+    { { 0, -1.25, -2 }, { 4, 0.5, 3 }, .color = { 0.8f, 0.8f, 0.8f, 1 } },
+    { { -0.6, -0.6, -2 }, { 0.8, 0.8, 0.8 }, .color = { 0.9f, 0.2f, 0.1f, 1 } },
+    { { 0.7, 0, -2.4 }, { 0.6, 2, 0.05 }, .color = { 1, 1, 1, 1 }, .metal = true, .smoothness = 1 },
+    { { 0.2, 0, -1.5 }, { 0.5, 0.5, 0.02 }, .color = { 0.2f, 0.3f, 0.9f, 0.5f } },
 };
 
 static struct fog_scene room_scene(void)
@@ -38,7 +38,6 @@ static struct fog_scene room_scene(void)
     scene.view.sun = (struct host_sun){ true, { 0.5f, -1, -0.3f }, { 5, 5, 5 }, 0 };
     scene.boxes = room;
     scene.box_count = sizeof room / sizeof *room;
-    scene.mirrors = 1 << 2;
     scene.gi = true;
     return scene;
 }

@@ -50,11 +50,17 @@ static struct ray ray_of(const struct host_camera *camera, int x, int y)
 /* ---- What is drawn */
 
 static const struct fog_box edge_boxes[] = {
-    { { 2.7, 1.7, -0.6 }, { 0.5, 0.5, 0.5 }, { 0.3f, 0.3f, 0.3f, 1 }, 0 },
-    { { -2.7, -1.7, -0.6 }, { 0.5, 0.5, 0.5 }, { 0.4f, 0.4f, 0.4f, 1 }, 0 },
-    { { 0, 0, -30 }, { 1, 1, 1 }, { 0.5f, 0.5f, 0.5f, 1 }, 0 },
-    { { 0.9, 0.9, -0.1 }, { 0.5, 0.5, 0.1 }, { 0.6f, 0.6f, 0.6f, 1 }, 0 }, /* before the near plane */
-    { { -0.9, 0.9, -50 }, { 0.5, 0.5, 0.5 }, { 0.7f, 0.7f, 0.7f, 1 }, 0 }, /* behind the far one */
+    { { 2.7, 1.7, -0.6 }, { 0.5, 0.5, 0.5 }, .color = { 0.3f, 0.3f, 0.3f, 1 } },
+    { { -2.7, -1.7, -0.6 }, { 0.5, 0.5, 0.5 }, .color = { 0.4f, 0.4f, 0.4f, 1 } },
+    { { 0, 0, -30 }, { 1, 1, 1 }, .color = { 0.5f, 0.5f, 0.5f, 1 } },
+    { { 0.9, 0.9, -0.1 },
+      { 0.5, 0.5, 0.1 },
+      { 0.6f, 0.6f, 0.6f, 1 },
+      .emission = 0 }, /* before the near plane */
+    { { -0.9, 0.9, -50 },
+      { 0.5, 0.5, 0.5 },
+      { 0.7f, 0.7f, 0.7f, 1 },
+      .emission = 0 }, /* behind the far one */
 };
 
 enum { SEEN_BOXES = 3, EDGE_BOXES = sizeof edge_boxes / sizeof *edge_boxes };
@@ -108,8 +114,8 @@ static void glass_is_drawn_in_order_of_depth(void **state)
 {
     (void)state;
     static const struct fog_box panes[] = {
-        { { 6, 0, -2 }, { 12.5, 4, 0.02 }, { 0, 0, 0, 0.5f }, 1 },
-        { { 0, 0, -3 }, { 8, 8, 0.02 }, { 0, 0, 0, 0.5f }, 0 },
+        { { 6, 0, -2 }, { 12.5, 4, 0.02 }, { 0, 0, 0, 0.5f }, .emission = 1 },
+        { { 0, 0, -3 }, { 8, 8, 0.02 }, .color = { 0, 0, 0, 0.5f } },
     };
     struct fog_scene scene = flat_scene(0);
     scene.boxes = panes;
@@ -173,7 +179,7 @@ static void fog_thins_out_along_parallel_rays(void **state)
 #define SUN_WATTS 5.0f
 
 /* A black wall across the view. */
-static const struct fog_box wall[] = { { { 0, 0, -WALL_M - 1 }, { 80, 80, 2 }, { 0, 0, 0, 1 }, 0 } };
+static const struct fog_box wall[] = { { { 0, 0, -WALL_M - 1 }, { 80, 80, 2 }, .color = { 0, 0, 0, 1 } } };
 
 static void exact_sun(const struct fog_scene *scene, const struct ray *ray, double radiance[3])
 {
@@ -250,7 +256,7 @@ static void a_lamp_has_its_halo_where_it_is(void **state)
 /* ---- Reflections */
 
 static const struct fog_box mirror_floor[] = {
-    { { 0, -2.5, 0 }, { 60, 1, 60 }, { 1, 1, 1, 1 }, 0 },
+    { { 0, -2.5, 0 }, { 60, 1, 60 }, .color = { 1, 1, 1, 1 }, .metal = true, .smoothness = 1 },
 };
 
 /* Seen from 45 degrees above, a mirror shows the sky at 45 degrees, in every pixel: not at the angles at
@@ -262,7 +268,7 @@ static void require_even_mirror(bool forward)
     scene.view.camera.look_at[1] = -1;
     scene.view.sky = (struct host_sky){ { 3, 3, 3 }, { 0, 0, 0 }, { 1, 1, 1 } };
     scene.boxes = mirror_floor;
-    scene.box_count = scene.mirrors = 1;
+    scene.box_count = 1;
     scene.gi = true;
     scene.forward = forward;
     fog_scene_draw(device, &scene, picture);
@@ -283,9 +289,9 @@ static void a_mirror_reflects_parallel_rays_in_parallel(void **state)
 /* ---- The same light */
 
 static const struct fog_box room[] = {
-    { { 0, -1.25, -2 }, { 4, 0.5, 3 }, { 0.8f, 0.8f, 0.8f, 1 }, 0 },
-    { { -0.6, -0.6, -2 }, { 0.8, 0.8, 0.8 }, { 0.9f, 0.2f, 0.1f, 1 }, 0 },
-    { { 0, 0, -3.25 }, { 4, 3, 0.5 }, { 0.2f, 0.8f, 0.3f, 1 }, 0 },
+    { { 0, -1.25, -2 }, { 4, 0.5, 3 }, .color = { 0.8f, 0.8f, 0.8f, 1 } },
+    { { -0.6, -0.6, -2 }, { 0.8, 0.8, 0.8 }, .color = { 0.9f, 0.2f, 0.1f, 1 } },
+    { { 0, 0, -3.25 }, { 4, 3, 0.5 }, .color = { 0.2f, 0.8f, 0.3f, 1 } },
 };
 
 /* What the two cameras see of the same places. */
