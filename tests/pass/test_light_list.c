@@ -2,11 +2,14 @@
  * The list of light cells against one made here from the solid bits: which cells, in which order, and what
  * becomes of the light they had. */
 #include "frame/stage.h"
+#include "hard_case.h"
 #include "pass_scene.h"
 #include "require.h"
 #include "test_group.h"
 #include "test_memory.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { N = 32, CELLS = N * N * N };
@@ -225,6 +228,45 @@ static void without_room_the_first_cells_are_listed_and_the_others_counted(void 
     REQUIRE_CMP(pass_context.messages[SDFGI_MESSAGE_LIGHT_CELLS_OVERFLOW], ==, 1u);
 }
 
+/* Planes across x, two cells apart: every cell of the second cascade is occupied, and every second one of the
+ * first. Rays that leave the first along the planes pass no empty cell of the second. */
+static void open_between_planes(void)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.cascades = 2;
+    settings.resolution = 32;
+    settings.ray_count = 25;
+    settings.frames_to_converge = 1;
+    struct test_mesh planes = { 0 };
+    for (int k = -16; k < 16; k++) {
+        struct test_mesh plane = test_mesh_plane((double[]){ 0.25 * (2 * k + 0.5), 0, 0 },
+                                                 (double[]){ 0, 9, 0 }, (double[]){ 0, 0, 9 }, 1);
+        test_mesh_append(&planes, &plane);
+        test_mesh_destroy(&plane);
+    }
+    pass_scene_open(&pass_context, &settings, &planes);
+    test_mesh_destroy(&planes);
+}
+
+static void hard_64_hits_without_a_light_cell_are_counted(void **state)
+{
+    (void)state;
+    open_between_planes();
+    gi_test_update(&pass_context, 4);
+    uint64_t size;
+    uint32_t *codes = gi_test_read(&pass_context, RESOURCE_RAYS, &size),
+             *counters = gi_test_read(&pass_context, RESOURCE_COUNTERS, NULL), unlit = 0;
+    for (uint64_t i = 0; i < size / 4; i++)
+        unlit += codes[i] == SDFGI_RAY_UNLIT;
+    printf("%u of %llu rays have no light cell\n", unlit, (unsigned long long)size / 4);
+    HARD_CASE_AT_MOST(64, "hits without a light cell, less those counted",
+                      fabs((double)unlit - counters[SDFGI_COUNTER_UNLIT_HITS]), 0);
+    HARD_CASE_AT_LEAST(64, "hits without a light cell that are reported",
+                       pass_health_count(&pass_context, SDFGI_MESSAGE_UNLIT_HITS), 1);
+    free(codes);
+    free(counters);
+}
+
 TEST_GROUP(light_list)
 {
     if (!gpu_test_available())
@@ -234,6 +276,7 @@ TEST_GROUP(light_list)
         cmocka_unit_test(cells_that_stay_keep_their_light_and_others_forget_it),
         cmocka_unit_test(lookups_find_each_cell_by_its_block),
         cmocka_unit_test(without_room_the_first_cells_are_listed_and_the_others_counted),
+        cmocka_unit_test(hard_64_hits_without_a_light_cell_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, pass_context_close);
 }
