@@ -124,6 +124,7 @@ void fog_stage_open(struct fog_stage *stage, struct host_device *device, const s
     const struct host_renderer_desc desc = {
         .width = scene->eye_distance_m > 0 ? 2 * FOG_WIDTH : FOG_WIDTH,
         .height = FOG_HEIGHT,
+        .supersample = scene->supersample,
         .settings = &settings,
         .lookups = { lookup, lookup },
         .eye_distance_m = scene->eye_distance_m,

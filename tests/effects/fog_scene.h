@@ -22,6 +22,7 @@ struct fog_scene {
     uint32_t box_count;
     bool gi;
     float eye_distance_m; /* above 0: two eyes, in a picture that is twice as wide */
+    uint32_t supersample; /* of a side of a pixel; 0: 1 */
     bool forward;         /* light is looked up where surfaces are shaded, not for the whole picture */
 };
 

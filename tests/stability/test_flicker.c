@@ -2,11 +2,10 @@
  * What an eye sees from frame to frame while a lamp goes on or off: FLIP between neighbouring pictures of
  * indirect light, less that of the change itself. */
 #include "light_scene.h"
+#include "picture_flip.h"
 #include "require.h"
 #include "test_group.h"
 
-#include <image/flip.h>
-#include <image/tone.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,16 +91,7 @@ static double mean_of(float picture[PIXELS][4])
 
 static double flip(float a[PIXELS][4], float b[PIXELS][4], float exposure)
 {
-    static float shown[2][PIXELS][4], errors[PIXELS];
-    for (int i = 0; i < PIXELS; i++) {
-        tone_map(a[i], exposure, shown[0][i]);
-        tone_map(b[i], exposure, shown[1][i]);
-    }
-    REQUIRE_TRUE(flip_ldr(shown[0][0], shown[1][0], SIDE, SIDE, errors));
-    double sum = 0;
-    for (int i = 0; i < PIXELS; i++)
-        sum += (double)errors[i];
-    return sum / PIXELS;
+    return picture_flip(a[0], b[0], SIDE, SIDE, exposure);
 }
 
 /* ---- Changes */
