@@ -105,6 +105,43 @@ void load_block(uint block, out uvec2 cells[8])
                               args.cascade << (3u * sdfgi_frame.resolution_log2)];
 }
 
+/* What the two sides of each axis see of an emitter, in squares of a cell's width. */
+void load_sides(uint block, uint weights, out vec3 seen, out vec3 net)
+{
+    uvec2 cells[8];
+    load_block(block, cells);
+    [[unroll]] for (int axis = 0; axis < 3; axis++)
+    {
+        const float area = float(slices_seen(cells, axis)) * slices_column_area(axis) /
+                           (31.0 * float(SDFGI_SUBVOXELS * SDFGI_SUBVOXELS));
+        const uvec2 sides = uvec2(weights >> uint(10 * axis), weights >> uint(10 * axis + 5)) & 31u;
+        seen[axis] = area * float(sides.x + sides.y);
+        net[axis] = area * (float(sides.x) - float(sides.y));
+    }
+}
+
+/* Mean of length(seen * dir) over all directions, within 1 %: a quarter of an ellipsoid's surface, by Knud
+ * Thomsen's formula. */
+float mean_of_ball(vec3 seen)
+{
+    const float P = 1.6075;
+    const vec3 powers = pow(max(seen, 1e-20), vec3(P));
+    return pow((powers.x + powers.y + powers.z) / 3.0, 1.0 / P);
+}
+
+/* The form of an emitter whose own area is `area`. In the mean over all directions any emitter shows half of
+ * that in both of two opposite ones, together (Cauchy), so the area tells whether it is rather a box or a
+ * ball. A flat one has no more area than its net one; an eighth of a sphere 1.155 times that. */
+void find_form(float area, inout vec3 seen, inout vec3 net, out float boxy, out float bent)
+{
+    const float box = 0.5 * (seen.x + seen.y + seen.z), ball = min(mean_of_ball(seen), box),
+                flat_area = max(length(net), 1e-20);
+    boxy = box - ball > 0.01 * box ? clamp((0.5 * area - ball) / (box - ball), 0.0, 1.0) : 1.0;
+    bent = clamp((area / flat_area - 1.0) / 0.155, 0.0, 1.0);
+    seen *= min(0.5 * area / max(mix(ball, box, boxy), 1e-20), 1.0);
+    net *= min(area / flat_area, 1.0);
+}
+
 /* Writes a listed block to its place in the list. */
 void store(uint place, uint block)
 {
@@ -112,23 +149,18 @@ void store(uint place, uint block)
     const uvec2 emission = sdfgi_emission[index];
     const uint shape = sdfgi_emitters[emitter_shape_word(args.cascade, block)],
                word = emitter_word(args.cascade, place);
-    const float square = emitter_shape_fill(shape) / float(SDFGI_SUBVOXELS * SDFGI_SUBVOXELS);
-    uvec2 cells[8];
-    load_block(block, cells);
+    vec3 seen, net;
+    load_sides(block, emission.y, seen, net);
+    const float area = emitter_shape_fill(shape) * (seen.x + seen.y + seen.z);
+    float boxy, bent;
+    find_form(area, seen, net, boxy, bent);
     sdfgi_emitters[word] = block;
-    sdfgi_emitters[word + 1u] = shape;
+    sdfgi_emitters[word + 1u] = emitter_shape_pack_form(shape, boxy, bent);
     sdfgi_emitters[word + 2u] = emission.x;
-    float all_areas = 0.0;
-    [[unroll]] for (int axis = 0; axis < 3; axis++)
-    {
-        const float seen = float(slices_seen(cells, axis)) * slices_column_area(axis) * square / 31.0;
-        const uint weights = emission.y >> uint(10 * axis);
-        const vec2 areas = seen * vec2(weights & 31u, weights >> 5u & 31u);
-        sdfgi_emitters[word + 3u + uint(axis)] = packHalf2x16(areas);
-        all_areas += areas.x + areas.y;
-    }
+    [[unroll]] for (int axis = 0; axis < 3; axis++) sdfgi_emitters[word + 3u + uint(axis)] =
+        packHalf2x16(vec2(seen[axis], net[axis]));
     sdfgi_emitters[word + 6u] =
-        floatBitsToUint(all_areas * sdfgi_light_luminance(sdfgi_emission_radiance(emission)));
+        floatBitsToUint(area * sdfgi_light_luminance(sdfgi_emission_radiance(emission)));
     sdfgi_emitters[word + 7u] = emission.y & SDFGI_EMISSION_IS_BRIGHT;
     sdfgi_emission[index].y = emission.y | SDFGI_EMISSION_IS_LISTED;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Emitters: albedo blocks in which something emits. A cascade lists those that emit most, and light cells
- * send rays towards them, because few rays at random meet a small lamp. An emitter counts as the box around
- * its emissive sub-voxels. Per axis it has the area that emits along it. */
+ * send rays towards them, because few rays at random meet a small lamp. An emitter lies in the box around its
+ * emissive sub-voxels. How much area it shows in a direction follows from what the block's sides see of it.
+ */
 #ifndef SDFGI_EMITTERS_GLSL
 #define SDFGI_EMITTERS_GLSL
 
@@ -34,8 +35,8 @@ uint emitter_shape_word(uint cascade, uint block)
     return emitter_count_word(cascade) + uint(SDFGI_EMITTERS_STRIDE) + block;
 }
 
-/* The words of an emitter: its block, its shape, RGB9E5 radiance, the areas along the six axes as half
- * floats, the power that its axes emit in all, and SDFGI_EMISSION_IS_BRIGHT. */
+/* The words of an emitter: its block, its shape, RGB9E5 radiance, what the two sides of each axis see of it,
+ * together and the one less the other, as half floats, its power, and SDFGI_EMISSION_IS_BRIGHT. */
 uint emitter_word(uint cascade, uint i)
 {
     return emitter_count_word(cascade) + 8u + uint(SDFGI_EMITTER_WORDS) * i;
@@ -61,6 +62,12 @@ float emitter_shape_fill(uint shape)
     return float(shape >> 18u) / 16383.0;
 }
 
+/* In the list `boxy` and `bent` take the place of `fill`, in 7 bits each. */
+uint emitter_shape_pack_form(uint shape, float boxy, float bent)
+{
+    return shape & 0x3ffffu | uint(round(boxy * 127.0)) << 18u | uint(round(bent * 127.0)) << 25u;
+}
+
 /* The place of a listed block in the list of a cascade. */
 uint emitter_of_block(uint cascade, uint block)
 {
@@ -77,8 +84,11 @@ uint emitter_of_block(uint cascade, uint block)
 struct emitter {
     vec3 low, high; /* corners, in cells */
     uvec2 radiance; /* as blocks have it: sdfgi_emission_radiance */
-    float areas[6]; /* in squares of a cell's width */
-    float power;    /* luminance of the radiance times the sum of the areas */
+    vec3 seen;      /* areas that both sides of an axis see, in squares of a cell's width */
+    vec3 net;       /* that of the positive side less that of the negative one */
+    float boxy;     /* 1: a box; 0: a ball, whatever its proportions */
+    float bent;     /* 0: flat */
+    float power;    /* luminance of the radiance times the area that emits */
 };
 
 emitter emitter_load(uint cascade, uint i)
@@ -91,22 +101,29 @@ emitter emitter_load(uint cascade, uint i)
     e.high =
         corner + vec3((uvec3(shape >> 9u, shape >> 12u, shape >> 15u) & 7u) + 1u) / float(SDFGI_SUBVOXELS);
     e.radiance = uvec2(sdfgi_emitters[word + 2u], sdfgi_emitters[word + 7u]);
-    for (uint k = 0u; k < 3u; k++) {
-        const vec2 pair = unpackHalf2x16(sdfgi_emitters[word + 3u + k]);
-        e.areas[2u * k] = pair.x;
-        e.areas[2u * k + 1u] = pair.y;
-    }
+    const vec2 x = unpackHalf2x16(sdfgi_emitters[word + 3u]), y = unpackHalf2x16(sdfgi_emitters[word + 4u]),
+               z = unpackHalf2x16(sdfgi_emitters[word + 5u]);
+    e.seen = vec3(x.x, y.x, z.x);
+    e.net = vec3(x.y, y.y, z.y);
+    e.boxy = float(shape >> 18u & 127u) / 127.0;
+    e.bent = float(shape >> 25u) / 127.0;
     e.power = uintBitsToFloat(sdfgi_emitters[word + 6u]);
     return e;
 }
 
-/* Area that an emitter shows in a direction. */
+/* Area that an emitter shows in a direction and in the opposite one, together: of a flat one, of a box, and
+ * of a ball, it is known from the areas that the sides of a block see. */
+float emitter_area_both_ways(emitter e, vec3 dir)
+{
+    const vec3 sides = e.seen * abs(dir);
+    return mix(abs(dot(e.net, dir)), mix(length(sides), sides.x + sides.y + sides.z, e.boxy), e.bent);
+}
+
+/* Area that an emitter shows in a direction. Whatever its form, what it shows in the opposite one is less by
+ * the net area along it. */
 float emitter_area_towards(emitter e, vec3 dir)
 {
-    float area = 0.0;
-    for (int axis = 0; axis < 3; axis++)
-        area += abs(dir[axis]) * (dir[axis] > 0.0 ? e.areas[2 * axis] : e.areas[2 * axis + 1]);
-    return area;
+    return max(0.5 * (emitter_area_both_ways(e, dir) + dot(e.net, dir)), 0.0);
 }
 
 /* Cells: from nearer than that light grows no more, because the place of surfaces is not known so closely. */
@@ -118,8 +135,8 @@ float emitter_importance(emitter e, vec3 pos)
     const vec3 offset = sdfgi_metric_from_cells(0.5 * (e.low + e.high) - pos);
     const float radius = 0.5 * length(sdfgi_metric_from_cells(e.high - e.low));
     const float range = max(length(offset), 1e-3), slack = (radius + 1.0) / range;
-    const float all_areas = e.areas[0] + e.areas[1] + e.areas[2] + e.areas[3] + e.areas[4] + e.areas[5];
-    const float shown = emitter_area_towards(e, -offset / range) / max(all_areas, 1e-12) + slack;
+    const float all_sides = e.seen.x + e.seen.y + e.seen.z;
+    const float shown = emitter_area_towards(e, -offset / range) / max(all_sides, 1e-12) + slack;
     const float nearest = max(range, max(radius, EMITTER_NEAR));
     return e.power * min(shown, 1.0) / (nearest * nearest);
 }
@@ -135,9 +152,7 @@ struct emitter_point {
 emitter_point emitter_point_at(emitter e, vec3 from, vec3 place)
 {
     const vec3 offset = sdfgi_metric_from_cells(from - 0.5 * (e.low + e.high));
-    vec3 shown;
-    for (int axis = 0; axis < 3; axis++)
-        shown[axis] = abs(offset[axis]) * (offset[axis] > 0.0 ? e.areas[2 * axis] : e.areas[2 * axis + 1]);
+    const vec3 shown = max(abs(offset) * e.seen + offset * e.net, 0.0);
     float rest = place.x * (shown.x + shown.y + shown.z);
     int axis = 0;
     for (; axis < 2 && rest >= shown[axis]; axis++)
@@ -167,7 +182,8 @@ vec3 emitter_light(emitter e, vec3 pos, vec3 normal, vec3 point)
 bool emitter_is_hit(emitter e, sdfgi_trace_hit hit, float range)
 {
     const float NEAR = 0.02;
-    return !hit.capped && hit.distance >= range - NEAR && e.areas[hit.axis] >= e.areas[hit.axis ^ 1u];
+    const float net = sdfgi_trace_component(e.net, int(hit.axis >> 1u));
+    return !hit.capped && hit.distance >= range - NEAR && ((hit.axis & 1u) == 0u ? net : -net) >= 0.0;
 }
 
 #endif

@@ -30,6 +30,18 @@ static void add_lamp(struct gi_test *t, const double center[static 3], double si
     light_add(t, test_mesh_plane(center, u, v, 1), 0, (float)(watts_per_sr / (side * side)));
 }
 
+/* It emits outwards. */
+static void add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr)
+{
+    const float emission = (float)(watts_per_sr / (PI * radius * radius));
+    const struct sdfgi_material_desc desc = { .alpha = 1, .emission = { emission, emission, emission } };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
+    struct test_mesh ball = test_mesh_sphere(center, radius, 3);
+    gi_test_add(t, &ball, material);
+    test_mesh_destroy(&ball);
+}
+
 /* A floor whose top is at -0.05. */
 static void add_floor(struct gi_test *t, double half)
 {
@@ -51,9 +63,21 @@ static double lamp_irradiance(double side, double watts_per_sr, const float at[s
     return watts_per_sr * sum / (PARTS * PARTS);
 }
 
+/* The same of a ball at half the height, of a radius. */
+static double ball_irradiance(double radius, double watts_per_sr, const float at[static 3])
+{
+    (void)radius;
+    const double x = (double)at[0], z = (double)at[2], h = HEIGHT / 2 - (double)at[1],
+                 square = x * x + z * z + h * h;
+    return watts_per_sr * h / (square * sqrt(square));
+}
+
+typedef double irradiance_fn(double size, double watts_per_sr, const float at[static 3]);
+
 /* The same as cells show it: interpolated between four, of which each is the mean of 3 x 3. Right under the
  * lamp that is 3.5 % less. */
-static double shown_irradiance(double side, double watts_per_sr, const float at[static 3])
+static double shown_irradiance(irradiance_fn *irradiance, double size, double watts_per_sr,
+                               const float at[static 3])
 {
     const double x = floor((double)at[0] / CELL_M - 0.5), z = floor((double)at[2] / CELL_M - 0.5);
     double sum = 0;
@@ -64,7 +88,7 @@ static double shown_irradiance(double side, double watts_per_sr, const float at[
                                  (float)((back + part / 3 - 0.5) * CELL_M) };
         const double weight = (1 - fabs((double)at[0] / CELL_M - 0.5 - right)) *
                               (1 - fabs((double)at[2] / CELL_M - 0.5 - back));
-        sum += weight / 9 * lamp_irradiance(side, watts_per_sr, place);
+        sum += weight / 9 * irradiance(size, watts_per_sr, place);
     }
     return sum;
 }
@@ -93,10 +117,42 @@ static void hard_49_lamps_of_all_sizes_give_the_light_of_their_power(void **stat
         gi_test_converge(&t, 400);
         gi_test_irradiance(&t, floor_points, POINTS, found);
         for (int k = 0; k < POINTS; k++) {
-            const double expected = shown_irradiance(sides[i], 20, floor_points[k].position),
+            const double expected = shown_irradiance(lamp_irradiance, sides[i], 20, floor_points[k].position),
                          ratio = (double)found[k][1] / expected;
             printf("lamp of %.2f m, point %d: %.3f W/m^2, ratio %.3f\n", sides[i], k, expected, ratio);
             HARD_CASE_AT_MOST(49, "light of lamps of 1/100 cell to 4 cells, off by", fabs(ratio - 1), 0.02);
+        }
+    }
+    gi_test_close(&t);
+}
+
+/* Below the ball, beside it, and along diagonals. There boxes of its power would show up to 1.7 times the
+ * area that they show along axes. */
+static void a_ball_shines_alike_in_all_directions(void **state)
+{
+    (void)state;
+    static const double radii[] = { 0.3, 0.08 };
+    static const struct gi_test_point at[POINTS] = {
+        { { 0, -0.05f, 0 }, { 0, 1, 0 } },       { { 1.05f, -0.05f, 0 }, { 0, 1, 0 } },
+        { { 0.8f, -0.05f, 0.8f }, { 0, 1, 0 } }, { { -1.3f, -0.05f, 1.3f }, { 0, 1, 0 } },
+        { { 0, -0.05f, -1.5f }, { 0, 1, 0 } },
+    };
+    static struct gi_test t;
+    const struct sdfgi_settings settings = emitter_settings();
+    gi_test_open(&t, &settings);
+    for (int i = 0; i < 2; i++) {
+        float found[POINTS][3];
+        const double r = radii[i], watts_per_sr = 10;
+        gi_test_restart(&t, &settings);
+        add_floor(&t, 1.8);
+        add_ball(&t, (double[]){ 0, HEIGHT / 2, 0 }, r, watts_per_sr);
+        gi_test_converge(&t, 400);
+        gi_test_irradiance(&t, at, POINTS, found);
+        for (int k = 0; k < POINTS; k++) {
+            const double expected = shown_irradiance(ball_irradiance, r, watts_per_sr, at[k].position),
+                         ratio = (double)found[k][1] / expected;
+            printf("ball of %.2f m, point %d: %.3f W/m^2, ratio %.3f\n", r, k, expected, ratio);
+            REQUIRE_NEAR(ratio, 1, 0.11);
         }
     }
     gi_test_close(&t);
@@ -249,7 +305,7 @@ static void nothing_comes_through_a_lampshade(void **state)
     for (int i = 0; i < 3; i++)
         REQUIRE_CMP(found[i][1], ==, 0.0f);
     const double below = light_white_at(&t, floor_points[0]);
-    REQUIRE_NEAR(below / shown_irradiance(0.2, 20, floor_points[0].position), 1, 0.06);
+    REQUIRE_NEAR(below / shown_irradiance(lamp_irradiance, 0.2, 20, floor_points[0].position), 1, 0.06);
     gi_test_close(&t);
 }
 
@@ -371,6 +427,7 @@ TEST_GROUP(emitters)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_49_lamps_of_all_sizes_give_the_light_of_their_power),
+        cmocka_unit_test(a_ball_shines_alike_in_all_directions),
         cmocka_unit_test(hard_50_a_lamp_that_slides_keeps_its_light),
         cmocka_unit_test(hard_50_a_wall_that_slides_keeps_its_light),
         cmocka_unit_test(nothing_comes_through_a_lampshade),
