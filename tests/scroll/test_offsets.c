@@ -47,13 +47,13 @@ static void hard_27_light_does_not_depend_on_the_place_within_a_cell(void **stat
 {
     (void)state;
     static double light[MOST_PLACES][POINTS];
-    const int places = getenv("SDFGI_TEST_FULL") ? MOST_PLACES : 3;
     struct sdfgi_settings settings = light_settings(scroll_resolution(), 6.4f / (float)scroll_resolution());
     settings.cascades = 1;
     if (!scroll_is_full()) /* cycles of one frame settle in fewer frames */
         settings.frames_to_converge = 1;
     static struct gi_test t;
     gi_test_open(&t, &settings);
+    const int places = scroll_is_full() ? (int)gpu_test_repeats(&t.gpu, MOST_PLACES) : 3;
     struct test_random random = { 27 };
     double mean[POINTS] = { 0 };
     for (int n = 0; n < places; n++) {

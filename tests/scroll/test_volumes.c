@@ -185,7 +185,7 @@ static void hard_19_a_long_journey_leaves_no_trace(void **state)
     open_scene(&t, scroll_air, &settings, home);
     struct test_random random = { 19 };
     double camera[3] = { home[0], home[1], home[2] };
-    const uint32_t scrolls = scroll_is_full() ? 1000 : 40;
+    const uint32_t scrolls = scroll_is_full() ? gpu_test_repeats(&t.gpu, 1000) : 40;
     uint32_t checked = 0;
     while (t.gi->volume.state.scroll.scrolls_begun < scrolls) {
         for (int i = 0; i < 3; i++) {

@@ -311,6 +311,12 @@ void gpu_test_require_silence(struct gpu_test *gpu)
     require_silence(gpu_test_take_messages(gpu));
 }
 
+uint32_t gpu_test_repeats(const struct gpu_test *gpu, uint32_t count)
+{
+    const bool is_software = gpu->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    return is_software ? (count + 7) / 8 : count;
+}
+
 void gpu_test_close(struct gpu_test *gpu)
 {
     require_silence(gpu_test_destroy(gpu));

@@ -70,6 +70,10 @@ bool gpu_test_available(void);
  * NULL for a device without any. */
 void gpu_test_open(struct gpu_test *gpu, gpu_test_requirements_fn requirements);
 
+/* How often suite `full` repeats what it asks for `count` times on a GPU: an eighth of that on a software
+ * driver, where all of it would take hours. */
+uint32_t gpu_test_repeats(const struct gpu_test *gpu, uint32_t count);
+
 /* Destroys everything, then fails the test if the layer had anything to say. */
 void gpu_test_close(struct gpu_test *gpu);
 /* The same outside of a test. Returns what the layer had to say. */

@@ -318,7 +318,7 @@ static void every_change_wakes_settled_light(void **state)
         else if (is_telling(i))
             change_and_back(&f, i);
     f.at_random = true;
-    while (is_full() && f.changes < CHANGES)
+    while (is_full() && f.changes < gpu_test_repeats(&f.device.t.gpu, CHANGES))
         change_and_back(&f, below(&f, row_count()));
     finish(&f, "probes");
     if (is_full())
