@@ -129,7 +129,7 @@ void fog_stage_open(struct fog_stage *stage, struct host_device *device, const s
         .lookups = { lookup, lookup },
         .eye_distance_m = scene->eye_distance_m,
     };
-    const struct host_until_desc until = { .max_frames = MAX_FRAMES };
+    const struct host_until_desc until = { .frames = scene->frames, .max_frames = MAX_FRAMES };
     stage->camera = scene->view.camera;
     stage->scene = scene_create(device, scene);
     stage->renderer = stage->scene ? host_renderer_create(device, stage->scene, &desc) : NULL;

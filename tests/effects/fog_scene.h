@@ -23,6 +23,7 @@ struct fog_scene {
     bool gi;
     float eye_distance_m; /* above 0: two eyes, in a picture that is twice as wide */
     uint32_t supersample; /* of a side of a pixel; 0: 1 */
+    uint32_t frames;      /* to draw at first; 0: until light has settled, or nearly so */
     bool forward;         /* light is looked up where surfaces are shaded, not for the whole picture */
 };
 
@@ -36,7 +37,7 @@ struct fog_stage {
  * else. */
 struct fog_scene fog_scene_empty(float density);
 
-/* Draws until light has settled, or nearly so. */
+/* Draws the scene's first frames. */
 void fog_stage_open(struct fog_stage *stage, struct host_device *device, const struct fog_scene *scene);
 void fog_stage_close(struct fog_stage *stage);
 /* Radiance, four floats a pixel. */

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 96, PIXELS = SIDE * SIDE, FRAMES = 20, SETTLE = 64 };
+enum { SIDE = 96, PIXELS = SIDE * SIDE, FRAMES = 20, SETTLE = 48 };
 
 /* A room of 3.2 m with a pillar, which two lamps light. One of them changes. */
 #define HALF_M  1.6
