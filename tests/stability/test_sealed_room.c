@@ -134,9 +134,12 @@ static void hard_45_walls_of_one_and_two_cells_are_tight(void **state)
     HARD_CASE_AT_MOST(45, "inside over outside, walls of a cell or two", leak(CELL_M, 45, 0.5f), 1e-4);
     if (!getenv("SDFGI_TEST_FULL"))
         return;
-    for (int i = 0; i < 8; i++)
+    static const int others[] = { 1, 2, 3, 4, 5, 7 };
+    for (int k = 0; k < 6; k++) {
+        const int i = others[k];
         HARD_CASE_AT_MOST(45, "inside over outside, walls of a cell or two",
                           leak(i & 1 ? 2 * CELL_M : CELL_M, i & 2 ? 45 : 0, i & 4 ? 0.5f : 0), 1e-4);
+    }
 }
 
 static void hard_45_walls_of_a_quarter_cell_are_tight(void **state)
