@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Emitters: albedo blocks in which something emits. A cascade lists those that emit most, and light cells
  * send rays towards them, because few rays at random meet a small lamp. An emitter lies in the box around its
- * emissive sub-voxels. How much area it shows in a direction follows from what the block's sides see of it.
- */
+ * emissive sub-voxels. How much area it shows in a direction follows from what the sides of its block see. */
 #ifndef SDFGI_EMITTERS_GLSL
 #define SDFGI_EMITTERS_GLSL
 

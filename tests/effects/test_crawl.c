@@ -22,6 +22,12 @@ enum { FRAMES = 4 };
 #define BRIGHTEST 5.0f /* of what glows, with what it reflects */
 
 static struct host_device *device;
+
+static bool is_full(void)
+{
+    return getenv("SDFGI_TEST_FULL") != NULL;
+}
+
 typedef float pixels[FOG_PIXELS][4];
 
 /* ---- Scenes */
@@ -52,7 +58,7 @@ static struct fog_scene scene_of(const struct fog_box mirror[BOXES], float rough
     scene.box_count = BOXES;
     scene.gi = true;
     /* What glows shows at once; what it lights counts in sharp mirrors, which are tried in suite `full`. */
-    scene.frames = getenv("SDFGI_TEST_FULL") ? 0 : 6;
+    scene.frames = is_full() ? 0 : 6;
     scene.view.materials = HOST_MATERIALS_GLTF;
     scene.view.sky = (struct host_sky){ { 0.2f, 0.3f, 0.5f }, { 0.4f, 0.4f, 0.4f }, { 0.1f, 0.1f, 0.1f } };
     scene.view.camera.yfov_rad = 0.7f;
@@ -129,7 +135,8 @@ static double change_of(struct walk *w, float exposure)
     return sum / (FRAMES - 1);
 }
 
-/* A pixel of a rough mirror is the mean of 16 rays, one of which may meet a lamp. */
+/* A pixel of a rough mirror is the mean of 16 rays, one of which may meet a lamp. Measured: FLIP is up to
+ * 0.0025 more, and 0.014 to 0.039 crawls. Without the filter that is up to 0.1; FLIP does not tell. */
 static void require_no_crawl(const char *name, const struct fog_box mirror[BOXES], float roughness)
 {
     static struct walk seen, smooth;
@@ -146,7 +153,7 @@ static void require_no_crawl(const char *name, const struct fog_box mirror[BOXES
            "pixels moved\n",
            name, (double)roughness, change, even, crawl, moved);
     REQUIRE_CMP(even, >, 0.01);
-    REQUIRE_CMP(change - even, <=, 0.01);
+    REQUIRE_CMP(change - even, <=, 0.005);
     REQUIRE_CMP(crawl, <=, 0.045);
     REQUIRE_CMP(moved, ==, 0u);
 }
@@ -155,9 +162,9 @@ static void nothing_crawls_in_puddles_and_windows(void **state)
 {
     (void)state;
     static const float roughnesses[] = { 0.15f, 0.08f, 0, 0.3f, 0.5f };
-    for (int i = 0; i < (getenv("SDFGI_TEST_FULL") ? 5 : 1); i++) {
+    for (int i = 0; i < (is_full() ? 5 : 1); i++) {
         require_no_crawl("window", window, roughnesses[i]);
-        if (getenv("SDFGI_TEST_FULL"))
+        if (is_full())
             require_no_crawl("puddle", puddle, roughnesses[i]);
     }
 }

@@ -53,14 +53,9 @@ static const struct fog_box edge_boxes[] = {
     { { 2.7, 1.7, -0.6 }, { 0.5, 0.5, 0.5 }, .color = { 0.3f, 0.3f, 0.3f, 1 } },
     { { -2.7, -1.7, -0.6 }, { 0.5, 0.5, 0.5 }, .color = { 0.4f, 0.4f, 0.4f, 1 } },
     { { 0, 0, -30 }, { 1, 1, 1 }, .color = { 0.5f, 0.5f, 0.5f, 1 } },
-    { { 0.9, 0.9, -0.1 },
-      { 0.5, 0.5, 0.1 },
-      { 0.6f, 0.6f, 0.6f, 1 },
-      .emission = 0 }, /* before the near plane */
-    { { -0.9, 0.9, -50 },
-      { 0.5, 0.5, 0.5 },
-      { 0.7f, 0.7f, 0.7f, 1 },
-      .emission = 0 }, /* behind the far one */
+    /* Before the near plane, and behind the far one. */
+    { { 0.9, 0.9, -0.1 }, { 0.5, 0.5, 0.1 }, .color = { 0.6f, 0.6f, 0.6f, 1 } },
+    { { -0.9, 0.9, -50 }, { 0.5, 0.5, 0.5 }, .color = { 0.7f, 0.7f, 0.7f, 1 } },
 };
 
 enum { SEEN_BOXES = 3, EDGE_BOXES = sizeof edge_boxes / sizeof *edge_boxes };

@@ -80,8 +80,8 @@ struct tally {
     uint64_t rays, escapes, capped, grazing, wrong, turned;
 };
 
-/* True if the face is seen from outside, and the point where the oracle's ray enters a sub-voxel lies on it.
- */
+/* True if the face is seen from outside, and the point where the oracle's ray enters a sub-voxel lies on it,
+ * as closely as distances agree. */
 static bool enters_face(const struct ray *ray, const struct oracle_hit *expected, double y_scale)
 {
     const int axis = (int)ray->axis / 2;

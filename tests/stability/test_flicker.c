@@ -98,28 +98,35 @@ static double flip(float a[PIXELS][4], float b[PIXELS][4], float exposure)
 
 static float before[PIXELS][4], after[PIXELS][4], frames[FRAMES][PIXELS][4];
 
-/* The picture between those before and after whose mean is that of frame i. */
-static void without_noise(int i, double *share, float picture[PIXELS][4])
+/* Share of the change that frame i has, in the mean. */
+static double share_of(int i)
 {
     const double a = mean_of(before), b = mean_of(after);
-    *share = (mean_of(frames[i]) - a) / (b - a);
-    for (int k = 0; k < 4 * PIXELS; k++)
-        picture[k / 4][k % 4] =
-            before[k / 4][k % 4] + (float)*share * (after[k / 4][k % 4] - before[k / 4][k % 4]);
+    return (mean_of(frames[i]) - a) / (b - a);
+}
+
+/* The picture between those before and after that has a share of the change. */
+static void without_noise(double share, float picture[PIXELS][4])
+{
+    for (int k = 0; k < 4 * PIXELS; k++) {
+        const float a = before[k / 4][k % 4], b = after[k / 4][k % 4];
+        picture[k / 4][k % 4] = a + (float)share * (b - a);
+    }
 }
 
 static void require_calm(const char *name)
 {
     static float was[PIXELS][4], is[PIXELS][4];
     const float exposure = tone_exposure(mean_of(before) > mean_of(after) ? before[0] : after[0], PIXELS);
-    double share, worst = 0;
-    int nine_tenths = FRAMES;
-    without_noise(0, &share, was);
-    for (int i = 1; i < FRAMES; i++) {
-        without_noise(i, &share, is);
-        const double noise = flip(frames[i - 1], frames[i], exposure) - flip(was, is, exposure);
-        nine_tenths = fabs(share - 1) > 0.1 ? FRAMES : nine_tenths < FRAMES ? nine_tenths : i + 1;
-        worst = fmax(worst, noise);
+    double worst = 0;
+    int nine_tenths = 1; /* frames until no later one lacks a tenth */
+    for (int i = 0; i < FRAMES; i++) {
+        const double share = share_of(i);
+        without_noise(share, is);
+        if (i > 0)
+            worst = fmax(worst, flip(frames[i - 1], frames[i], exposure) - flip(was, is, exposure));
+        if (fabs(share - 1) > 0.1)
+            nine_tenths = i + 2;
         memcpy(was, is, sizeof was);
     }
     printf("%s: nine tenths after %d frames, noise %.4f at most\n", name, nine_tenths, worst);

@@ -40,18 +40,24 @@ void sdfgi_release_prepared(sdfgi *gi)
     fake.made = 0;
 }
 
-static void let_make(int objects)
-{
-    for (int i = 0; i < objects; i++) {
-        sem_wait(&fake.begun);
-        sem_post(&fake.may);
-    }
-}
+static const struct sdfgi_settings settings = { .enabled = true };
 
 static void wait_until_done(const struct host_prepare *prepare)
 {
     while (!prepare->done)
         nanosleep(&(struct timespec){ 0, 100000 }, NULL);
+}
+
+/* Lets as many objects be made, after which the host is told that it may switch. */
+static void require_ready_after(struct host_prepare *prepare, int objects)
+{
+    for (int i = 0; i < objects; i++) {
+        assert_false(host_prepare_step(prepare, &settings));
+        sem_wait(&fake.begun);
+        sem_post(&fake.may);
+    }
+    wait_until_done(prepare);
+    assert_true(host_prepare_step(prepare, &settings));
 }
 
 static int begin(void **state)
@@ -64,12 +70,8 @@ static int begin(void **state)
 static void it_is_ready_once_all_is_made(void **state)
 {
     (void)state;
-    const struct sdfgi_settings settings = { .enabled = true };
     struct host_prepare prepare = { 0 };
-    assert_false(host_prepare_step(&prepare, &settings));
-    let_make(OBJECTS);
-    wait_until_done(&prepare);
-    assert_true(host_prepare_step(&prepare, &settings));
+    require_ready_after(&prepare, OBJECTS);
     assert_int_equal(fake.made, OBJECTS);
 }
 
@@ -77,7 +79,6 @@ static void it_is_ready_once_all_is_made(void **state)
 static void a_thread_that_stopped_begins_again(void **state)
 {
     (void)state;
-    const struct sdfgi_settings settings = { .enabled = true };
     struct host_prepare prepare = { 0 };
     assert_false(host_prepare_step(&prepare, &settings));
     sem_wait(&fake.begun);
@@ -85,10 +86,7 @@ static void a_thread_that_stopped_begins_again(void **state)
     sem_post(&fake.may);
     wait_until_done(&prepare);
     assert_false(host_prepare_step(&prepare, &settings));
-    assert_false(host_prepare_step(&prepare, &settings));
-    let_make(OBJECTS - 1);
-    wait_until_done(&prepare);
-    assert_true(host_prepare_step(&prepare, &settings));
+    require_ready_after(&prepare, OBJECTS - 1);
     assert_int_equal(fake.made, OBJECTS);
 }
 
@@ -96,13 +94,9 @@ static void a_thread_that_stopped_begins_again(void **state)
 static void what_cannot_be_made_is_ready_too(void **state)
 {
     (void)state;
-    const struct sdfgi_settings settings = { .enabled = true };
     struct host_prepare prepare = { 0 };
     fake.result = SDFGI_ERROR_OUT_OF_MEMORY;
-    assert_false(host_prepare_step(&prepare, &settings));
-    let_make(1);
-    wait_until_done(&prepare);
-    assert_true(host_prepare_step(&prepare, &settings));
+    require_ready_after(&prepare, 1);
     assert_int_equal(fake.calls, 1);
 }
 
