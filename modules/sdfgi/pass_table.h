@@ -89,8 +89,9 @@
       ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS)      \
       | R(INDIRECT))                                                                                         \
     X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
-      ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(NORMALS)   \
-      | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN), R(GATHERED) | R(COUNTERS))   \
+      ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(ALBEDO)    \
+      | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN),                 \
+      R(GATHERED) | R(COUNTERS))                                                                             \
     X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, PROBES, CREATED,                                           \
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(SURFACES) |            \
       R(EMISSION) | R(INDIRECT), R(SUMS) | R(COUNTERS))                                                      \
@@ -106,7 +107,7 @@
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, V(DIFFUSE), V(REFLECTION) | V(TILES))                        \
     X(REFLECT_RAYS, COMPUTE, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                                 \
       TILE_LIST, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) | R(LIGHT) |             \
-      R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | V(TILES), V(REFLECTION))                                 \
+      R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(ALBEDO) | R(NORMALS) | V(TILES), V(REFLECTION))        \
     X(REFLECT_FILTER, COMPUTE, reflect_filter, PIXELS, REFLECTIONS, OWN, DEMAND,                             \
       TILE_LIST, gather, 1, VIEW, V(TILES) | V(DIFFUSE), V(REFLECTION) | V(FILTERED))                        \
     X(DEBUG_VIEW, COMPUTE, debug_view, PIXELS, DEBUG_VIEW, OWN, DEMAND,                                      \

@@ -99,6 +99,7 @@ static void gi_albedo_fill(const struct gltf_material *m, uint32_t flags, struct
     const struct host_albedo albedo = host_albedo_of(out->albedo, m->metallic, m->roughness);
     memcpy(out->albedo, albedo.color, sizeof out->albedo);
     out->specular_albedo = albedo.specular;
+    out->metallic = m->metallic;
 }
 
 static void gi_fill(const struct gltf_scene *gltf, const struct gltf_material *m,

@@ -16,6 +16,7 @@
 #include "../lib/on_cpu.glsl"
 #include "emitters.glsl"
 #include "gathered.glsl"
+#include "metal.glsl"
 #include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../include/sdfgi_sky.glsl"
@@ -54,6 +55,8 @@ struct ray_source {
  * steps. Rays from the cell's centre saw a wall beside it from half a cell away; the indirect light of rooms
  * was up to 2 % too bright. */
 const float RAY_CLEARANCE = 0.4;
+/* Cells: how far within a light cell a ray goes on from metal, at least. */
+const float INSIDE_CELL = 0.02;
 
 ray_source source_of(uint cascade, uint surface)
 {
@@ -154,14 +157,15 @@ vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
     return vec4(light * (share / chance), 1.0);
 }
 
-/* Emission of what a ray at random has hit. Rays towards emitters bring a share of it if it is listed. */
-vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit)
+/* Emission of what a ray at random has hit. Rays towards emitters bring a share of it if it is listed, but
+ * none by way of metal. */
+vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit, bool by_metal)
 {
     if (!sdfgi_surfaces_emit())
         return vec3(0.0);
     const uint block = sdfgi_block_index(hit.cascade, hit.solid);
     const vec3 emission = sdfgi_block_emission(block, hit.axis);
-    if (emission == vec3(0.0) || hit.cascade != cascade || !surface_is_listed_emitter(block))
+    if (by_metal || emission == vec3(0.0) || hit.cascade != cascade || !surface_is_listed_emitter(block))
         return emission;
     const emitter e =
         emitter_load(cascade, emitter_of_block(cascade, sdfgi_albedo_block_index(cascade, hit.solid)));
@@ -184,20 +188,41 @@ vec3 ray_direction(vec3 normal, uint index, uint shift)
     return radius * (cos(turn) * side + sin(turn) * up) + sqrt(max(1.0 - point.x, 0.0)) * normal;
 }
 
-/* Light at the end of a ray: 0 in a if the surface that it hit has no light cell. */
-vec4 send_random_ray(uint cascade, ray_source source, vec3 dir)
+/* Where a ray has hit something, moved into the light cell before it: all of that is on the ray's side of
+ * walls. */
+vec3 place_before(uint cascade, vec3 from, vec3 dir, sdfgi_trace_hit hit)
 {
-    const sdfgi_trace_hit hit =
-        sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, source.pos, dir, 1e9);
-    if (!hit.hit)
-        return vec4(sdfgi_sky_towards(dir), 1.0);
-    if (!hit.has_cell)
-        return vec4(0.0);
+    const vec3 at = sdfgi_first_from_cascade(cascade, from + sdfgi_cells_from_metric(dir) * hit.distance);
+    const vec3 low = vec3(hit.cell) + INSIDE_CELL, high = vec3(hit.cell + 1) - INSIDE_CELL;
+    return clamp(sdfgi_cascade_from_first(hit.cascade, at), low, high);
+}
+
+/* Light at the end of a ray, the `index`-th of a cycle: 0 in a if the surface that it hit has no light cell.
+ * One loop, so that drivers compile the ray once. */
+vec4 send_random_ray(uint cascade, ray_source source, uint index)
+{
+    vec3 dir = ray_direction(source.normal, index, source.shift), from = source.pos, share = vec3(1.0),
+         light = vec3(0.0);
+    uint in_cascade = cascade;
+    sdfgi_trace_hit hit;
+    for (uint i = 0u; i < 2u; i++) {
+        hit = sdfgi_trace_ray(in_cascade, sdfgi_frame.cascade_count - 1u, from, dir, 1e9);
+        if (!hit.hit)
+            return vec4(light + share * sdfgi_sky_towards(dir), 1.0);
+        light += share * hit_emission(cascade, source, dir, hit, i > 0u);
+        const uint block = sdfgi_block_index(hit.cascade, hit.solid);
+        if (i > 0u || !hit.has_cell || surface_metal(block) == 0u)
+            break;
+        from = place_before(cascade, from, dir, hit);
+        dir = metal_direction(block, hit.axis, dir, sdfgi_random_r2(index, source.shift + 1u));
+        share = surface_albedo(block, hit.axis);
+        in_cascade = hit.cascade;
+    }
     uint entry;
-    if (!sdfgi_cell_entry(hit.cascade, hit.cell, entry))
+    if (!hit.has_cell || !sdfgi_cell_entry(hit.cascade, hit.cell, entry))
         return vec4(0.0);
-    const vec3 light = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(hit.cascade, entry, hit.axis)]);
-    return vec4(light + hit_emission(cascade, source, dir, hit), 1.0);
+    const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(hit.cascade, entry, hit.axis)]);
+    return vec4(light + share * leaving, 1.0);
 }
 
 /* ---- A visit */
@@ -224,8 +249,7 @@ void send_rays(uint cascade, uint rays)
         if (i < at_random) {
             const uint of_surface = i / RAYS, ray = i % RAYS;
             const ray_source source = source_of(cascade, surfaces[of_surface]);
-            const vec3 dir = ray_direction(source.normal, source.visits * RAYS + ray, source.shift);
-            keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, dir));
+            keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, source.visits * RAYS + ray));
         }
         i += THREADS;
     } while (i < at_random);

@@ -6,6 +6,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
+#define SDFGI_REFLECTS_METAL
+#include "metal.glsl"
 #include "../include/sdfgi_reflection.glsl"
 #include "../lib/random.glsl"
 #include "picture_reflect.glsl"
@@ -18,24 +20,6 @@ const float LEAST_RISE = 0.02;
  * lamp, and a square of few rays would show it as a dot. */
 const float NARROW_SHARE = 0.9;
 
-/* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
- * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
- */
-vec3 lobe_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
-{
-    const vec3 side =
-        normalize(abs(normal.y) < 0.9 ? vec3(-normal.z, 0.0, normal.x) : vec3(0.0, normal.z, -normal.y));
-    const mat3 frame = mat3(side, cross(normal, side), normal);
-    const vec3 view = normalize(to_eye) * frame;
-    const vec3 stretched = normalize(vec3(view.xy * alpha, max(view.z, 1e-3)));
-    const float turn = 6.2831853 * point.x, z = (1.0 - point.y) * (1.0 + stretched.z) - stretched.z;
-    const vec3 cap = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(turn), sin(turn)), z) + stretched;
-    const vec3 facet = normalize(vec3(cap.xy * alpha, max(cap.z, 1e-6)));
-    const vec3 dir = reflect(-view, facet);
-    /* A facet may send light into the surface: its neighbours send it out again. */
-    return normalize(frame * vec3(dir.xy, max(abs(dir.z), 1e-3)));
-}
-
 /* Every square of SDFGI_RAYS_SIDE rays a side, wherever it begins, holds each point of a sequence once, and
  * squares side by side hold it with other shifts. `pixel` is in steps from ray to ray. */
 vec2 pattern_point(ivec2 pixel)
@@ -46,12 +30,11 @@ vec2 pattern_point(ivec2 pixel)
 }
 
 /* The ray of a pixel of a surface. */
-vec3 ray_direction(ivec2 pixel, picture_surface s, float roughness)
+vec3 ray_direction(vec2 point, picture_surface s, float roughness)
 {
     const float wide = smoothstep(PICTURE_WIDE_LOBES.x, PICTURE_WIDE_LOBES.y, roughness);
-    const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
-    return lobe_direction(s.normal, s.to_eye, roughness * roughness,
-                          point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
+    return sdfgi_ggx_direction(s.normal, s.to_eye, roughness * roughness,
+                               point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
 }
 
 /* From a point to the surface of another pixel; far away if there is none. */
@@ -95,9 +78,10 @@ void reflect_pixel(ivec2 pixel)
         return;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
-    const vec3 face = face_normal(pixel, s), dir = off_face(ray_direction(pixel, s, roughness), face);
+    const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
+    const vec3 face = face_normal(pixel, s), dir = off_face(ray_direction(point, s, roughness), face);
     const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), face, dir);
-    const vec3 light = scale * sdfgi_reflection_light(ray, dir, rough);
+    const vec3 light = scale * sdfgi_reflection_light(ray, dir, fract(5.0 * point), rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));
 }
 

@@ -14,10 +14,10 @@
 #define SDFGI_ACCESS_SURFACE readonly
 #endif
 
-/* Two colours, and for each side of the block, +x -x +y -y +z -z, the one that it shows: what is painted
- * differently on its two faces, or stands before something else, is one wall of many. The first colour has
- * ten bits a channel: with 8 bits 0.95 was 0.949, and a furnace had 2 % less light. The second has nine for
- * red and blue. Six bits are left for the sides. */
+/* Albedo blocks have two colours, and for each side, +x -x +y -y +z -z, the one that it shows: what is
+ * painted differently on its two faces, or stands before something else, is one wall of many. The first
+ * colour has ten bits a channel: with 8 bits 0.95 was 0.949, and a furnace had 2 % less light. The second has
+ * nine for red and blue. Six bits are left for the sides. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_ALBEDO) SDFGI_ACCESS_SURFACE buffer sdfgi_albedo_buffer
 {
@@ -25,8 +25,8 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 /* Three mean normals: of the triangles whose dominant axis is x, y and z. Each has ten bits, two slopes of 5
- * bits in
- * [-1, 1]. If there are no such triangles, the first slope is SURFACE_NO_NORMAL. */
+ * bits in [-1, 1]. If there are no such triangles, the first slope is SURFACE_NO_NORMAL. Two more
+ * tell the kind of metal: see surface_metal. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_NORMALS) SDFGI_ACCESS_SURFACE buffer sdfgi_normals_buffer
 {
@@ -34,6 +34,8 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 const uint SURFACE_NO_NORMAL = 31u;
+const uint SURFACE_METAL_SHIFT = 30u; /* beside the normals */
+const vec3 SURFACE_SECOND_STEPS = vec3(511.0, 1023.0, 511.0);
 
 /* Mean unit normal of the triangles whose dominant axis is `axis`, turned to that side. False if the block
  * has no such triangles. */
@@ -75,17 +77,6 @@ vec3 surface_normal(uint block, uint axis)
     return best;
 }
 
-const vec3 SURFACE_SECOND_STEPS = vec3(511.0, 1023.0, 511.0);
-
-/* `sides` has a bit for each side that shows the second colour. */
-uvec2 surface_pack_albedo(vec3 first, vec3 second, uint sides)
-{
-    const uvec3 a = uvec3(clamp(first, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5),
-                b = uvec3(clamp(second, 0.0, 1.0) * SURFACE_SECOND_STEPS + 0.5);
-    return uvec2(a.r | a.g << 10u | a.b << 20u | sides << 30u,
-                 b.r | b.g << 9u | b.b << 19u | sides >> 2u << 28u);
-}
-
 /* What a block shows on the side that faces `axis`. */
 vec3 surface_albedo(uint block, uint axis)
 {
@@ -94,6 +85,21 @@ vec3 surface_albedo(uint block, uint axis)
     return (sides >> axis & 1u) == 0u
                ? vec3(packed.x & 1023u, packed.x >> 10u & 1023u, packed.x >> 20u & 1023u) / SDFGI_ALBEDO_STEPS
                : vec3(packed.y & 511u, packed.y >> 9u & 1023u, packed.y >> 19u & 511u) / SURFACE_SECOND_STEPS;
+}
+
+/* The kind of metal from which rays go on, 1 to 3; 0 for all else. */
+uint surface_metal(uint block)
+{
+    return sdfgi_frame.has_metal != 0u ? sdfgi_normals[block] >> SURFACE_METAL_SHIFT : 0u;
+}
+
+/* `sides` has a bit for each side that shows the second colour. */
+uvec2 surface_pack_albedo(vec3 first, vec3 second, uint sides)
+{
+    const uvec3 a = uvec3(clamp(first, 0.0, 1.0) * SDFGI_ALBEDO_STEPS + 0.5),
+                b = uvec3(clamp(second, 0.0, 1.0) * SURFACE_SECOND_STEPS + 0.5);
+    return uvec2(a.r | a.g << 10u | a.b << 20u | sides << 30u,
+                 b.r | b.g << 9u | b.b << 19u | sides >> 2u << 28u);
 }
 
 /* Radiance and the packed sides. */

@@ -139,10 +139,18 @@ uvec2 resolve_albedo(uint block)
 
 /* ---- Normals */
 
-/* One normal for each dominant axis: two slopes of 5 bits, means over the samples. */
-uint resolve_normals(uint block)
+/* The kind of metal that most samples of a block show; 0: none. */
+uint resolve_metal(uint block, uint samples)
 {
-    uint packed = 0u;
+    const uint count = accumulated(SDFGI_ACCUM_METAL, block),
+               sum = accumulated(SDFGI_ACCUM_METAL + 1u, block);
+    return 2u * count > samples ? (sum + count / 2u) / count : 0u;
+}
+
+/* One normal for each dominant axis: two slopes of 5 bits, means over the samples. And the kind of metal. */
+uint resolve_normals(uint block, uint samples)
+{
+    uint packed = resolve_metal(block, samples) << SURFACE_METAL_SHIFT;
     for (uint major = 0u; major < 3u; major++) {
         const uint plane = SDFGI_ACCUM_NORMAL + 3u * major;
         const uint count = accumulated(plane, block);
@@ -317,7 +325,7 @@ void resolve(ivec3 cell)
         sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
     sdfgi_albedo[out_index] = count > 0u ? resolve_albedo(block) : uvec2(0u);
     sdfgi_emission[out_index] = resolve_emission(block, cell);
-    sdfgi_normals[out_index] = resolve_normals(block);
+    sdfgi_normals[out_index] = resolve_normals(block, count);
     if (count == 0u)
         return;
     atomicAdd(voxels, count);

@@ -278,6 +278,9 @@ void accumulate_surface(triangle t, ivec3 sub, uint block, surface_sample s)
     accumulate(plane + 3u, block, 1u);
     const float side = negative ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
+    const uint metal = s.flags >> SDFGI_MATERIAL_METAL_SHIFT & 3u;
+    accumulate(SDFGI_ACCUM_METAL, block, min(metal, 1u));
+    accumulate(SDFGI_ACCUM_METAL + 1u, block, metal);
     for (uint i = 1u; i <= 2u; i++) {
         const float slope = sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
         accumulate(SDFGI_ACCUM_NORMAL + 3u * major + i, block, uint(int(round(slope * SDFGI_SLOPE_STEPS))));

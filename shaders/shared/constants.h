@@ -129,10 +129,11 @@
 #define SDFGI_ACCUM_ALBEDO         0  /* per side and layer 4 planes: sum in 1/SDFGI_ALBEDO_STEPS, count */
 #define SDFGI_ACCUM_NORMAL         48 /* per dominant axis 3 planes: count, sums of two slopes */
 #define SDFGI_ACCUM_FRONT          57 /* per side 16 planes: fronts, see surface_front.glsl */
-#define SDFGI_ACCUM_EMISSION       153 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */
-#define SDFGI_ACCUM_EMISSION_AREA  159 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
-#define SDFGI_ACCUM_EMISSION_SIDES 160 /* 6 planes: columns of it that +x -x +y -y +z -z see, in the same */
-#define SDFGI_ACCUM_PLANES         166
+#define SDFGI_ACCUM_METAL          153 /* 2 planes: samples of metal, and the sum of their kinds */
+#define SDFGI_ACCUM_EMISSION       155 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */
+#define SDFGI_ACCUM_EMISSION_AREA  161 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */
+#define SDFGI_ACCUM_EMISSION_SIDES 162 /* 6 planes: columns of it that +x -x +y -y +z -z see, in the same */
+#define SDFGI_ACCUM_PLANES         168
 #define SDFGI_ALBEDO_STEPS         1023.0 /* as many as 10 bits hold */
 #define SDFGI_AREA_STEPS           65535.0
 /* Radiance in units of stored emission, W/(m^2 sr) unless something is brighter than the last of these: the

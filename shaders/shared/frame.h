@@ -61,7 +61,7 @@ struct sdfgi_frame_params {
     vec3 sky_horizon;
     uint up_axis; /* enum sdfgi_up_axis. Bit 0: up is along Z, not Y; bit 1: against it */
     vec3 sky_ground;
-    uint padding_1;
+    uint has_metal; /* 1: a material is metal that reflects what it sees */
     float y_scale; /* height of a cell over its width */
     float exposure;
     float exposure_inverse; /* 1 / exposure */
@@ -107,6 +107,8 @@ SDFGI_ASSERT_SIZE(sdfgi_light_params, 64);
 #define SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION 4u
 #define SDFGI_MATERIAL_ALBEDO_SRGB           8u /* the texture's texels are encoded, and it does not decode */
 #define SDFGI_MATERIAL_EMISSION_SRGB         16u
+/* Two bits: the kind of metal that reflects what it sees, from 1 for mirrors to 3; 0 for all else. */
+#define SDFGI_MATERIAL_METAL_SHIFT 5u
 
 struct sdfgi_material_params {
     vec3 albedo;

@@ -49,7 +49,7 @@
     X(sdfgi_frame_params, sky_horizon)                                                                       \
     X(sdfgi_frame_params, up_axis)                                                                           \
     X(sdfgi_frame_params, sky_ground)                                                                        \
-    X(sdfgi_frame_params, padding_1)                                                                         \
+    X(sdfgi_frame_params, has_metal)                                                                         \
     X(sdfgi_frame_params, y_scale)                                                                           \
     X(sdfgi_frame_params, exposure)                                                                          \
     X(sdfgi_frame_params, exposure_inverse)                                                                  \

@@ -171,6 +171,40 @@ static void hard_69_views_of_one_row_reflect(void **state)
     HARD_CASE_AT_MOST(69, "reflections in pictures of one row or pixel, off by", worst, 0.002);
 }
 
+/* ---- Metal in mirrors */
+
+/* The ray goes up to a wall and from there, mirrored again, up to the sky. As long as the wall is matt, the
+ * ray shows what arrives there from all around. */
+static void metal_shows_in_a_mirror_what_it_reflects(void **state)
+{
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    uint16_t texels[PIXELS][4];
+    double nearest[2] = { INFINITY, INFINITY }, farthest[2] = { 0, 0 };
+    for (int metal = 0; metal < 2; metal++) {
+        struct mirror mirror;
+        gi_test_restart(t, &settings);
+        REQUIRE_CMP((int)sdfgi_set_sky(t->gi, &(struct sdfgi_sky){ .zenith = { 1, 1, 1 } }), ==,
+                    (int)SDFGI_OK);
+        light_add_metal(
+            t, test_mesh_box((double[]){ 1.5, 0.25, 0 }, (double[]){ 0.25, 1, 1.25 }, test_rotation_none),
+            0.8f, (float)metal);
+        gi_test_converge(t, 400);
+        mirror_open(&mirror, t, SIDE, SIDE, HALF_M);
+        mirror_read(&mirror, texels);
+        mirror_close(&mirror);
+        for (int i = 0; i < PIXELS; i++) {
+            const double off = fabs((double)gi_test_half(texels[i][1]) / (0.8 * sqrt(0.5)) - 1);
+            nearest[metal] = fmin(nearest[metal], off);
+            farthest[metal] = fmax(farthest[metal], off);
+        }
+    }
+    printf("a mirrored mirror off by %.4f at most, a mirrored matt wall by %.4f at least\n", farthest[1],
+           nearest[0]);
+    REQUIRE_CMP(farthest[1], <=, 0.01);
+    REQUIRE_CMP(nearest[0], >, 0.2);
+}
+
 /* ---- What calls for rays */
 
 enum { TILE = SDFGI_GROUP_PIXELS, SURFACE_SIDE = 4 * TILE };
@@ -220,6 +254,7 @@ TEST_GROUP(reflections)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_55_reflected_rays_cross_cascades),
         cmocka_unit_test(hard_69_views_of_one_row_reflect),
+        cmocka_unit_test(metal_shows_in_a_mirror_what_it_reflects),
         cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
     };
     return cmocka_run_group_tests_name("reflections", tests, light_open, light_close);

@@ -58,6 +58,18 @@ sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo,
     return instance;
 }
 
+sdfgi_instance light_add_metal(struct gi_test *t, struct test_mesh mesh, float albedo, float smoothness)
+{
+    const struct sdfgi_material_desc desc = { .albedo = { albedo, albedo, albedo },
+                                              .smoothness = smoothness,
+                                              .metallic = 1 };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
+    const sdfgi_instance instance = gi_test_add(t, &mesh, material);
+    test_mesh_destroy(&mesh);
+    return instance;
+}
+
 sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], const double high[static 3],
                              const float albedo[static 3], float emission)
 {

@@ -30,6 +30,7 @@
     X(bool,                 double_sided_emission, ONE,  SEEN,   0, 1)                                       \
     X(float,                smoothness,            ONE,  UNSEEN, 0, 0.3, 0.8, 1)                            \
     X(float,                specular_albedo,       ONE,  SEEN,   0, 0.1, 0.3, 0.5)                          \
+    X(float,                metallic,              ONE,  UNSEEN, 0, 0.6, 0.8, 1)                            \
     X(struct sdfgi_texture, albedo_texture,        MANY, NESTED)                                             \
     X(struct sdfgi_texture, emission_texture,      MANY, NESTED)
 

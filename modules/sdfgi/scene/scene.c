@@ -100,6 +100,17 @@ static bool emits(const struct sdfgi_material_desc *desc)
     return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
 }
 
+/* Rougher metals reflect light from all around, as diffuse surfaces do. */
+static const float METAL_SMOOTHNESS[3] = { 0.8f, 0.6f, 0.4f };
+
+uint32_t sdfgi_scene_metal_kind(const struct sdfgi_material_desc *desc)
+{
+    for (uint32_t kind = 0; kind < 3 && desc->metallic > 0.5f; kind++)
+        if (desc->smoothness >= METAL_SMOOTHNESS[kind])
+            return kind + 1;
+    return 0;
+}
+
 static float smoothest(const struct scene *scene)
 {
     float most = 0;
@@ -141,6 +152,7 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
         return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
     }
     scene->emissive += emits(desc);
+    scene->metals += sdfgi_scene_metal_kind(desc) > 0;
     scene->smoothest = fmaxf(scene->smoothest, desc->smoothness);
     out->id = id;
     return SDFGI_OK;
@@ -168,6 +180,7 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
         return still_used(scene, handle);
     sdfgi_scene_sets_retire(scene, material->set);
     scene->emissive -= emits(&material->desc);
+    scene->metals -= sdfgi_scene_metal_kind(&material->desc) > 0;
     const bool was_smoothest = material->desc.smoothness >= scene->smoothest;
     sdfgi_pool_remove(&scene->materials, handle.id);
     if (was_smoothest)

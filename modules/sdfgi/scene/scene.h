@@ -69,6 +69,7 @@ struct scene {
     struct sdfgi_sky sky;
     struct sdfgi_sky_harmonics harmonics; /* beside it */
     uint32_t emissive;                    /* materials that emit */
+    uint32_t metals;                      /* materials that reflect what they see */
     float smoothest;                      /* smoothness of the smoothest material; 0: none */
     float most_emission;                  /* of any instance's material so far */
     float emission_unit;                  /* power of two, in which emission is stored: W/(m^2 sr) */
@@ -117,6 +118,8 @@ bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
  * brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised anew for
  * that. */
 void sdfgi_scene_material_shown(struct scene *scene, const struct sdfgi_material_desc *desc);
+/* The kind of metal from which rays go on towards what it reflects: 1 for mirrors, to 3; 0 for all else. */
+uint32_t sdfgi_scene_metal_kind(const struct sdfgi_material_desc *desc);
 /* The brightest that surfaces may get from all there is, about: radiance, or irradiance over pi. */
 float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky);
 /* True if anything in the scene gives light. */

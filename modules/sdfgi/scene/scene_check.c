@@ -39,6 +39,7 @@ struct problem sdfgi_check_material(const struct sdfgi_material_desc *d)
     sdfgi_problem_floats(&p, "alpha_cutoff", &d->alpha_cutoff, 1, 0, 1);
     sdfgi_problem_floats(&p, "smoothness", &d->smoothness, 1, 0, 1);
     sdfgi_problem_floats(&p, "specular_albedo", &d->specular_albedo, 1, 0, 1);
+    sdfgi_problem_floats(&p, "metallic", &d->metallic, 1, 0, 1);
     check_texture(&p, "albedo_texture", &d->albedo_texture);
     check_texture(&p, "emission_texture", &d->emission_texture);
     return p;

@@ -186,6 +186,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     p->light_count = input->scene->lights.count;
     p->light_cell_room = (uint32_t)input->extent->light_cells;
     p->lists_emitters = input->extent->emits;
+    p->has_metal = input->scene->metals > 0;
     p->seed = state->seed;
     fill_cycle(p, state, input->settings);
 }
@@ -230,7 +231,8 @@ struct sdfgi_material_params sdfgi_params_of_material(const struct scene *scene,
         .emission = scaled(m->emission, 1 / scene->emission_unit),
         .alpha_cutoff = m->alpha_cutoff,
         .specular_albedo = m->specular_albedo,
-        .flags = (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
+        .flags = sdfgi_scene_metal_kind(m) << SDFGI_MATERIAL_METAL_SHIFT |
+                 (m->albedo_texture.view ? SDFGI_MATERIAL_ALBEDO_TEXTURE : 0) |
                  (m->emission_texture.view ? SDFGI_MATERIAL_EMISSION_TEXTURE : 0) |
                  (m->double_sided_emission ? SDFGI_MATERIAL_DOUBLE_SIDED_EMISSION : 0) |
                  (m->albedo_texture.decode_srgb ? SDFGI_MATERIAL_ALBEDO_SRGB : 0) |
