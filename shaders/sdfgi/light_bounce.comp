@@ -99,10 +99,9 @@ void main()
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint axis = uint(findLSB(left));
         const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
-        const surface_light light =
-            light_arriving(cascade, entry, cell, axis, surface_normal(block, axis));
-        const vec3 leaving = sdfgi_light_unpack_axis(direct, axis) +
-                             bounce_gain(surface_albedo(block, axis)) * light.estimate;
+        const surface_light light = light_arriving(cascade, entry, cell, axis, surface_normal(block, axis));
+        const vec3 leaving =
+            sdfgi_light_unpack_axis(direct, axis) + bounce_gain(surface_albedo(block, axis)) * light.estimate;
         if (any(greaterThan(leaving, vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
         for (uint a = 0u; a < 6u; a++) {

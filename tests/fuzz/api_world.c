@@ -37,6 +37,7 @@ struct sdfgi_material_desc api_random_material(struct test_random *random)
         random_color(random, 3, desc.emission);
     desc.specular_albedo = test_random_uint(random) % 4 == 0 ? 0.08f : 0;
     desc.metallic = test_random_uint(random) % 4 == 0 ? 1 : 0;
+    desc.smoothness = (float)test_random_real(random, 0, 1);
     desc.double_sided_emission = test_random_uint(random) % 2;
     if (test_random_uint(random) % 8 == 0)
         desc.alpha_cutoff = 0.5f;

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* ---- A mirror doubles what stands before it */
 
@@ -74,6 +75,40 @@ static void a_mirror_doubles_what_stands_before_it(void **state)
     REQUIRE_CMP(matt, >, 0.1);
 }
 
+/* ---- Kinds */
+
+/* The kinds of metal that blocks have, a bit each; bit 0 for none. */
+static uint32_t kinds_of_blocks(struct gi_test *t)
+{
+    uint64_t size;
+    uint32_t *normals = gi_test_read(t, RESOURCE_NORMALS, &size), kinds = 0;
+    for (uint64_t i = 0; i < size / sizeof *normals; i++)
+        kinds |= 1u << (normals[i] >> 30);
+    free(normals);
+    return kinds;
+}
+
+/* A box of one kind; of none: a rougher one, and one before which as much matt plaster stands. */
+static void roughness_tells_the_kind_of_metal(void **state)
+{
+    static const struct {
+        float smoothness;
+        uint32_t kind;
+    } rows[] = { { 1, 1 }, { 0.8f, 1 }, { 0.79f, 2 }, { 0.6f, 2 }, { 0.59f, 3 }, { 0.4f, 3 }, { 0.39f, 0 } };
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int plaster = 0; plaster < 2; plaster++) {
+            const double half[3] = { 0.8, 0.7, 0.6 }, center[3] = { 0.1, 0.2, 0.3 };
+            gi_test_restart(t, &settings);
+            light_add_metal(t, test_mesh_box(center, half, test_rotation_none), 0.9f, rows[i].smoothness);
+            if (plaster)
+                light_add(t, test_mesh_box(center, half, test_rotation_none), 0.9f, 0);
+            gi_test_update(t, 4);
+            REQUIRE_CMP(kinds_of_blocks(t), ==, 1u | (plaster ? 1u : 1u << rows[i].kind));
+        }
+}
+
 /* ---- Sealed metal */
 
 /* A ball of two cells and a half, of mirrors. */
@@ -104,6 +139,7 @@ TEST_GROUP(metal)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mirror_doubles_what_stands_before_it),
+        cmocka_unit_test(roughness_tells_the_kind_of_metal),
         cmocka_unit_test(a_ball_of_metal_is_dark_inside),
     };
     return cmocka_run_group_tests_name("metal", tests, light_open, light_close);
