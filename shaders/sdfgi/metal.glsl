@@ -33,9 +33,7 @@ vec3 metal_start(uint block, uint axis, vec3 at, vec3 dir, float range)
     return at - sdfgi_cells_from_metric(dir) * min(back, range);
 }
 
-/* In which direction it goes on. `point` in the unit square chooses where in the lobe: of y = 0 in the
- * middle.
- */
+/* Its direction then. `point` in the unit square chooses it from the lobe, whose middle has y = 0. */
 vec3 metal_direction(uint block, uint axis, vec3 dir, vec2 point)
 {
     const float alpha = METAL_ALPHA[max(surface_metal(block), 1u) - 1u];

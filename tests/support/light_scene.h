@@ -18,7 +18,7 @@ struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
 struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m);
 
 sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo, float emission);
-/* Of metal, or as much that sends light back all around: smoothness 0. */
+/* Of metal. With a smoothness of 0 it counts as diffuse. */
 sdfgi_instance light_add_metal(struct gi_test *t, struct test_mesh mesh, float albedo, float smoothness);
 /* An axis-aligned box between two corners. */
 sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], const double high[static 3],

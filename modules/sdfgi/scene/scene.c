@@ -100,7 +100,7 @@ static bool emits(const struct sdfgi_material_desc *desc)
     return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
 }
 
-/* Rougher metals reflect light from all around, as diffuse surfaces do. */
+/* Least smoothness of each kind. Rougher metals count as diffuse: what they reflect comes from all around. */
 static const float METAL_SMOOTHNESS[3] = { 0.8f, 0.6f, 0.4f };
 
 uint32_t sdfgi_scene_metal_kind(const struct sdfgi_material_desc *desc)

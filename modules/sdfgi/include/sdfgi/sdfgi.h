@@ -217,8 +217,8 @@ struct sdfgi_material_desc {
     float specular_albedo;      /* [0, 1]: share of even light that a glossy interface sends back before it
                                    meets the colour below. Added to albedo and its texture, at most to 1.
                                    About 0.09 for smooth plastic and water, 0.02 for rough stone; 0: none */
-    float metallic; /* [0, 1]: share of albedo that is metal's. Where it is most, and smoothness at
-                       least 0.4, rays go on from the surface in the direction of the reflection */
+    float metallic; /* [0, 1]: share of albedo that is metal's. Above 0.5, with a smoothness of 0.4 or
+                       more, rays that meet the surface go on as it reflects them; 0: no metal */
     struct sdfgi_texture albedo_texture;   /* RGB times albedo, A times alpha */
     struct sdfgi_texture emission_texture; /* RGB times emission */
 };
