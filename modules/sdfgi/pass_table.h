@@ -54,15 +54,16 @@
       CASCADE, cascade, 1, NONE, R(BITS) | R(SCRATCH), R(EMISSION) | R(EMITTERS))                            \
     X(LIGHT_MARK, COMPUTE, light_mark, CELLS, LIST, MARK, CREATED,                                           \
       LIGHT_BLOCKS, light_mark, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) |           \
-      R(LIGHT_BLOCKS) | R(LIGHT) | R(SURFACES) | R(GATHERED) | R(INDIRECT), R(MASKS) | R(SCRATCH))           \
+      R(LIGHT_BLOCKS) | R(LIGHT) | R(SURFACES) | R(GATHERED) | R(INDIRECT) | R(DIRECT), R(MASKS) |           \
+      R(SCRATCH))                                                                                            \
     X(PROBE_PLACE, COMPUTE, probe_place, PROBES, COMPLETE, PLACE, CREATED,                                   \
       PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS))                              \
     X(LIGHT_LIST, COMPUTE, light_list, LIGHT_CELLS, LIST, LIST, CREATED,                                     \
       LIGHT_ROWS, cascade, SDFGI_GROUP_LINEAR, NONE, R(BITS), R(LIGHT) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |  \
-      R(SURFACES) | R(GATHERED) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT))                                    \
+      R(SURFACES) | R(GATHERED) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT) | R(DIRECT))                        \
     X(LIGHT_DIRECT, COMPUTE, light_direct, LIGHT_CELLS, DIRECT, OWN, CREATED,                                \
       LIGHT_CELLS, light_direct, SDFGI_CELLS_OF_SURFACES, NONE, R(BITS) | R(DISTANCE) | R(LIGHTS) |          \
-      R(ALBEDO) | R(NORMALS) | R(SCRATCH), R(LIGHT_CELLS) | R(COUNTERS))                                     \
+      R(ALBEDO) | R(NORMALS) | R(SCRATCH) | R(INDIRECT) | R(LIGHT_CELLS), R(DIRECT) | R(COUNTERS))           \
     X(CELL_MASK, COMPUTE, cell_mask, LIGHT_CELLS, MASKS, OWN, CREATED,                                       \
       LIGHT_CELLS, cascade, SDFGI_GROUP_LINEAR / 8, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)     \
       | R(INDIRECT), R(MASKS))                                                                               \
@@ -72,30 +73,34 @@
       PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS)     \
       | R(IRRADIANCE))                                                                                       \
     X(LIGHT_RESCALE, COMPUTE, light_rescale, LIGHT_CELLS, RESCALE, OWN, CREATED,                             \
-      STORED_LIGHT, light_rescale, SDFGI_GROUP_LINEAR, NONE, 0, R(LIGHT) | R(LIGHT_CELLS) | R(SURFACES) |    \
+      STORED_LIGHT, light_rescale, SDFGI_GROUP_LINEAR, NONE, 0, R(LIGHT) | R(DIRECT) | R(SURFACES) |         \
       R(GATHERED) | R(IRRADIANCE) | R(PREVIOUS) | R(SUMS))                                                   \
     X(RAY_INVALIDATE, COMPUTE, ray_invalidate, RAYS, SEED, OWN, CREATED,                                     \
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(BOUNDS), R(RAYS))                                             \
     X(LIGHT_BOUNCE, COMPUTE, light_bounce, LIGHT_CELLS, LIGHT, OWN, CREATED,                                 \
       ALL_LIGHT_CELLS, light_bounce, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(PROBES) | R(MASKS) |              \
       R(OCCLUSION) | R(ALBEDO) | R(NORMALS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SCRATCH) |                \
-      R(IRRADIANCE) | R(SEEN), R(LIGHT) | R(SURFACES) | R(GATHERED) | R(COUNTERS))                           \
-    X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
-      ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
-      R(SEEN) | R(COUNTERS), R(GATHERED) | R(SURFACES))                                                      \
+      R(IRRADIANCE) | R(SEEN) | R(INDIRECT) | R(DIRECT), R(LIGHT) | R(SURFACES) | R(GATHERED) |              \
+      R(COUNTERS))                                                                                           \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
       ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                 \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
-      ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH), R(RAYS)      \
-      | R(INDIRECT))                                                                                         \
+      ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)               \
+      | R(INDIRECT), R(RAYS))                                                                                \
     X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(ALBEDO)    \
-      | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN),                 \
-      R(GATHERED) | R(COUNTERS))                                                                             \
-    X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, PROBES, CREATED,                                           \
+      | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN) | R(INDIRECT),   \
+      R(GATHERED))                                                                                           \
+    X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
+      ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
+      R(SEEN) | R(INDIRECT), R(GATHERED))                                                                    \
+    X(CELL_FILTER_FAR, COMPUTE, cell_filter_far, LIGHT_CELLS, FILTER, OWN, CREATED,                          \
+      ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
+      R(SEEN) | R(INDIRECT) | R(GATHERED), R(SURFACES))                                                      \
+    X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, SUM, CREATED,                                              \
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(SURFACES) |            \
       R(EMISSION) | R(INDIRECT), R(SUMS) | R(COUNTERS))                                                      \
-    X(PROBE_BLEND, COMPUTE, probe_blend, PROBES, BLEND, PROBES, CREATED,                                     \
+    X(PROBE_BLEND, COMPUTE, probe_blend, PROBES, BLEND, BLEND, CREATED,                                      \
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \

@@ -16,7 +16,9 @@
  * FRAME, LIGHTS, MATERIALS  written by the host when anything in them changes
  * BITS, DISTANCE, EMISSION, ALBEDO, NORMALS  valid until the cascade moves or its geometry changes
  * LIGHT                     outgoing light per light cell and axis, in the order of the list, and as long
- * LIGHT_CELLS               the light list: grows when it is too short; direct light is kept
+ * LIGHT_CELLS               the light list: grows when it is too short
+ * DIRECT                    direct light per light cell, in the order of the list, and as long. Apart from
+ *                           the list, so that it may change beside passes that read the list
  * LIGHT_BLOCKS              where in the list the light cells of a block are
  * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
  * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits
@@ -34,17 +36,16 @@
 #define SDFGI_RESOURCE_TABLE_H
 
 /* X(id, bytes) */
-#define RESOURCE_FORMATS(X)                               \
-    X(U8, 1)                                              \
-    X(U16, 2)                                             \
-    X(U32, 4)                                             \
-    X(U32X2, 8)                                           \
-    X(U32X3, 12)                                          \
-    X(U32X4, 16)                                          \
-    X(F16X4, 8)                                           \
-    X(F32X4, 16)                                          \
-    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params))    \
-    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params))    \
+#define RESOURCE_FORMATS(X)                                                                                  \
+    X(U8, 1)                                                                                                 \
+    X(U16, 2)                                                                                                \
+    X(U32, 4)                                                                                                \
+    X(U32X2, 8)                                                                                              \
+    X(U32X4, 16)                                                                                             \
+    X(F16X4, 8)                                                                                              \
+    X(F32X4, 16)                                                                                             \
+    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params))                                                       \
+    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params))                                                       \
     X(MATERIAL_PARAMS, sizeof(struct sdfgi_material_params))
 
 /* clang-format off */
@@ -63,11 +64,11 @@
     X(SCRATCH,     STORAGE, U8,              SCRATCH, VOLUME, WORK,   e->scratch,                   SCRATCH) \
     X(ALBEDO,      STORAGE, U32X2,           VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
     X(NORMALS,     STORAGE, U32,             VOLUMES, VOLUME, WORK,   e->blocks * e->cascades,      DERIVED) \
-    X(LIGHT_CELLS, STORAGE, U32X3,           LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED) \
+    X(LIGHT_CELLS, STORAGE, U32,             LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED) \
     X(RAYS,        STORAGE, U32,             PROBES,  VOLUME, WORK,   RAY_COUNT(e),                 DERIVED) \
     X(SUMS,        STORAGE, F32X4,           PROBES,  VOLUME, WORK,   SUM_COUNT(e),                 SAVED)   \
     X(PREVIOUS,    STORAGE, F16X4,           PROBES,  VOLUME, WORK,   TEXEL_COUNT(e),               SAVED)   \
-    X(COUNTERS,    STORAGE, U32,             LISTS,   VOLUME, WORK,   SDFGI_COUNTER_COUNT,          DERIVED) \
+    X(COUNTERS,    STORAGE, U32,             LISTS,   VOLUME, WORK,   SDFGI_COUNTER_GATHER,         DERIVED) \
     X(INDIRECT,    STORAGE, U32X4,           LISTS,   VOLUME, WORK,   SDFGI_INDIRECT_RECORDS,       DERIVED) \
     X(BOUNDS,      STORAGE, U8,              LISTS,   VOLUME, WORK,   BOUNDS_BYTES,                 DERIVED) \
     X(MASKS,       STORAGE, U8,              VOLUMES, VOLUME, WORK,   e->cells * e->cascades,       DERIVED) \
@@ -76,28 +77,30 @@
     X(EMITTERS,    STORAGE, U32,             VOLUMES, VOLUME, WORK,   EMITTER_COUNT(e),             DERIVED) \
     X(SEEN,        STORAGE, U32,             LISTS,   VOLUME, WORK,   SEEN_COUNT(e),                DERIVED) \
     X(SEARCH,      STORAGE, U32,             SCRATCH, VOLUME, WORK,   e->search,                    SCRATCH) \
-    X(INSTANCES,   STORAGE, U8,              LISTS,   VOLUME, WORK,   INSTANCES_BYTES(e),           DERIVED)
+    X(INSTANCES,   STORAGE, U8,              LISTS,   VOLUME, WORK,   INSTANCES_BYTES(e),           DERIVED) \
+    X(DIRECT,      STORAGE, U32X2,           LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED)
 /* clang-format on */
 
 #define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
 /* None where light cells read probes alone; a binding needs a word. */
-#define GATHERED_COUNT(e) ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) : 1)
+#define GATHERED_COUNT(e)                                                                                    \
+    ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) + SDFGI_COUNTER_COUNT - SDFGI_COUNTER_GATHER : 1)
 /* A bit per entry. */
 #define SEEN_COUNT(e) ((e)->gathers ? ((e)->light_cells + 31) / 32 * (e)->cascades : 1)
 /* None where nothing emits. */
 #define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + (e)->blocks) * (e)->cascades : 1)
-#define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
-#define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
-#define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)
-#define BOUNDS_BYTES   (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
-#define INSTANCES_BYTES(e) \
+#define TEXEL_COUNT(e)   (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
+#define SUM_COUNT(e)     (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
+#define RAY_COUNT(e)     ((e)->probes * (e)->cascades * (e)->cycle_samples)
+#define BOUNDS_BYTES     (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
+#define INSTANCES_BYTES(e)                                                                                   \
     (SDFGI_MAX_DRAWS * sizeof(uint32_t) + (e)->instances * sizeof(struct sdfgi_instance_params))
 
 enum resource {
 #define RESOURCE_ENUM(id, kind, format, category, scope, set, extent, keep) RESOURCE_##id,
     SDFGI_RESOURCES(RESOURCE_ENUM)
 #undef RESOURCE_ENUM
-    RESOURCE_COUNT,
+        RESOURCE_COUNT,
 };
 
 #endif

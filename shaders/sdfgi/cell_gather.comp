@@ -23,10 +23,10 @@
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/irradiance_pack.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 128) in;
 SDFGI_PUSH(sdfgi_cell_gather_args);
 
-const uint CELLS = uint(SDFGI_VISIT_CELLS), RAYS = uint(SDFGI_VISIT_RAYS), THREADS = 64u;
+const uint CELLS = uint(SDFGI_VISIT_CELLS), RAYS = uint(SDFGI_VISIT_RAYS), THREADS = 128u;
 const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMITTER_RAYS;
 const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
 
@@ -381,7 +381,7 @@ uint next_mark(uint cascade, uint own)
     if ((args.marks >> cascade & 1u) == 0u)
         return states[own].mark;
     const uint mark = gathered_mark(uintBitsToFloat(lights[own]));
-    atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_DRIFT + cascade],
+    atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_DRIFT + cascade)],
               floatBitsToUint(gathered_mark_change(states[own].mark, mark)));
     return mark;
 }
@@ -398,9 +398,9 @@ void end_visit(uint cascade, uint own)
         state = gathered_state(0u, mean_after(cascade, own), state.epoch, next_mark(cascade, own));
     gathered_store_state(cascade, entries[own], state);
     if (changes[own] != 0u)
-        atomicMax(sdfgi_counters[SDFGI_COUNTER_CELL_CHANGE + cascade], changes[own]);
+        atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_CHANGE + cascade)], changes[own]);
     if (uintBitsToFloat(changes[own]) >= SDFGI_SMALL_CHANGE)
-        counter_add(SDFGI_COUNTER_CELLS_CHANGING + cascade, 1u);
+        atomicAdd(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELLS_CHANGING + cascade)], 1u);
 }
 
 /* Seen cells that the workgroup visits: a bit for each, from the entry `first` on. None in the rows of
@@ -448,12 +448,12 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
 {
     const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u;
     uint entry;
-    const bool visited = find_entry(cascade, own, seen, first_seen, entry);
+    const bool visited = own < CELLS && find_entry(cascade, own, seen, first_seen, entry);
     ivec3 cell = ivec3(0);
     if (visited)
         cell = light_cell_from_index(cascade, sdfgi_light_cells[light_cell_slot(cascade, entry)]);
     const bool there = visited && sdfgi_cell_is_valid(cascade, cell);
-    if (axis == 0u) {
+    if (axis == 0u && own < CELLS) {
         cells[own] = cell;
         entries[own] = entry;
         facing[own] = changes[own] = lights[own] = noises[own] = 0u;
@@ -464,7 +464,7 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
     if (there && axis < 6u && light_cell_faces(cascade, cell, axis))
         atomicOr(facing[own], 1u << axis);
     barrier();
-    if (axis > 0u)
+    if (axis > 0u || own >= CELLS)
         return;
     uint n = 0u;
     for (uint i = 0u; i < own; i++)

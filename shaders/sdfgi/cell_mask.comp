@@ -13,11 +13,6 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cascade_args);
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer
-{
-    uint sdfgi_indirect[];
-};
-
 const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
 shared uint visibility_bits[CELLS];
 
@@ -33,7 +28,7 @@ bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 void main()
 {
     const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = workgroup_index() * CELLS + lane / 8u;
-    const bool listed = n < sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_MASKS) + args.cascade) + 3u] &&
+    const bool listed = n < indirect_number(uint(SDFGI_INDIRECT_MASKS) + args.cascade) &&
                         sdfgi_scratch[light_dirty_slot(n)] < sdfgi_frame.light_cell_room;
     const ivec3 cell =
         light_cell_from_index(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);

@@ -21,7 +21,8 @@
 /* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
  * S and P, 48 bits each (lib/rgb48.glsl); the packed gathered_state; and per axis the irradiance before it is
  * filtered, and between the two runs of the filter, as the surfaces' of sdfgi_resources.glsl; and its noise.
- * Sums count a visit as 1 / sdfgi_frame.cycle_visits. */
+ * Sums count a visit as 1 / sdfgi_frame.cycle_visits. Behind them stand the counters from
+ * SDFGI_COUNTER_GATHER on. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
 {
     uint sdfgi_gathered[];
@@ -61,6 +62,12 @@ bool gathers()
 uint gathered_word(uint cascade, uint plane, uint entry)
 {
     return (cascade * SDFGI_GATHERED_WORDS + plane) * sdfgi_frame.light_cell_room + entry;
+}
+
+/* Word of a counter. */
+uint gathered_counter(uint counter)
+{
+    return gathered_word(sdfgi_frame.cascade_count, 0u, 0u) + counter - uint(SDFGI_COUNTER_GATHER);
 }
 
 const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u, GATHERED_BETWEEN = 25u, GATHERED_NOISE = 31u;

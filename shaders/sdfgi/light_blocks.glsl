@@ -83,9 +83,7 @@ uint light_dirty_slot(uint n)
  * there is none. */
 bool light_entry(uint cascade, bool only_dirty, uint first, uint end, uint n, out uint entry)
 {
-    const uint count =
-        only_dirty ? min(sdfgi_counters[SDFGI_COUNTER_LIGHT_DIRTY + cascade], sdfgi_frame.light_cell_room)
-                   : end - first;
+    const uint count = only_dirty ? indirect_number(uint(SDFGI_INDIRECT_MASKS) + cascade) : end - first;
     entry = n;
     if (n < count)
         entry = only_dirty ? sdfgi_scratch[light_dirty_slot(n)] : first + n;

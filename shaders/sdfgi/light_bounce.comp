@@ -86,7 +86,7 @@ void main()
     if (!sdfgi_cell_is_valid(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
-    const uvec2 direct = light_cell_direct(slot);
+    const uvec2 direct = sdfgi_direct[slot];
 
     vec3 axes[6];
     uint arriving[6];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The list of light cells: empty cells with an occupied face neighbour. An entry has three words: the cell's
- * texel index, then its direct light as lib/light_pack.glsl packs it. */
+ * The list of light cells: empty cells with an occupied face neighbour. An entry is the cell's texel index.
+ * Direct light stands apart from it, as lib/light_pack.glsl packs it. */
 #ifndef SDFGI_LIGHT_CELLS_GLSL
 #define SDFGI_LIGHT_CELLS_GLSL
 
@@ -17,9 +17,14 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHT_CELLS) buffer
     uint sdfgi_light_cells[];
 };
 
+layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_DIRECT) buffer sdfgi_direct_buffer
+{
+    uvec2 sdfgi_direct[];
+};
+
 uint light_cell_count(uint cascade)
 {
-    return min(sdfgi_counters[SDFGI_COUNTER_LIGHT_CELLS + cascade], sdfgi_frame.light_cell_room);
+    return min(indirect_number(uint(SDFGI_INDIRECT_CELLS) + cascade), sdfgi_frame.light_cell_room);
 }
 
 /* Depends only on the cell's place in the world, and not on the texel that stores it. */
@@ -42,27 +47,16 @@ vec3 light_cell_place(uint cascade, ivec3 cell)
     return (vec3(sum & (period - 1u)) + 0.5) / float(period) - 0.5;
 }
 
-/* First word of an entry. */
+/* Index of an entry. */
 uint light_cell_slot(uint cascade, uint entry)
 {
-    return 3u * (cascade * sdfgi_frame.light_cell_room + entry);
+    return cascade * sdfgi_frame.light_cell_room + entry;
 }
 
 /* The local cell with a texel index. */
 ivec3 light_cell_from_index(uint cascade, uint index)
 {
     return sdfgi_cell_from_texel(cascade, sdfgi_texel_from_index(index));
-}
-
-uvec2 light_cell_direct(uint slot)
-{
-    return uvec2(sdfgi_light_cells[slot + 1u], sdfgi_light_cells[slot + 2u]);
-}
-
-void light_cell_store_direct(uint slot, uvec2 light)
-{
-    sdfgi_light_cells[slot + 1u] = light.x;
-    sdfgi_light_cells[slot + 2u] = light.y;
 }
 
 /* True if a surface of the cell faces along an axis: the neighbour behind it is occupied. */

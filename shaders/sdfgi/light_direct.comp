@@ -33,6 +33,11 @@ shared uint rays[SDFGI_GROUP_SURFACES * BATCH];
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
+uint lit_cascade()
+{
+    return args.cascade + gl_WorkGroupID.z;
+}
+
 /* Irradiance of a light at `position`, on a surface that faces it; the direction to the light, and its
  * distance in metres. The inverse square stops growing within half a cell, because the place of a voxelised
  * surface is not known more closely (HARD_CASES row 47). */
@@ -44,7 +49,7 @@ vec3 light_arriving(sdfgi_light_params light, vec3 position, out vec3 to_light, 
         return light.intensity;
     }
     const vec3 offset = light.position - position;
-    const float floor_m = 0.5 * sdfgi_frame.cascades[args.cascade].cell_m;
+    const float floor_m = 0.5 * sdfgi_frame.cascades[lit_cascade()].cell_m;
     range = length(offset);
     to_light = range > 0.0 ? offset / range : vec3(0.0, 1.0, 0.0);
     if (light.range_m > 0.0 && range > light.range_m)
@@ -81,16 +86,16 @@ const float CLEARANCE = 0.4;
 vec3 shadow_start(ivec3 cell, vec3 step, vec3 normal, float distance)
 {
     const float depth = dot(normal, step) > LEVEL ? INSIDE : clamp(distance - CLEARANCE, 0.0, INSIDE);
-    const vec3 place = light_cell_place(args.cascade, cell), aside = place - dot(place, normal) * normal;
+    const vec3 place = light_cell_place(lit_cascade(), cell), aside = place - dot(place, normal) * normal;
     return vec3(cell) + LIGHT_CELL_EYE + clamp(aside, -INSIDE, INSIDE) - step * depth;
 }
 
 surface surface_behind(ivec3 cell, uint axis)
 {
     const ivec3 step = sdfgi_axis_direction(axis);
-    const float distance = sdfgi_cell_distance(args.cascade, cell), depth = clamp(distance, 0.5, 1.0);
-    const uint block = sdfgi_block_index(args.cascade, cell - step);
-    const vec3 position = sdfgi_position_from_cascade(args.cascade, vec3(cell) + 0.5 - vec3(step) * depth);
+    const float distance = sdfgi_cell_distance(lit_cascade(), cell), depth = clamp(distance, 0.5, 1.0);
+    const uint block = sdfgi_block_index(lit_cascade(), cell - step);
+    const vec3 position = sdfgi_position_from_cascade(lit_cascade(), vec3(cell) + 0.5 - vec3(step) * depth);
     const vec3 normal = surface_normal(block, axis);
     return surface(position, normal, shadow_start(cell, vec3(step), normal, distance), block);
 }
@@ -107,10 +112,10 @@ bool is_unshadowed(vec3 pos, uint light)
 {
     vec3 to_light;
     float range_m;
-    light_arriving(sdfgi_lights[light], sdfgi_position_from_cascade(args.cascade, pos), to_light, range_m);
-    const float cell_m = sdfgi_frame.cascades[args.cascade].cell_m;
+    light_arriving(sdfgi_lights[light], sdfgi_position_from_cascade(lit_cascade(), pos), to_light, range_m);
+    const float cell_m = sdfgi_frame.cascades[lit_cascade()].cell_m;
     const sdfgi_trace_hit hit =
-        sdfgi_trace_solid(args.cascade, sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m);
+        sdfgi_trace_solid(lit_cascade(), sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m);
     if (hit.capped)
         counter_add(SDFGI_COUNTER_TRACE_CAPS, 1u);
     return !hit.hit;
@@ -181,24 +186,25 @@ void store_cell(uint slot, uint own)
     for (uint a = 0u; a < 6u; a++)
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
-    light_cell_store_direct(slot, sdfgi_light_pack(axes, light_cell_hash(args.cascade, cells[own])));
+    sdfgi_direct[slot] = sdfgi_light_pack(axes, light_cell_hash(lit_cascade(), cells[own]));
 }
 
 void main()
 {
     const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
     uint entry;
-    bool lit = light_entry(args.cascade, args.only_dirty != 0u, args.first, args.end,
+    const uint cascade = lit_cascade();
+    bool lit = light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
                            workgroup_index() * CELLS + own, entry);
-    const uint slot = light_cell_slot(args.cascade, lit ? entry : 0u);
-    const ivec3 cell = light_cell_from_index(args.cascade, sdfgi_light_cells[slot]);
-    lit = lit && sdfgi_cell_is_valid(args.cascade, cell);
+    const uint slot = light_cell_slot(cascade, lit ? entry : 0u);
+    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[slot]);
+    lit = lit && sdfgi_cell_is_valid(cascade, cell);
     if (axis == 0u) {
         cells[own] = cell;
         facing[own] = 0u;
     }
     barrier();
-    const bool faces = lit && light_cell_faces(args.cascade, cell, axis);
+    const bool faces = lit && light_cell_faces(cascade, cell, axis);
     if (faces)
         atomicOr(facing[own], 1u << axis);
     const surface s = surface_behind(cell, axis);

@@ -8,6 +8,7 @@
  * The workgroups of a column, which have the same gl_WorkGroupID.x, share the cells of one row of blocks. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_INDIRECT
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_LIGHT_BLOCKS
 #define SDFGI_WRITES_SURFACES
@@ -18,11 +19,6 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cascade_args);
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) buffer sdfgi_indirect_buffer
-{
-    uint sdfgi_indirect[];
-};
-
 /* The blocks of the row, four words each as in the scratch buffer. */
 shared uvec4 blocks[SDFGI_GROUP_LINEAR];
 /* Inclusive prefix sums over the threads. x, y: light cells of the row's blocks, and those in dirty blocks.
@@ -161,7 +157,7 @@ void list_dirty_cell(uint block, uint entry, uint n, uvec3 texel)
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     sdfgi_light_cells[slot] = index;
-    light_cell_store_direct(slot, uvec2(0u, SDFGI_LIGHT_VALID));
+    sdfgi_direct[slot] = uvec2(0u, SDFGI_LIGHT_VALID);
     uint previous;
     if (find_previous(block, texel, previous) &&
         faces_as_before(sdfgi_cell_from_texel(args.cascade, texel), previous))
@@ -177,9 +173,8 @@ void list_kept_cell(uint entry, uint previous, uvec3 texel)
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     sdfgi_light_cells[slot] = sdfgi_texel_index(texel);
-    light_cell_store_direct(slot,
-                            uvec2(sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT)],
-                                  sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT + 1u)]));
+    sdfgi_direct[slot] = uvec2(sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT)],
+                               sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT + 1u)]);
     take_over(entry, previous);
 }
 

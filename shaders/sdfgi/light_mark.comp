@@ -19,18 +19,13 @@
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_light_mark_args);
 
-layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INDIRECT) readonly buffer sdfgi_indirect_buffer
-{
-    uint sdfgi_indirect[];
-};
-
 /* ---- Which blocks are dirty */
 
 /* Number of light cells that the previous list counted. It is more than the list holds where it was too
  * short. */
 uint previous_count()
 {
-    return sdfgi_indirect[4u * (uint(SDFGI_INDIRECT_CELLS) + args.cascade) + 3u];
+    return indirect_number(uint(SDFGI_INDIRECT_CELLS) + args.cascade);
 }
 
 bool previous_was_too_short()
@@ -126,7 +121,7 @@ uint row_slot_of_block(uint block)
 void keep_light(uint entry)
 {
     const uint slot = light_cell_slot(args.cascade, entry);
-    const uvec2 direct = light_cell_direct(slot);
+    const uvec2 direct = sdfgi_direct[slot];
     sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT)] = direct.x;
     sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT + 1u)] = direct.y;
     for (uint axis = 0u; axis < 6u; axis++) {

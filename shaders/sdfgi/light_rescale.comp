@@ -50,8 +50,7 @@ void rescale_cell(uint i)
 {
     const uint cascade = i / sdfgi_frame.light_cell_room, entry = i % sdfgi_frame.light_cell_room;
     const uint slot = light_cell_slot(cascade, entry);
-    const uvec2 direct = light_cell_direct(slot);
-    light_cell_store_direct(slot, uvec2(rescale_rgbe(direct.x), direct.y));
+    sdfgi_direct[slot].x = rescale_rgbe(sdfgi_direct[slot].x);
     if (gathers())
         rescale_gathered(cascade, entry);
 }

@@ -16,6 +16,25 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SCRATCH) buffer sdf
     uint sdfgi_scratch[];
 };
 
+#ifdef SDFGI_WRITES_INDIRECT
+#define SDFGI_ACCESS_INDIRECT
+#else
+#define SDFGI_ACCESS_INDIRECT readonly
+#endif
+
+/* Records of SDFGI_INDIRECT_*. */
+layout(std430, set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_INDIRECT) SDFGI_ACCESS_INDIRECT buffer sdfgi_indirect_buffer
+{
+    uint sdfgi_indirect[];
+};
+
+/* The number of items of a record. */
+uint indirect_number(uint record)
+{
+    return sdfgi_indirect[4u * record + 3u];
+}
+
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_COUNTERS) buffer sdfgi_counters_buffer
 {
     uint sdfgi_counters[];

@@ -52,7 +52,7 @@ bool hit_light(uint code, vec3 dir, out vec3 light)
     light = vec3(0.0);
     if (code == SDFGI_RAY_SKY)
         light = sdfgi_sky_towards(dir);
-    if (code >= SDFGI_RAY_UNLIT)
+    if (code >= SDFGI_RAY_CAPPED)
         return true;
     uint axis, entry;
     const uint index = ray_light_index(code, axis), cascade = index >> (3u * sdfgi_frame.resolution_log2);
@@ -87,6 +87,8 @@ void load_ray(uint cascade, ivec3 probe, uint slot, uint i)
     const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
     if (code == SDFGI_RAY_UNLIT && of_frame)
         counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
+    if (code == SDFGI_RAY_CAPPED && of_frame)
+        counter_add(SDFGI_COUNTER_TRACE_CAPS, 1u);
     vec3 light = vec3(0.0);
     const bool known = (of_frame || ray_is_cached(code)) && hit_light(code, dir, light);
     ray_light[i] = light;
@@ -133,10 +135,8 @@ void main()
     const uint cascade = gl_WorkGroupID.y, lane = gl_LocalInvocationIndex;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(cascade, probe);
-    if (gl_GlobalInvocationID == uvec3(0u)) {
+    if (gl_GlobalInvocationID == uvec3(0u))
         sdfgi_counters[SDFGI_COUNTER_RAYS_TRACED] = ray_queue_count();
-        counter_add(SDFGI_COUNTER_TRACE_CAPS, ray_queue_capped());
-    }
     if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return;
 

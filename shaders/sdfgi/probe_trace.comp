@@ -15,7 +15,7 @@ uint hit_pack(sdfgi_trace_hit hit)
     if (!hit.hit)
         return SDFGI_RAY_SKY;
     if (!hit.has_cell)
-        return SDFGI_RAY_UNLIT;
+        return hit.capped ? SDFGI_RAY_CAPPED : SDFGI_RAY_UNLIT;
     return ray_pack(hit.cascade, hit.cell, hit.axis);
 }
 
@@ -28,8 +28,6 @@ void trace(uint ray)
     const vec3 dir = probe_sample_direction(cascade, probe, ray % sdfgi_frame.cycle_samples, solid_angle);
     const vec3 pos = sdfgi_probe_position(probe, sdfgi_probes[slot]);
     const sdfgi_trace_hit hit = sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
-    if (hit.capped)
-        ray_queue_add_capped();
     sdfgi_rays[ray] = hit_pack(hit);
 }
 

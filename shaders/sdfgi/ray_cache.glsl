@@ -39,7 +39,7 @@ bool ray_is_cached(uint code)
 {
     if (code == SDFGI_RAY_UNKNOWN)
         return false;
-    if (code >= SDFGI_RAY_UNLIT)
+    if (code >= SDFGI_RAY_CAPPED)
         return true;
     uint cascade;
     const ivec3 cell = ray_cell(code, cascade);

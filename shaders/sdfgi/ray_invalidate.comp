@@ -144,7 +144,7 @@ uint hit_sample(uint first, uint k)
 bool hit_is_dirty(changed_cascade c, ivec3 probe, uint s, uint code)
 {
     /* A hit without a light cell may lie beside the edge of the valid region, which has moved. */
-    if (code == SDFGI_RAY_UNLIT)
+    if (code == SDFGI_RAY_UNLIT || code == SDFGI_RAY_CAPPED)
         return true;
     float end = 1e9;
     if (code != SDFGI_RAY_SKY) {

@@ -5,6 +5,7 @@
  * list. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_INDIRECT
 #include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"

@@ -77,14 +77,14 @@ struct sdfgi_light_mark_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_mark_args, 8);
 
-/* Entries of the light list to light directly: those in dirty blocks, or a range. */
+/* Entries of the light lists to light directly: per cascade [first, end), or those in dirty blocks. */
 struct sdfgi_light_direct_args {
-    uint cascade;
-    uint only_dirty; /* 1: cells in dirty blocks; 0: entries [first, end) */
-    uint first, end;
+    uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
+    uint cascade;         /* of workgroups with z = 0; the next one follows at z = 1, and so on */
+    uint only_dirty;      /* 1: cells in dirty blocks */
     uint threads_per_ray; /* threads over which a shadow ray is spread at most */
 };
-SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 20);
+SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 76);
 
 /* Per cascade entries [first, end) of the light list, or those in dirty blocks. */
 struct sdfgi_light_bounce_args {
@@ -106,9 +106,8 @@ SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 104);
 
 struct sdfgi_cell_filter_args {
     uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES]; /* as cell_gather's */
-    uint run;                                                /* 0 or 1 */
 };
-SDFGI_ASSERT_SIZE(sdfgi_cell_filter_args, 68);
+SDFGI_ASSERT_SIZE(sdfgi_cell_filter_args, 64);
 
 struct sdfgi_light_rescale_args {
     float factor; /* a power of two */

@@ -41,11 +41,12 @@
  * hit (HARD_CASES row 10). */
 #define SDFGI_TRACE_STEP_CAP 512
 
-/* Codes in the ray cache besides packed hits: the ray must be traced, it ended in the sky, or it hit a
- * surface that has no light cell. */
+/* Codes in the ray cache besides packed hits: the ray must be traced, it ended in the sky, it hit a surface
+ * that has no light cell, or it ran out of steps. */
 #define SDFGI_RAY_UNKNOWN 0u
 #define SDFGI_RAY_SKY     0xffffffffu
 #define SDFGI_RAY_UNLIT   0xfffffffeu
+#define SDFGI_RAY_CAPPED  0xfffffffdu
 
 /* A probe's state, which sdfgi_space.glsl packs. NEW is set when the probe entered the cascade or was moved;
  * its light then belongs to another position. The next placement clears NEW. */
@@ -126,9 +127,9 @@
 /* Accumulators per albedo block (2^3 cells): planes of a word per block in the scratch buffer (scratch.h).
  * Those from SDFGI_ACCUM_EMISSION on are there only if something emits. Sides are +x -x +y -y +z -z, and a
  * side has two layers of cells along its axis. */
-#define SDFGI_ACCUM_ALBEDO         0  /* per side and layer 4 planes: sum in 1/SDFGI_ALBEDO_STEPS, count */
-#define SDFGI_ACCUM_NORMAL         48 /* per dominant axis 3 planes: count, sums of two slopes */
-#define SDFGI_ACCUM_FRONT          57 /* per side 16 planes: fronts, see surface_front.glsl */
+#define SDFGI_ACCUM_ALBEDO         0   /* per side and layer 4 planes: sum in 1/SDFGI_ALBEDO_STEPS, count */
+#define SDFGI_ACCUM_NORMAL         48  /* per dominant axis 3 planes: count, sums of two slopes */
+#define SDFGI_ACCUM_FRONT          57  /* per side 16 planes: fronts, see surface_front.glsl */
 #define SDFGI_ACCUM_METAL          153 /* 2 planes: samples of metal, and the sum of their kinds */
 #define SDFGI_ACCUM_EMISSION       155 /* per channel 2 planes: radiance times EMISSION_SIDES, 64 bits */
 #define SDFGI_ACCUM_EMISSION_AREA  161 /* the emitters' own area, in 1/SDFGI_AREA_STEPS */

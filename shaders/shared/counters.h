@@ -23,14 +23,17 @@
  * in the list. */
 #define SDFGI_COUNTER_LIGHT_CELLS 16
 #define SDFGI_COUNTER_LIGHT_DIRTY 24
-/* Per cascade: float bits of the largest relative change of a light cell over a gather cycle. */
-#define SDFGI_COUNTER_CELL_CHANGE 32
-/* Per cascade: light cells that changed by SDFGI_SMALL_CHANGE or more over a gather cycle. */
-#define SDFGI_COUNTER_CELLS_CHANGING 40
-/* Per cascade: float bits of the largest relative change of a light cell since it was marked. */
-#define SDFGI_COUNTER_CELL_DRIFT 48
 /* Per cascade: light cells that gathers of pictures have seen since these were last forgotten. */
-#define SDFGI_COUNTER_CELLS_SEEN 56
+#define SDFGI_COUNTER_CELLS_SEEN 32
+/* From here on counters stand at the end of GATHERED, not in COUNTERS, because other passes count beside
+ * cell_gather. */
+#define SDFGI_COUNTER_GATHER 40
+/* Per cascade: float bits of the largest relative change of a light cell over a gather cycle. */
+#define SDFGI_COUNTER_CELL_CHANGE 40
+/* Per cascade: light cells that changed by SDFGI_SMALL_CHANGE or more over a gather cycle. */
+#define SDFGI_COUNTER_CELLS_CHANGING 48
+/* Per cascade: float bits of the largest relative change of a light cell since it was marked. */
+#define SDFGI_COUNTER_CELL_DRIFT 56
 #define SDFGI_COUNTER_COUNT      64
 
 /* X(id, cleared, health): the counters that are not per cascade.
@@ -52,17 +55,16 @@
     X(SAMPLES_CUT, CHANGE, SURFACES_CROWDED)
 
 /* Records of four words: the three workgroup counts of an indirect dispatch, and a number of items. Passes
- * that run beside passes that write COUNTERS must read the number here.
+ * read the number here and not among the counters, because other passes write counters beside them.
  *
  * - CELLS, per cascade: one thread per dirty light cell. The number is that of all light cells, not clamped.
  * - MASKS, per cascade: eight threads per dirty light cell. The number is that of dirty light cells.
  * - DIRECT, per cascade: six threads per dirty light cell. No number.
- * - RAYS: one thread per ray that this frame traces. The number is that of these rays. The word after the
- *   record counts rays that ran out of steps. */
+ * - RAYS: one thread per ray that this frame traces. The number is that of these rays. */
 #define SDFGI_INDIRECT_CELLS   0
 #define SDFGI_INDIRECT_MASKS   SDFGI_MAX_CASCADES
 #define SDFGI_INDIRECT_DIRECT  (2 * SDFGI_MAX_CASCADES)
 #define SDFGI_INDIRECT_RAYS    (3 * SDFGI_MAX_CASCADES)
-#define SDFGI_INDIRECT_RECORDS (3 * SDFGI_MAX_CASCADES + 2)
+#define SDFGI_INDIRECT_RECORDS (3 * SDFGI_MAX_CASCADES + 1)
 
 #endif

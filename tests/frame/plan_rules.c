@@ -85,19 +85,11 @@ static uint64_t reads_of(const struct work *work)
     return sdfgi_pass_row(work->pass)->reads | (work->indirect != WORK_DIRECT ? RESOURCE_BIT(INDIRECT) : 0);
 }
 
-/* Light cells are lit again in several cascades at once. They write each its own part of the list, and the
- * counter of clamped values grows by atomic additions: no order between them matters. */
-static bool share_by_design(const struct work *a, const struct work *b)
-{
-    return a->pass == PASS_LIGHT_DIRECT && b->pass == PASS_LIGHT_DIRECT && a->cascade != b->cascade &&
-           sdfgi_pass_row(a->pass)->writes == (RESOURCE_BIT(LIGHT_CELLS) | RESOURCE_BIT(COUNTERS));
-}
-
 static void require_apart(const struct work *a, const struct work *b)
 {
     const uint64_t a_writes = sdfgi_pass_row(a->pass)->writes, b_writes = sdfgi_pass_row(b->pass)->writes;
     const uint64_t common = (a_writes & (reads_of(b) | b_writes)) | (b_writes & reads_of(a));
-    if (common && !share_by_design(a, b))
+    if (common)
         require_fail(__FILE__, __LINE__, "%s and %s run side by side and share resources %#llx",
                      sdfgi_pass_row(a->pass)->name, sdfgi_pass_row(b->pass)->name,
                      (unsigned long long)common);

@@ -79,8 +79,9 @@ static void add_light_direct(struct text *text, const struct sdfgi_light_direct_
 {
     if (args->only_dirty)
         text_add(text, " dirty");
-    else
-        text_add(text, " entries %u..%u", args->first, args->end);
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+        if (args->end[c] > 0)
+            text_add(text, " c%u entries %u..%u", c, args->first[c], args->end[c]);
 }
 
 static void add_light_bounce(struct text *text, const struct sdfgi_light_bounce_args *args)

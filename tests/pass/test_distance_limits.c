@@ -104,8 +104,8 @@ static void hard_06_a_full_cascade_has_no_light_cells(void **state)
 }
 
 /* The invalidated cells of MASKS are cleared all the same. */
-static const enum resource written_by_groups[] = { RESOURCE_LIGHT, RESOURCE_LIGHT_CELLS, RESOURCE_RAYS,
-                                                   RESOURCE_SURFACES, RESOURCE_GATHERED };
+static const enum resource written_by_groups[] = { RESOURCE_LIGHT,  RESOURCE_LIGHT_CELLS, RESOURCE_RAYS,
+                                                   RESOURCE_DIRECT, RESOURCE_SURFACES,    RESOURCE_GATHERED };
 enum { WRITTEN = sizeof written_by_groups / sizeof *written_by_groups, CANARY = 0xa5 };
 
 static void write_canaries(struct gi_test *t)

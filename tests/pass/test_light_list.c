@@ -84,7 +84,7 @@ static void require_list(struct gi_test *t, const uint32_t *expected, uint32_t c
 {
     uint32_t *list = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL);
     for (uint32_t i = 0; i < count; i++)
-        REQUIRE_CMP(list[3 * i] & 0xffffff, ==, expected[i]);
+        REQUIRE_CMP(list[i] & 0xffffff, ==, expected[i]);
     free(list);
 }
 

@@ -175,24 +175,27 @@ static uint64_t lists_differ(struct gi_test *a, struct gi_test *b, bool lit, con
 {
     uint32_t *x = gi_test_read(a, RESOURCE_LIGHT_CELLS, NULL),
              *y = gi_test_read(b, RESOURCE_LIGHT_CELLS, NULL);
+    uint64_t *p = gi_test_read(a, RESOURCE_DIRECT, NULL), *q = gi_test_read(b, RESOURCE_DIRECT, NULL);
     uint32_t *m = gi_test_read(a, RESOURCE_COUNTERS, NULL), *n = gi_test_read(b, RESOURCE_COUNTERS, NULL);
     const uint64_t room = a->gi->volume.resources->extent.light_cells;
-    struct difference counts = { 0 }, words = { 0 };
+    struct difference counts = { 0 }, cells = { 0 };
     REQUIRE_CMP(room, ==, b->gi->volume.resources->extent.light_cells);
     for (uint32_t c = 0; c < a->gi->settings.cascades; c++) {
         const uint32_t count = m[SDFGI_COUNTER_LIGHT_CELLS + c];
         if (count != n[SDFGI_COUNTER_LIGHT_CELLS + c])
             difference_add(&counts, c);
-        for (uint64_t i = 3 * c * room; i < 3 * (c * room + count); i++)
-            if (x[i] != y[i] && (lit || i % 3 == 0))
-                difference_add(&words, i);
+        for (uint64_t i = c * room; i < c * room + count; i++)
+            if (x[i] != y[i] || (lit && p[i] != q[i]))
+                difference_add(&cells, i);
     }
     free(x);
     free(y);
+    free(p);
+    free(q);
     free(m);
     free(n);
     return difference_tell(&counts, what, "numbers of light cells") +
-           difference_tell(&words, what, "words of light cells");
+           difference_tell(&cells, what, "light cells");
 }
 
 /* Those of probes that are dead are not read. */

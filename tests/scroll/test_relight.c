@@ -55,7 +55,14 @@ static struct entry *read_list(struct gi_test *t, uint32_t *count)
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
     *count = counters[SDFGI_COUNTER_LIGHT_CELLS];
     free(counters);
-    return gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL);
+    uint32_t *places = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL),
+             *direct = gi_test_read(t, RESOURCE_DIRECT, NULL);
+    struct entry *list = test_array_alloc(*count, sizeof *list);
+    for (uint32_t i = 0; i < *count; i++)
+        list[i] = (struct entry){ places[i], { direct[2 * i], direct[2 * i + 1] } };
+    free(places);
+    free(direct);
+    return list;
 }
 
 static bool is_lit(const struct entry *e)

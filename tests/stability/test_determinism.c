@@ -10,10 +10,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const enum resource compared[] = { RESOURCE_BITS,     RESOURCE_DISTANCE,   RESOURCE_ALBEDO,
-                                          RESOURCE_EMISSION, RESOURCE_NORMALS,    RESOURCE_LIGHT,
-                                          RESOURCE_MASKS,    RESOURCE_PROBES,     RESOURCE_PREVIOUS,
-                                          RESOURCE_SUMS,     RESOURCE_LIGHT_CELLS };
+static const enum resource compared[] = { RESOURCE_BITS,     RESOURCE_DISTANCE,    RESOURCE_ALBEDO,
+                                          RESOURCE_EMISSION, RESOURCE_NORMALS,     RESOURCE_LIGHT,
+                                          RESOURCE_MASKS,    RESOURCE_PROBES,      RESOURCE_PREVIOUS,
+                                          RESOURCE_SUMS,     RESOURCE_LIGHT_CELLS, RESOURCE_DIRECT };
 enum { COMPARED = sizeof compared / sizeof compared[0] };
 
 /* Everything that lookups and later frames read. */
@@ -76,7 +76,9 @@ static void *take_list(struct gi_test *t, enum resource resource, uint64_t bytes
 static void *take_buffer(struct gi_test *t, enum resource resource, uint64_t *size)
 {
     if (resource == RESOURCE_LIGHT_CELLS)
-        return take_list(t, resource, 12, 1, size);
+        return take_list(t, resource, 4, 1, size);
+    if (resource == RESOURCE_DIRECT)
+        return take_list(t, resource, 8, 1, size);
     return resource == RESOURCE_LIGHT ? take_list(t, resource, 4, 6, size) : gi_test_read(t, resource, size);
 }
 

@@ -10,7 +10,7 @@
 enum { POINTS = 3 };
 
 struct outcome {
-    uint32_t *list, *counters;
+    uint32_t *list, *direct, *counters;
     uint64_t room;
     float irradiance[POINTS][3];
 };
@@ -43,6 +43,7 @@ static struct outcome take(struct gi_test *t)
                                                          { { -2.8f, 0.1f, 0.4f }, { 1, 0, 0 } },
                                                          { { 0.3f, 2.2f, 0.8f }, { 0, -1, 0 } } };
     struct outcome o = { .list = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL),
+                         .direct = gi_test_read(t, RESOURCE_DIRECT, NULL),
                          .counters = gi_test_read(t, RESOURCE_COUNTERS, NULL),
                          .room = t->gi->volume.resources->extent.light_cells };
     gi_test_irradiance(t, points, POINTS, o.irradiance);
@@ -52,6 +53,7 @@ static struct outcome take(struct gi_test *t)
 static void destroy(struct outcome *o)
 {
     free(o->list);
+    free(o->direct);
     free(o->counters);
 }
 
@@ -63,7 +65,8 @@ static void require_same(const struct outcome *a, const struct outcome *b)
         REQUIRE_CMP(count, ==, b->counters[SDFGI_COUNTER_LIGHT_CELLS + c]);
         REQUIRE_CMP(count, <=, a->room);
         REQUIRE_CMP(count, <=, b->room);
-        REQUIRE_BYTES(a->list + 3 * c * a->room, b->list + 3 * c * b->room, 12ul * count);
+        REQUIRE_BYTES(a->list + c * a->room, b->list + c * b->room, 4ul * count);
+        REQUIRE_BYTES(a->direct + 2 * c * a->room, b->direct + 2 * c * b->room, 8ul * count);
     }
     for (int i = 0; i < POINTS; i++)
         for (int k = 0; k < 3; k++) {

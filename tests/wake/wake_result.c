@@ -114,8 +114,8 @@ static bool settle(struct wake_result *result, struct wake_device *device, bool 
 
 static const enum resource whole[] = { RESOURCE_BITS,     RESOURCE_DISTANCE, RESOURCE_ALBEDO,
                                        RESOURCE_EMISSION, RESOURCE_NORMALS,  RESOURCE_LIGHT_BLOCKS },
-                           others[] = { RESOURCE_PROBES, RESOURCE_LIGHT_CELLS, RESOURCE_COUNTERS,
-                                        RESOURCE_MASKS, RESOURCE_OCCLUSION };
+                           others[] = { RESOURCE_PROBES,   RESOURCE_LIGHT_CELLS, RESOURCE_DIRECT,
+                                        RESOURCE_COUNTERS, RESOURCE_MASKS,       RESOURCE_OCCLUSION };
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static void copy(struct wake_result *result, struct wake_device *device, enum resource resource)
@@ -215,27 +215,36 @@ static bool same_color(uint32_t a, uint32_t b)
     return true;
 }
 
-/* A light cell's words: where it is, the colour of its direct light, and that of its axes. */
-static bool same_word(uint32_t a, uint32_t b, uint64_t word, enum wake_direct direct)
+/* Two words of direct light: its colour, and that of the axes. */
+static bool same_direct(const uint32_t a[static 2], const uint32_t b[static 2], enum wake_direct direct)
 {
-    if (word % 3 == 0 || direct == WAKE_DIRECT_EXACT)
-        return a == b;
     if (direct == WAKE_DIRECT_ANY)
         return true;
-    return word % 3 == 1 ? same_color(a, b) : a == b;
+    return (direct == WAKE_DIRECT_EXACT ? a[0] == b[0] : same_color(a[0], b[0])) && a[1] == b[1];
+}
+
+static const uint32_t *entry_of(const struct wake_result *result, enum resource resource, uint64_t words,
+                                uint64_t cascade, uint64_t entry)
+{
+    const uint32_t *data = (const uint32_t *)(void *)result->data[resource];
+    return data + words * (cascade * result->room + entry);
 }
 
 static bool same_cells(const struct wake_result *a, const struct wake_result *b, enum wake_direct direct,
                        char text[static WAKE_TEXT])
 {
     const uint32_t *counters = (const uint32_t *)(void *)b->data[RESOURCE_COUNTERS];
-    for (uint32_t c = 0; c < a->settings.cascades; c++) {
-        const uint32_t *x = (const uint32_t *)(void *)a->data[RESOURCE_LIGHT_CELLS] + 3 * c * a->room,
-                       *y = (const uint32_t *)(void *)b->data[RESOURCE_LIGHT_CELLS] + 3 * c * b->room;
-        for (uint64_t i = 0; i < 3 * (uint64_t)counters[SDFGI_COUNTER_LIGHT_CELLS + c]; i++)
-            if (!same_word(x[i], y[i], i, direct))
-                return differ(text, RESOURCE_LIGHT_CELLS, i, x[i], y[i]);
-    }
+    for (uint32_t c = 0; c < a->settings.cascades; c++)
+        for (uint64_t i = 0; i < counters[SDFGI_COUNTER_LIGHT_CELLS + c]; i++) {
+            const uint32_t *x = entry_of(a, RESOURCE_LIGHT_CELLS, 1, c, i),
+                           *y = entry_of(b, RESOURCE_LIGHT_CELLS, 1, c, i),
+                           *p = entry_of(a, RESOURCE_DIRECT, 2, c, i),
+                           *q = entry_of(b, RESOURCE_DIRECT, 2, c, i);
+            if (*x != *y)
+                return differ(text, RESOURCE_LIGHT_CELLS, i, *x, *y);
+            if (!same_direct(p, q, direct))
+                return differ(text, RESOURCE_DIRECT, i, p[0], q[0]);
+        }
     return true;
 }
 

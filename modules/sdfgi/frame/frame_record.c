@@ -72,10 +72,10 @@ static void upload_instances(struct pass_recorder *r, const struct scene *scene,
         upload(r, RESOURCE_INSTANCES, first + lowest * size, filled * size, batch + BATCH - filled);
 }
 
-/* No workgroups, no rays, none that ran out of steps: shaders/sdfgi/ray_queue.glsl. */
+/* No workgroups, no rays: shaders/sdfgi/ray_queue.glsl. */
 static void empty_ray_queue(struct pass_recorder *r)
 {
-    const uint32_t empty[5] = { 0, 1, 1, 0, 0 };
+    const uint32_t empty[4] = { 0, 1, 1, 0 };
     gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(INDIRECT));
     upload(r, RESOURCE_INDIRECT, 16 * SDFGI_INDIRECT_RAYS, sizeof empty, empty);
 }
@@ -111,11 +111,17 @@ static void record_item(struct pass_recorder *r, const struct voxelizer *voxeliz
 /* The counters, and the number that tells that this frame has run. */
 static void record_readback(struct pass_recorder *r, uint32_t slot, uint32_t number)
 {
+    const struct extent *e = &r->resources->extent;
+    const struct gpu_buffer *buffers = r->resources->buffers, *readback = &r->resources->readback;
     const uint64_t bytes = SDFGI_COUNTER_COUNT * sizeof(uint32_t),
+                   own = SDFGI_COUNTER_GATHER * sizeof(uint32_t),
                    at = slot * (SDFGI_READBACK_WORDS * sizeof(uint32_t));
-    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, RESOURCE_BIT(COUNTERS), 0);
-    gpu_copy(&r->gpu, &r->resources->buffers[RESOURCE_COUNTERS], 0, &r->resources->readback, at, bytes);
-    gpu_update(&r->gpu, &r->resources->readback, at + bytes, sizeof number, &number);
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, RESOURCE_BIT(COUNTERS) | RESOURCE_BIT(GATHERED), 0);
+    gpu_copy(&r->gpu, &buffers[RESOURCE_COUNTERS], 0, readback, at, own);
+    if (e->gathers)
+        gpu_copy(&r->gpu, &buffers[RESOURCE_GATHERED], sdfgi_gather_counters_offset(e), readback, at + own,
+                 bytes - own);
+    gpu_update(&r->gpu, readback, at + bytes, sizeof number, &number);
 }
 
 void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, struct pass_recorder *r,

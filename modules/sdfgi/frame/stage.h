@@ -24,8 +24,7 @@ void sdfgi_stage_add_phase(const struct plan_stage *stage, enum pass_phase phase
 
 /* Adds an item by hand. NULL if nothing calls for the pass in this frame. */
 struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade);
-/* Items added from here on, until `sdfgi_stage_end_group`, run side by side. They touch nothing in common,
- * except that light_direct of two cascades touches the same buffers. */
+/* Items added from here on, until `sdfgi_stage_end_group`, run side by side. They touch nothing in common. */
 uint32_t sdfgi_stage_begin_group(const struct plan_stage *stage);
 void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first);
 

@@ -94,9 +94,12 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
 
 static void empty_list(const struct plan_stage *stage, uint32_t c)
 {
-    static const uint32_t counters[] = { SDFGI_COUNTER_LIGHT_CELLS, SDFGI_COUNTER_LIGHT_DIRTY };
-    for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
+    static const uint32_t counters[] = { SDFGI_COUNTER_LIGHT_CELLS, SDFGI_COUNTER_LIGHT_DIRTY },
+                          records[] = { SDFGI_INDIRECT_CELLS, SDFGI_INDIRECT_MASKS };
+    for (size_t i = 0; i < sizeof counters / sizeof *counters; i++) {
         sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (counters[i] + c), 4);
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_INDIRECT, 16 * (records[i] + c) + 12, 4);
+    }
     clear_blocks(stage, c);
     sdfgi_stage_forget_seen(stage, c);
 }
@@ -144,12 +147,23 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
     add_bounce(stage, c);
 }
 
+/* Counters of a list that another one replaces. */
+static void clear_gather_counters(const struct plan_stage *stage)
+{
+    const struct extent *e = &stage->input->extent;
+    if (e->gathers)
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_GATHERED, sdfgi_gather_counters_offset(e),
+                             sizeof(uint32_t) * (SDFGI_COUNTER_COUNT - SDFGI_COUNTER_GATHER));
+}
+
 /* Coarse cascades first, from which new probes of finer ones take their start. */
 void sdfgi_stage_complete(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
     if (!stage->needs->holds[NEED_LIST])
         return;
+    if (frame->situation.from_nothing || frame->situation.list_grew)
+        clear_gather_counters(stage);
     for (uint32_t c = frame->next.cascades.count; c-- > 0;) {
         if (frame->situation.from_nothing || frame->situation.list_grew)
             clear_probes(stage, c);

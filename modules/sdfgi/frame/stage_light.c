@@ -2,18 +2,21 @@
  * Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
 #include "stage.h"
 
-static void add_direct(const struct plan_stage *stage, const struct relight_range *range)
+/* Lights ranges of several cascades in one dispatch. */
+static void add_direct(const struct plan_stage *stage, const struct relight_range *ranges, uint32_t count)
 {
-    struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_DIRECT, range->cascade);
-    work->first = range->first;
-    work->count = range->count;
-    work->units = range->count;
-    work->args.light_direct = (struct sdfgi_light_direct_args){
-        .cascade = range->cascade,
-        .first = range->first,
-        .end = range->first + range->count,
-        .threads_per_ray = stage->input->threads_per_ray,
-    };
+    if (count == 0)
+        return;
+    struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_DIRECT, 0);
+    struct sdfgi_light_direct_args *args = &work->args.light_direct;
+    args->threads_per_ray = stage->input->threads_per_ray;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct relight_range *range = &ranges[i];
+        args->first[range->cascade] = range->first;
+        args->end[range->cascade] = range->first + range->count;
+        work->count = range->count > work->count ? range->count : work->count;
+        work->units += range->count;
+    }
 }
 
 /* Probes hold light once a frame has shown it: in this one, that is the case behind PROBE_BLEND. */
@@ -46,7 +49,7 @@ static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES]
     work->rows = any_seen ? 2 * cascades : cascades;
 }
 
-/* What arrives at surfaces and leaves them, and what lookups show of it. */
+/* What arrives at surfaces and leaves them. */
 static void add_bounce(const struct plan_stage *stage, const struct gather_range *ranges, uint32_t count)
 {
     const uint32_t cascades = stage->frame->next.cascades.count;
@@ -54,14 +57,17 @@ static void add_bounce(const struct plan_stage *stage, const struct gather_range
     struct sdfgi_light_bounce_args *bounce = &work->args.light_bounce;
     bounce->without_probes = probes_are_dark(stage);
     fill_ranges(work, bounce->first, bounce->end, ranges, count, cascades, 1);
-    for (uint32_t run = 0; run < 2; run++) {
-        work = sdfgi_stage_add(stage, PASS_CELL_FILTER, 0);
-        if (!work)
-            break;
-        struct sdfgi_cell_filter_args *filter = &work->args.cell_filter;
-        filter->run = run;
-        fill_ranges(work, filter->first, filter->end, ranges, count, cascades, 1);
-    }
+}
+
+/* What lookups show of it: a run of the filter. */
+static void add_filter(const struct plan_stage *stage, enum pass pass, const struct gather_range *ranges,
+                       uint32_t count)
+{
+    struct work *work = sdfgi_stage_add(stage, pass, 0);
+    if (!work)
+        return;
+    struct sdfgi_cell_filter_args *filter = &work->args.cell_filter;
+    fill_ranges(work, filter->first, filter->end, ranges, count, stage->frame->next.cascades.count, 1);
 }
 
 /* All entries. */
@@ -75,21 +81,24 @@ static void bounce_all(const struct plan_stage *stage)
             .count = sdfgi_light_list_entries(&stage->frame->next.relight, &stage->input->lists, c),
         };
     add_bounce(stage, ranges, count);
+    add_filter(stage, PASS_CELL_FILTER, ranges, count);
+    add_filter(stage, PASS_CELL_FILTER_FAR, ranges, count);
 }
 
 /* Lights changed: all cells that were there before. */
 static void light_directly(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
-    bool any = false;
+    struct relight_range ranges[SDFGI_MAX_CASCADES];
+    uint32_t count = 0;
     for (uint32_t c = 0; c < frame->next.cascades.count; c++) {
         if (sdfgi_frame_relist(frame, c) == RELIST_NEW)
             continue;
         const uint32_t entries = sdfgi_light_list_entries(&frame->next.relight, &stage->input->lists, c);
-        add_direct(stage, &(struct relight_range){ c, 0, entries });
-        any = true;
+        ranges[count++] = (struct relight_range){ c, 0, entries };
     }
-    if (any)
+    add_direct(stage, ranges, count);
+    if (count > 0)
         bounce_all(stage);
 }
 
@@ -100,8 +109,7 @@ static void relight(const struct plan_stage *stage)
     struct relight_range ranges[SDFGI_MAX_CASCADES];
     const uint32_t count = sdfgi_relight_take(&frame->next.relight, &stage->input->lists,
                                               frame->situation.scroll_completes, ranges);
-    for (uint32_t i = 0; i < count; i++)
-        add_direct(stage, &ranges[i]);
+    add_direct(stage, ranges, count);
     if (count > 0)
         sdfgi_accumulation_invalidate(&frame->next.accumulation);
 }
@@ -120,8 +128,10 @@ static void clear_change(const struct plan_stage *stage, const struct gather_ran
 {
     static const uint32_t counters[] = { SDFGI_COUNTER_CELL_CHANGE, SDFGI_COUNTER_CELLS_CHANGING,
                                          SDFGI_COUNTER_CELL_DRIFT };
+    const uint64_t first = sdfgi_gather_counters_offset(&stage->input->extent);
     for (size_t i = 0; i < sizeof counters / sizeof *counters; i++)
-        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (counters[i] + range->cascade), 4);
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_GATHERED,
+                             first + 4 * (counters[i] - SDFGI_COUNTER_GATHER + range->cascade), 4);
 }
 
 /* Rays of light cells. */
@@ -143,7 +153,7 @@ static void gather(const struct plan_stage *stage)
     work->units *= sdfgi_extent_visit_rays(&stage->input->extent);
 }
 
-/* This frame's rays, and then some direct light. */
+/* This frame's rays, and some direct light beside them. */
 static void trace(const struct plan_stage *stage)
 {
     sdfgi_stage_add_phase(stage, PHASE_RAYS, &(struct plan_target){ 0 });
@@ -153,30 +163,37 @@ static void trace(const struct plan_stage *stage)
     const uint32_t first = sdfgi_stage_begin_group(stage);
     add_probe_trace(stage);
     gather(stage);
+    if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
+        relight(stage);
     sdfgi_stage_end_group(stage, first);
     if (stage->frame->situation.gathers && sdfgi_gathering_forgets_seen(&stage->frame->next.gathering))
         for (uint32_t c = 0; c < stage->frame->next.cascades.count; c++)
             sdfgi_stage_forget_seen(stage, c);
-    if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
-        relight(stage);
 }
 
-/* Light cells that have begun to gather change with what they gather; before that, and if they never gather,
- * they change with the probes. */
-static void bounce(const struct plan_stage *stage)
+/* Adds up what this frame's rays have found. Light cells that have begun to gather change with what they
+ * gather, and the passes of probes run beside the filter; before that, and if they never gather, they change
+ * with the probes. */
+static void add_up(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
-    if (frame->situation.gathering && frame->situation.gathers)
-        add_bounce(stage, frame->gathers, frame->gather_count);
+    const struct plan_target all = { 0 };
+    const uint32_t gathers = frame->situation.gathering ? frame->gather_count : 0;
+    const bool bounces = gathers > 0 && frame->situation.gathers;
+    if (bounces)
+        add_bounce(stage, frame->gathers, gathers);
+    const uint32_t first = sdfgi_stage_begin_group(stage);
+    if (bounces)
+        add_filter(stage, PASS_CELL_FILTER, frame->gathers, gathers);
+    sdfgi_stage_add_phase(stage, PHASE_SUM, &all);
+    sdfgi_stage_end_group(stage, first);
+    const uint32_t second = sdfgi_stage_begin_group(stage);
+    if (bounces)
+        add_filter(stage, PASS_CELL_FILTER_FAR, frame->gathers, gathers);
+    sdfgi_stage_add_phase(stage, PHASE_BLEND, &all);
+    sdfgi_stage_end_group(stage, second);
     if (!frame->situation.gathering && sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))
         bounce_all(stage);
-}
-
-/* Adds up what this frame's rays find, shows what the probes have gathered, and hands it to the surfaces. */
-static void light_probes(const struct plan_stage *stage)
-{
-    sdfgi_stage_add_phase(stage, PHASE_PROBES, &(struct plan_target){ 0 });
-    bounce(stage);
 }
 
 void sdfgi_stage_light(const struct plan_stage *stage)
@@ -184,5 +201,5 @@ void sdfgi_stage_light(const struct plan_stage *stage)
     if (stage->needs->holds[NEED_DIRECT] && stage->frame->situation.lights_changed)
         light_directly(stage);
     trace(stage);
-    light_probes(stage);
+    add_up(stage);
 }

@@ -55,7 +55,8 @@ enum pass_phase {
     PHASE_LIST,      /* as MARK, afterwards */
     PHASE_SEED,      /* as PLACE, afterwards, beside the new light cells' direct light */
     PHASE_RAYS,      /* before this frame's rays are traced */
-    PHASE_PROBES,    /* after that */
+    PHASE_SUM,       /* after that */
+    PHASE_BLEND,     /* and after that */
     PHASE_OWN,       /* planned by a function of its own */
 };
 

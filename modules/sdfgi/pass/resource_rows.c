@@ -43,6 +43,12 @@ uint64_t sdfgi_resource_size(enum resource resource, const struct extent *e)
     return 0;
 }
 
+uint64_t sdfgi_gather_counters_offset(const struct extent *e)
+{
+    assert(e->gathers);
+    return sizeof(uint32_t) * SDFGI_GATHERED_WORDS * ENTRY_COUNT(e);
+}
+
 VkDescriptorType sdfgi_resource_descriptor(enum resource resource)
 {
     return rows[resource].kind == RESOURCE_KIND_UNIFORM ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER

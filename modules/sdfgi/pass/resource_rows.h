@@ -26,6 +26,8 @@ struct resource_row {
 const struct resource_row *sdfgi_resource_row(enum resource resource);
 /* Bytes. */
 uint64_t sdfgi_resource_size(enum resource resource, const struct extent *extent);
+/* Bytes of GATHERED before the counters from SDFGI_COUNTER_GATHER on. Only where light cells gather. */
+uint64_t sdfgi_gather_counters_offset(const struct extent *extent);
 VkDescriptorType sdfgi_resource_descriptor(enum resource resource);
 /* "sdfgi LOOKUP" */
 const char *sdfgi_resource_set_name(enum resource_set set);

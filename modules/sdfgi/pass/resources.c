@@ -254,8 +254,9 @@ void sdfgi_resources_retire(struct backend *backend, struct resources *resources
 /* ---- Buffers that grow */
 
 /* What is as long as the light list, or grows with it. */
-static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_LIGHT, RESOURCE_SURFACES,
-                                        RESOURCE_GATHERED,    RESOURCE_SEEN,  RESOURCE_SCRATCH };
+static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_DIRECT,   RESOURCE_LIGHT,
+                                        RESOURCE_SURFACES,    RESOURCE_GATHERED, RESOURCE_SEEN,
+                                        RESOURCE_SCRATCH };
 /* What is there only if something emits, or is larger then. */
 static const enum resource emitting[] = { RESOURCE_EMITTERS, RESOURCE_SCRATCH };
 

@@ -95,8 +95,10 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return (struct work_groups){ in_rows(groups_for(work->count, group * blocks_per_group)).x, 1, 1 };
     case DOMAIN_LIGHT_ROWS:
         return (struct work_groups){ (uint32_t)(e->cells / 64 / group), LIST_SHARES, 1 };
-    case DOMAIN_LIGHT_CELLS:
-        return in_rows(groups_for(work->count, group));
+    case DOMAIN_LIGHT_CELLS: {
+        const struct work_groups of_cascade = in_rows(groups_for(work->count, group));
+        return (struct work_groups){ of_cascade.x, of_cascade.y, cascades };
+    }
     case DOMAIN_ALL_LIGHT_CELLS:
         return (struct work_groups){ groups_for(work->count, group), work->rows ? work->rows : cascades, 1 };
     case DOMAIN_STORED_LIGHT:

@@ -36,8 +36,8 @@ enum domain {
     DOMAIN_ALL_RAYS,         /* `count` rays of each cascade */
     DOMAIN_LIGHT_BLOCKS,     /* `count` cells, of which a workgroup looks at one block or more in turn */
     DOMAIN_LIGHT_ROWS,       /* rows of light blocks of a cascade */
-    DOMAIN_LIGHT_CELLS,      /* `count` entries of the light list of a cascade */
-    DOMAIN_ALL_LIGHT_CELLS,  /* `count` entries of the light lists of all cascades */
+    DOMAIN_LIGHT_CELLS,      /* `count` entries of the light lists of all cascades */
+    DOMAIN_ALL_LIGHT_CELLS,  /* the same, few enough for one row of workgroups; or of `rows` ranges */
     DOMAIN_STORED_LIGHT,     /* axes of light cells, and texels of probes, of all cascades */
     DOMAIN_PIXELS,           /* of a picture */
     DOMAIN_TILE_LIST,        /* tiles of a picture that a list names: indirect */
