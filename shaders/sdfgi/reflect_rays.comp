@@ -20,6 +20,9 @@ const float LEAST_RISE = 0.02;
  * lamp, and a square of few rays would show it as a dot. */
 const float NARROW_SHARE = 0.9;
 
+/* Cells: so far behind what a pixel shows is what was voxelised there. */
+const float BEHIND = 0.25;
+
 /* Every square of SDFGI_RAYS_SIDE rays a side, wherever it begins, holds each point of a sequence once, and
  * squares side by side hold it with other shifts. `pixel` is in steps from ray to ray. */
 vec2 pattern_point(ivec2 pixel)
@@ -35,6 +38,31 @@ vec3 ray_direction(vec2 point, picture_surface s, float roughness)
     const float wide = smoothstep(PICTURE_WIDE_LOBES.x, PICTURE_WIDE_LOBES.y, roughness);
     return sdfgi_ggx_direction(s.normal, s.to_eye, roughness * roughness,
                                point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
+}
+
+/* True if the surface of a pixel is metal. */
+bool is_metal(picture_surface s)
+{
+    const vec3 first = sdfgi_first_from_position(s.pos);
+    for (uint c = 0u; c < sdfgi_frame.cascade_count; c++) {
+        const ivec3 cell = ivec3(floor(sdfgi_cascade_from_first(c, first) - BEHIND * s.normal));
+        if (sdfgi_cell_is_valid(c, cell))
+            return surface_metal(sdfgi_block_index(c, cell)) != 0u;
+    }
+    return false;
+}
+
+/* How much the facet that sends light from `dir` to the viewer reflects, by the cosine to it, over the mean
+ * of the lobe, which is what hosts multiply reflections by. At a small angle water mirrors lamps far off
+ * better than the sky above. What metal reflects depends little on the angle. */
+float facet_share(picture_surface s, float roughness, vec3 dir)
+{
+    const vec3 eye = normalize(s.to_eye);
+    const float of_facet = sqrt(clamp(0.5 + 0.5 * dot(eye, dir), 0.0, 1.0)),
+                of_surface = clamp(dot(s.normal, eye), 0.0, 1.0);
+    const float share =
+        sdfgi_ggx_fresnel(1.0 - of_facet) / sdfgi_ggx_mean_fresnel(of_surface, roughness * roughness);
+    return is_metal(s) ? 1.0 : share;
 }
 
 /* From a point to the surface of another pixel; far away if there is none. */
@@ -79,9 +107,11 @@ void reflect_pixel(ivec2 pixel)
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
     const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
-    const vec3 face = face_normal(pixel, s), dir = off_face(ray_direction(point, s, roughness), face);
+    const vec3 face = face_normal(pixel, s), of_lobe = ray_direction(point, s, roughness),
+               dir = off_face(of_lobe, face);
     const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), face, dir);
-    const vec3 light = scale * sdfgi_reflection_light(ray, dir, fract(5.0 * point), rough);
+    const vec3 light = scale * facet_share(s, roughness, of_lobe) *
+                       sdfgi_reflection_light(ray, dir, fract(5.0 * point), rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));
 }
 

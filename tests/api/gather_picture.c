@@ -6,15 +6,21 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+void picture_scene_show(struct picture_scene *scene, struct test_mesh mesh)
+{
+    REQUIRE_CMP(scene->count, <, (int)PICTURE_MAX_OBJECTS);
+    scene->objects[scene->count++] = mesh;
+}
 
 void picture_scene_add(struct picture_scene *scene, struct gi_test *t, struct test_mesh mesh, float albedo,
                        float emission)
 {
-    REQUIRE_CMP(scene->count, <, (int)PICTURE_MAX_OBJECTS);
     const sdfgi_material material =
         gi_test_material(t, (float[]){ albedo, albedo, albedo }, (float[]){ emission, emission, emission });
     gi_test_add(t, &mesh, material);
-    scene->objects[scene->count++] = mesh;
+    picture_scene_show(scene, mesh);
 }
 
 void picture_scene_finish(struct picture_scene *scene)
@@ -156,4 +162,29 @@ float (*picture_gather(struct gi_test *t, const struct picture *p,
     gpu_test_image_destroy(&t->gpu, &output);
     free(halves);
     return light;
+}
+
+void picture_reflect(struct gi_test *t, const struct picture *p, const float *roughness,
+                     uint16_t (*texels)[4])
+{
+    struct gpu_test_image images[] = {
+        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, p->width, p->height, p->depth),
+        gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, p->width, p->height, p->normals),
+        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, p->width, p->height, roughness),
+    };
+    struct sdfgi_resolve_desc desc = { .depth = images[0].view,
+                                       .normal = images[1].view,
+                                       .roughness = images[2].view,
+                                       .background_depth = p->desc.background_depth };
+    memcpy(desc.inverse_view_projection, p->desc.inverse_view_projection,
+           sizeof desc.inverse_view_projection);
+    const struct sdfgi_view_desc size = { .width = p->width, .height = p->height };
+    sdfgi_view *view = NULL;
+    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &size, &view), ==, (int)SDFGI_OK);
+    gi_test_resolve(t, view, &desc);
+    gpu_test_image_read(&t->gpu, view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
+                        (VkExtent3D){ p->width, p->height, 1 }, 8, texels);
+    for (int i = 0; i < 3; i++)
+        gpu_test_image_destroy(&t->gpu, &images[i]);
+    sdfgi_view_destroy(t->gi, view);
 }

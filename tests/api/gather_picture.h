@@ -13,7 +13,9 @@ struct picture_scene {
     int count;
 };
 
-/* Adds a mesh to the test's context as well; the scene takes it over. */
+/* Draws a mesh, and takes it over. */
+void picture_scene_show(struct picture_scene *scene, struct test_mesh mesh);
+/* The same; adds it to the test's context as well. */
 void picture_scene_add(struct picture_scene *scene, struct gi_test *t, struct test_mesh mesh, float albedo,
                        float emission);
 void picture_scene_finish(struct picture_scene *scene);
@@ -39,5 +41,9 @@ void picture_finish(struct picture *picture);
 /* Irradiance of the picture, 3 floats a pixel; the caller frees it. */
 float (*picture_gather(struct gi_test *t, const struct picture *picture,
                        enum sdfgi_gather_resolution resolution))[3];
+/* What the surfaces of a picture reflect, whose roughness is given for each pixel: four half floats a pixel.
+ */
+void picture_reflect(struct gi_test *t, const struct picture *picture, const float *roughness,
+                     uint16_t (*texels)[4]);
 
 #endif

@@ -47,28 +47,9 @@ static void reflect(struct gi_test *t, const struct picture *p, float roughness,
     static uint16_t texels[WIDTH * HEIGHT][4];
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         rough[i] = roughness;
-    struct gpu_test_image images[] = {
-        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, p->depth),
-        gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, WIDTH, HEIGHT, p->normals),
-        gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, WIDTH, HEIGHT, rough),
-    };
-    struct sdfgi_resolve_desc desc = { .depth = images[0].view,
-                                       .normal = images[1].view,
-                                       .roughness = images[2].view,
-                                       .background_depth = p->desc.background_depth };
-    memcpy(desc.inverse_view_projection, p->desc.inverse_view_projection,
-           sizeof desc.inverse_view_projection);
-    const struct sdfgi_view_desc size = { .width = WIDTH, .height = HEIGHT };
-    sdfgi_view *view = NULL;
-    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &size, &view), ==, (int)SDFGI_OK);
-    gi_test_resolve(t, view, &desc);
-    gpu_test_image_read(&t->gpu, view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
-                        (VkExtent3D){ WIDTH, HEIGHT, 1 }, 8, texels);
+    picture_reflect(t, p, rough, texels);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         light[i] = gi_test_half(texels[i][1]);
-    for (int i = 0; i < 3; i++)
-        gpu_test_image_destroy(&t->gpu, &images[i]);
-    sdfgi_view_destroy(t->gi, view);
 }
 
 /* How much a square of pixels differs from the mean of those on both sides of it, over the brightest. */

@@ -53,7 +53,8 @@ SDFGI_API enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCo
  * live as long as the view. */
 struct sdfgi_view_images {
     VkImageView diffuse;    /* rgb: irradiance E, W/m^2, not times albedo */
-    VkImageView reflection; /* rgb: radiance, W/(m^2 sr), the mean over the specular lobe: times the
+    VkImageView reflection; /* rgb: radiance, W/(m^2 sr), the mean over the specular lobe, where
+                               surfaces that are not metal reflect more at small angles: times the
                                directional albedo of the specular BRDF it is reflected light. a: metres to
                                what is reflected, 65504 for the sky, 0 where a surface is too rough for a ray.
                                VK_NULL_HANDLE: the last resolve made none; all surfaces reflect E / pi */

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT
+ * What a lobe reflects counts as much as the facets that reflect it: at a small angle a dielectric mirrors
+ * what lies far off better than what is above, and metal mirrors both alike. */
+#include "gather_picture.h"
+#include "light_scene.h"
+#include "require.h"
+#include "test_group.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { WIDTH = 64, HEIGHT = 48, STEPS = 48 };
+
+static const double ROUGHNESS = 0.38;
+/* The camera looks down at the floor, through a long lens: neighbours, whose rays the filter shares, see it
+ * at the same angle. */
+static const double DOWN = 0.4, AHEAD = 0.9165, TAN = 0.05;
+/* The 256 directions in which the pixels of a square of squares look are not quite even over the lobe. */
+static const double TOLERANCE = 0.04;
+
+/* A level floor under a sky that is dark at the horizon and bright above. */
+static struct picture draw_floor(struct gi_test *t, struct picture_scene *scene, bool metal)
+{
+    struct sdfgi_settings settings = gi_test_settings();
+    settings.resolution = 64;
+    gi_test_open(t, &settings);
+    const double centre[3] = { 0, -1, -3 }, half[3] = { 6, 1, 6 };
+    picture_scene_show(scene, test_mesh_box(centre, half, test_rotation_none));
+    if (metal)
+        light_add_metal(t, test_mesh_box(centre, half, test_rotation_none), 0.05f, 1);
+    else
+        light_add(t, test_mesh_box(centre, half, test_rotation_none), 0.05f, 0);
+    const struct sdfgi_material_desc smooth = { .smoothness = 1 };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &smooth, &material), ==, (int)SDFGI_OK);
+    const struct sdfgi_sky sky = { .zenith = { 1, 1, 1 } };
+    REQUIRE_CMP((int)sdfgi_set_sky(t->gi, &sky), ==, (int)SDFGI_OK);
+    gi_test_update(t, 8);
+    const struct picture_camera camera = { .position = { 0, 1, 0 },
+                                           .right = { 1, 0, 0 },
+                                           .up = { 0, AHEAD, -DOWN },
+                                           .forward = { 0, -DOWN, -AHEAD },
+                                           .tan_x = TAN,
+                                           .tan_y = TAN * HEIGHT / WIDTH,
+                                           .near_m = 0.05 };
+    return picture_draw(scene, &camera, WIDTH, HEIGHT);
+}
+
+/* ---- The mean over the lobe, by quadrature. Heights are cosines to the normal. */
+
+static double fresnel(double cosine)
+{
+    return 0.04 + 0.96 * pow(1 - cosine, 5);
+}
+
+/* Visible facets of GGX (Dupuy and Benyoub 2023) for a viewer at height `h`. The sky's light is the height of
+ * the direction. `means`: of light alone, and of light by what facets reflect. */
+static void sky_of_lobe(double h, double alpha, double means[static 2])
+{
+    const double side = sqrt(1 - h * h), length = hypot(side * alpha, h),
+                 view[2] = { side * alpha / length, h / length };
+    double light = 0, reflected = 0, share = 0;
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        const double turn = 2 * 3.14159265358979 * (i % STEPS + 0.5) / STEPS,
+                     z = (1 - (i / STEPS + 0.5) / STEPS) * (1 + view[1]) - view[1], r = sqrt(1 - z * z);
+        const double facet[3] = { alpha * (r * cos(turn) + view[0]), alpha * r * sin(turn), z + view[1] };
+        const double norm = sqrt(facet[0] * facet[0] + facet[1] * facet[1] + facet[2] * facet[2]),
+                     cosine = (side * facet[0] + h * facet[2]) / norm,
+                     height = fabs(2 * cosine * facet[2] / norm - h);
+        light += height;
+        reflected += fresnel(cosine) * height;
+        share += fresnel(cosine);
+    }
+    means[0] = light / (STEPS * STEPS);
+    means[1] = reflected / share;
+}
+
+/* Sums over the pixels of the floor: what is shown, and the two means. */
+struct sums {
+    double shown, even, by_facets;
+};
+
+static struct sums sum_floor(const struct picture *p, uint16_t (*texels)[4])
+{
+    struct sums sums = { 0 };
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const double u = ((i % WIDTH + 0.5) / WIDTH * 2 - 1) * TAN,
+                     v = ((i / WIDTH + 0.5) / HEIGHT * 2 - 1) * TAN * HEIGHT / WIDTH;
+        double means[2];
+        if (p->objects[i] != 0)
+            continue;
+        sky_of_lobe((DOWN + AHEAD * v) / sqrt(1 + u * u + v * v), ROUGHNESS * ROUGHNESS, means);
+        sums.shown += (double)gi_test_half(texels[i][1]);
+        sums.even += means[0];
+        sums.by_facets += means[1];
+    }
+    return sums;
+}
+
+static struct sums reflect_sky(bool metal)
+{
+    static struct gi_test t;
+    static float rough[WIDTH * HEIGHT];
+    static uint16_t texels[WIDTH * HEIGHT][4];
+    struct picture_scene scene = { .count = 0 };
+    struct picture picture = draw_floor(&t, &scene, metal);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        rough[i] = (float)ROUGHNESS;
+    picture_reflect(&t, &picture, rough, texels);
+    const struct sums sums = sum_floor(&picture, texels);
+    picture_finish(&picture);
+    picture_scene_finish(&scene);
+    gi_test_close(&t);
+    printf("%s: %.4f of the mean of the lobe, %.4f of that by what facets reflect\n",
+           metal ? "metal" : "dielectric", sums.shown / sums.even, sums.shown / sums.by_facets);
+    return sums;
+}
+
+static void dielectrics_reflect_by_the_angle_of_facets(void **state)
+{
+    (void)state;
+    const struct sums sums = reflect_sky(false);
+    REQUIRE_CMP(sums.by_facets / sums.even, <, 0.9);
+    REQUIRE_NEAR(sums.shown / sums.by_facets, 1, TOLERANCE);
+}
+
+static void metal_reflects_at_all_angles_alike(void **state)
+{
+    (void)state;
+    const struct sums sums = reflect_sky(true);
+    REQUIRE_NEAR(sums.shown / sums.even, 1, TOLERANCE);
+}
+
+TEST_GROUP(reflection_facets)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dielectrics_reflect_by_the_angle_of_facets),
+        cmocka_unit_test(metal_reflects_at_all_angles_alike),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
