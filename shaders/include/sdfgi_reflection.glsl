@@ -24,7 +24,7 @@
 /* A surface that a ray hit. */
 struct sdfgi_reflection_hit {
     vec3 pos; /* just below the surface, in cell space of cascade 0 */
-    uint axis, block;
+    uint axis;
     float distance_m;
     float weight;
 };
@@ -52,16 +52,15 @@ float sdfgi_reflection_handover(uint cascade, vec3 pos, vec3 dir)
 void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at, sdfgi_trace_hit hit,
                           float weight, float distance_m)
 {
-    const uint block = sdfgi_block_index(cascade, hit.solid);
     const vec3 below = at - 0.01 * vec3(sdfgi_axis_direction(hit.axis));
     const sdfgi_reflection_hit surface =
-        sdfgi_reflection_hit(sdfgi_first_from_cascade(cascade, below), hit.axis, block, distance_m, weight);
+        sdfgi_reflection_hit(sdfgi_first_from_cascade(cascade, below), hit.axis, distance_m, weight);
     if (ray.first.weight <= 0.0)
         ray.first = surface;
     else if (ray.second.weight < weight)
         ray.second = surface;
     if (sdfgi_surfaces_emit())
-        ray.light += weight * sdfgi_block_emission(block, hit.axis);
+        ray.light += weight * sdfgi_block_emission(sdfgi_block_index(cascade, hit.solid), hit.axis);
     ray.distance_m += weight * distance_m;
 }
 
@@ -69,7 +68,7 @@ void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at,
  * counts by its weight at what it hit: nothing jumps while cascades move. */
 sdfgi_reflection_ray sdfgi_reflection_trace(vec3 pos_first, vec3 normal, vec3 dir)
 {
-    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0u, 0.0, 0.0);
+    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
     float rest = 1.0, start_m = 0.0, off_m = 0.0;
     for (uint c = 0u; c < sdfgi_frame.cascade_count && rest > 1e-3; c++) {
@@ -114,70 +113,12 @@ float sdfgi_reflection_ray_share(float roughness)
     return 1.0 - smoothstep(sdfgi_frame.rays_blend, sdfgi_frame.rays_end, roughness);
 }
 
-/* The surface whose light a ray brings, and how much of it. */
-struct sdfgi_reflection_end {
-    sdfgi_lookup_query query; /* for the light that leaves it */
-    vec3 share;               /* 0: there is no surface */
-    vec3 light;               /* that it emits, or that the sky has, times the share */
-};
-
-sdfgi_reflection_end sdfgi_reflection_end_at(vec3 pos_first, uint axis, vec3 way, vec3 share)
+/* Asks for the light that leaves a surface that a ray has hit. Metal counts as diffuse: hosts do not bind
+ * what tells it. */
+sdfgi_lookup_query sdfgi_reflection_query(sdfgi_reflection_hit hit, vec3 dir)
 {
-    const vec3 normal = vec3(sdfgi_axis_direction(axis));
-    return sdfgi_reflection_end(sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, pos_first, normal, -way), share,
-                                vec3(0.0));
-}
-
-#ifdef SDFGI_REFLECTS_METAL
-/* What lies beyond metal that a ray has hit. */
-sdfgi_reflection_end sdfgi_reflection_beyond(sdfgi_reflection_hit hit, vec3 dir, vec2 point)
-{
-    const uint cascade = hit.block / sdfgi_albedo_block_count();
-    const float cell_m = sdfgi_frame.cascades[cascade].cell_m;
-    const vec3 from = metal_start(hit.block, hit.axis, sdfgi_cascade_from_first(cascade, hit.pos), dir,
-                                  hit.distance_m / cell_m),
-               on = metal_direction(hit.block, hit.axis, dir, point),
-               share = hit.weight * surface_albedo(hit.block, hit.axis);
-    const sdfgi_trace_hit next = sdfgi_trace_solid(cascade, sdfgi_frame.cascade_count - 1u, from, on, 1e9);
-    const vec3 at = sdfgi_first_from_cascade(cascade, from + sdfgi_cells_from_metric(on) * next.distance),
-               below = 0.01 * vec3(sdfgi_axis_direction(next.axis)) /
-                       sdfgi_frame.cascades[next.cascade].from_first_scale;
-    sdfgi_reflection_end end =
-        sdfgi_reflection_end_at(at - below, next.axis, on * (next.distance * cell_m), share);
-    if (!next.hit || next.capped)
-        end.share = vec3(0.0);
-    if (!next.hit)
-        end.light = share * sdfgi_sky_towards(on);
-    else if (sdfgi_surfaces_emit())
-        end.light = share * sdfgi_block_emission(sdfgi_block_index(next.cascade, next.solid), next.axis);
-    return end;
-}
-#endif
-
-/* `point` is that of metal_direction, in passes of the library. Hosts do not bind what tells metal: it counts
- * as diffuse to them. */
-sdfgi_reflection_end sdfgi_reflection_end_of(sdfgi_reflection_hit hit, vec3 dir, vec2 point)
-{
-#ifdef SDFGI_REFLECTS_METAL
-    if (hit.weight > 0.0 && surface_metal(hit.block) != 0u)
-        return sdfgi_reflection_beyond(hit, dir, point);
-#endif
-    return sdfgi_reflection_end_at(hit.pos, hit.axis, dir * hit.distance_m, vec3(hit.weight));
-}
-
-/* All light that a ray meets, times exposure. `rough` stands for surfaces of which nothing is known. One
- * loop, so that drivers compile the lookup once. */
-vec3 sdfgi_reflection_light(sdfgi_reflection_ray ray, vec3 dir, vec2 point, vec3 rough)
-{
-    vec3 light = ray.light;
-    sdfgi_reflection_hit hit = ray.first;
-    for (uint i = 0u; i < 2u && hit.weight > 0.0; i++) {
-        const sdfgi_reflection_end end = sdfgi_reflection_end_of(hit, dir, point);
-        const vec4 leaving = sdfgi_lookup(end.query);
-        light += end.light + end.share * (leaving.a > 0.0 ? leaving.rgb : rough);
-        hit = ray.second;
-    }
-    return light;
+    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.pos, vec3(sdfgi_axis_direction(hit.axis)),
+                              -dir * hit.distance_m);
 }
 
 struct sdfgi_surface_light {
@@ -200,23 +141,23 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
     const float rough_or_1 = roughness < 1.0 ? max(roughness, 0.0) : 1.0;
     const vec3 dir = sdfgi_reflection_direction(unit, eye, rough_or_1);
     const float share = sdfgi_reflection_ray_share(rough_or_1);
-    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0u, 0.0, 0.0);
+    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
     if (share > 0.0)
         ray = sdfgi_reflection_trace(pos, unit, dir);
     vec3 rough = vec3(0.0), light = ray.light;
-    sdfgi_reflection_end end =
-        sdfgi_reflection_end(sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, unit, eye), vec3(0.0), vec3(0.0));
+    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, unit, eye);
     float weight = 1.0;
     /* The surface first, then what the ray hit. One loop, so that drivers compile the lookup once. */
     for (uint i = 0u; i < 3u && weight > 0.0; i++) {
-        const vec4 found = sdfgi_lookup(end.query);
+        const vec4 found = sdfgi_lookup(query);
         if (i == 0u)
             rough = found.rgb;
-        light += end.light + end.share * (found.a > 0.0 ? found.rgb : rough);
+        else
+            light += weight * (found.a > 0.0 ? found.rgb : rough);
         const sdfgi_reflection_hit hit = i == 0u ? ray.first : ray.second;
         weight = hit.weight;
-        end = sdfgi_reflection_end_of(hit, dir, vec2(0.0));
+        query = sdfgi_reflection_query(hit, dir);
     }
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
     result.irradiance = rough * (scale * 3.14159265);

@@ -6,10 +6,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
-#define SDFGI_REFLECTS_METAL
-#include "metal.glsl"
-#include "../include/sdfgi_reflection.glsl"
 #include "../lib/random.glsl"
+#include "reflect_path.glsl"
 #include "picture_reflect.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
@@ -109,10 +107,10 @@ void reflect_pixel(ivec2 pixel)
     const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
     const vec3 face = face_normal(pixel, s), of_lobe = ray_direction(point, s, roughness),
                dir = off_face(of_lobe, face);
-    const sdfgi_reflection_ray ray = sdfgi_reflection_trace(sdfgi_first_from_position(s.pos), face, dir);
-    const vec3 light = scale * facet_share(s, roughness, of_lobe) *
-                       sdfgi_reflection_light(ray, dir, fract(5.0 * point), rough);
-    imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), ray.distance_m));
+    const reflect_found found =
+        reflect_trace(sdfgi_first_from_position(s.pos), face, dir, fract(5.0 * point));
+    const vec3 light = scale * facet_share(s, roughness, of_lobe) * reflect_light(found, rough);
+    imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), found.length_m));
 }
 
 void main()
