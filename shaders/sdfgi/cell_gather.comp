@@ -23,10 +23,10 @@
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/irradiance_pack.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x_id = SDFGI_RAY_THREADS_ID) in;
 SDFGI_PUSH(sdfgi_cell_gather_args);
 
-const uint CELLS = uint(SDFGI_VISIT_CELLS), RAYS = uint(SDFGI_VISIT_RAYS), THREADS = 128u;
+const uint CELLS = uint(SDFGI_VISIT_CELLS), RAYS = uint(SDFGI_VISIT_RAYS), THREADS = gl_WorkGroupSize.x;
 const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMITTER_RAYS;
 const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
 
