@@ -36,16 +36,16 @@
 #define SDFGI_RESOURCE_TABLE_H
 
 /* X(id, bytes) */
-#define RESOURCE_FORMATS(X)                                                                                  \
-    X(U8, 1)                                                                                                 \
-    X(U16, 2)                                                                                                \
-    X(U32, 4)                                                                                                \
-    X(U32X2, 8)                                                                                              \
-    X(U32X4, 16)                                                                                             \
-    X(F16X4, 8)                                                                                              \
-    X(F32X4, 16)                                                                                             \
-    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params))                                                       \
-    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params))                                                       \
+#define RESOURCE_FORMATS(X)                               \
+    X(U8, 1)                                              \
+    X(U16, 2)                                             \
+    X(U32, 4)                                             \
+    X(U32X2, 8)                                           \
+    X(U32X4, 16)                                          \
+    X(F16X4, 8)                                           \
+    X(F32X4, 16)                                          \
+    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params))    \
+    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params))    \
     X(MATERIAL_PARAMS, sizeof(struct sdfgi_material_params))
 
 /* clang-format off */
@@ -83,24 +83,24 @@
 
 #define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
 /* None where light cells read probes alone; a binding needs a word. */
-#define GATHERED_COUNT(e)                                                                                    \
+#define GATHERED_COUNT(e) \
     ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) + SDFGI_COUNTER_COUNT - SDFGI_COUNTER_GATHER : 1)
 /* A bit per entry. */
 #define SEEN_COUNT(e) ((e)->gathers ? ((e)->light_cells + 31) / 32 * (e)->cascades : 1)
 /* None where nothing emits. */
 #define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + (e)->blocks) * (e)->cascades : 1)
-#define TEXEL_COUNT(e)   (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
-#define SUM_COUNT(e)     (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
-#define RAY_COUNT(e)     ((e)->probes * (e)->cascades * (e)->cycle_samples)
-#define BOUNDS_BYTES     (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
-#define INSTANCES_BYTES(e)                                                                                   \
+#define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
+#define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
+#define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)
+#define BOUNDS_BYTES   (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
+#define INSTANCES_BYTES(e) \
     (SDFGI_MAX_DRAWS * sizeof(uint32_t) + (e)->instances * sizeof(struct sdfgi_instance_params))
 
 enum resource {
 #define RESOURCE_ENUM(id, kind, format, category, scope, set, extent, keep) RESOURCE_##id,
     SDFGI_RESOURCES(RESOURCE_ENUM)
 #undef RESOURCE_ENUM
-        RESOURCE_COUNT,
+    RESOURCE_COUNT,
 };
 
 #endif

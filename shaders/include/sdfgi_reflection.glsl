@@ -49,6 +49,55 @@ float sdfgi_reflection_handover(uint cascade, vec3 pos, vec3 dir)
     return max(min(far.x, min(far.y, far.z)), 0.0);
 }
 
+/* What is left of a ray while cascades trace it, one after another. */
+struct sdfgi_reflection_rest {
+    uint cascade;   /* the next one */
+    float share;    /* that no surface has taken yet */
+    float start_m;  /* from the surface to where the next cascade takes over */
+    float off_m;    /* along the normal to where the ray starts */
+    float surface;  /* weight of the last cascade at the surface */
+    float length_m; /* to all surfaces that were hit, by their shares */
+};
+
+sdfgi_reflection_rest sdfgi_reflection_begin()
+{
+    return sdfgi_reflection_rest(0u, 1.0, 0.0, 0.0, 0.0, 0.0);
+}
+
+bool sdfgi_reflection_goes_on(sdfgi_reflection_rest rest)
+{
+    return rest.cascade < sdfgi_frame.cascade_count && rest.share > 1e-3;
+}
+
+/* Where the ray of the next cascade begins, in its cell space. The cascade does not count if `surface` is 0
+ * then.
+ */
+vec3 sdfgi_reflection_start(vec3 pos_first, vec3 normal, vec3 dir, inout sdfgi_reflection_rest rest)
+{
+    const uint c = rest.cascade++;
+    const float cell_m = sdfgi_frame.cascades[c].cell_m;
+    const vec3 surface = sdfgi_cascade_from_first(c, pos_first);
+    rest.surface = sdfgi_lookup_cascade_weight(c, surface);
+    rest.off_m = rest.start_m > 0.0 ? rest.off_m : SDFGI_REFLECTION_START * cell_m;
+    return surface + sdfgi_cells_from_metric(normal * rest.off_m + dir * rest.start_m) / cell_m;
+}
+
+/* How much the surface counts that such a ray has hit after `length_m`: by the weight of its cascade there.
+ */
+float sdfgi_reflection_share(uint cascade, vec3 from, vec3 dir, sdfgi_trace_hit hit, float length_m,
+                             inout sdfgi_reflection_rest rest)
+{
+    const vec3 at = from + sdfgi_cells_from_metric(dir) * hit.distance;
+    float share = 0.0;
+    if (hit.hit && !hit.capped)
+        share = rest.share * rest.surface * sdfgi_lookup_cascade_weight(cascade, at);
+    rest.share -= share;
+    rest.length_m += share > 0.0 ? share * length_m : 0.0;
+    if (rest.surface >= 1.0)
+        rest.start_m += sdfgi_frame.cascades[cascade].cell_m * sdfgi_reflection_handover(cascade, from, dir);
+    return share;
+}
+
 void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at, sdfgi_trace_hit hit,
                           float weight, float distance_m)
 {
@@ -61,7 +110,6 @@ void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at,
         ray.second = surface;
     if (sdfgi_surfaces_emit())
         ray.light += weight * sdfgi_block_emission(sdfgi_block_index(cascade, hit.solid), hit.axis);
-    ray.distance_m += weight * distance_m;
 }
 
 /* Sends a ray from a surface point. Where cascades hand over, each sends a ray of its own, and the finer one
@@ -70,28 +118,21 @@ sdfgi_reflection_ray sdfgi_reflection_trace(vec3 pos_first, vec3 normal, vec3 di
 {
     const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
-    float rest = 1.0, start_m = 0.0, off_m = 0.0;
-    for (uint c = 0u; c < sdfgi_frame.cascade_count && rest > 1e-3; c++) {
-        const float cell_m = sdfgi_frame.cascades[c].cell_m;
-        const vec3 surface = sdfgi_cascade_from_first(c, pos_first);
-        const float of_surface = sdfgi_lookup_cascade_weight(c, surface);
-        if (of_surface <= 0.0)
+    sdfgi_reflection_rest rest = sdfgi_reflection_begin();
+    while (sdfgi_reflection_goes_on(rest)) {
+        const uint c = rest.cascade;
+        const vec3 from = sdfgi_reflection_start(pos_first, normal, dir, rest);
+        if (rest.surface <= 0.0)
             continue;
-        off_m = start_m > 0.0 ? off_m : SDFGI_REFLECTION_START * cell_m;
-        const vec3 from = surface + sdfgi_cells_from_metric(normal * off_m + dir * start_m) / cell_m;
         const sdfgi_trace_hit hit = sdfgi_trace_solid(c, c, from, dir, 1e9);
-        const vec3 at = from + sdfgi_cells_from_metric(dir) * hit.distance;
-        float weight = 0.0;
-        if (hit.hit && !hit.capped)
-            weight = rest * of_surface * sdfgi_lookup_cascade_weight(c, at);
-        if (weight > 0.0)
-            sdfgi_reflection_add(ray, c, at, hit, weight, start_m + hit.distance * cell_m);
-        rest -= weight;
-        if (of_surface >= 1.0)
-            start_m += cell_m * sdfgi_reflection_handover(c, from, dir);
+        const float length_m = rest.start_m + hit.distance * sdfgi_frame.cascades[c].cell_m,
+                    share = sdfgi_reflection_share(c, from, dir, hit, length_m, rest);
+        if (share > 0.0)
+            sdfgi_reflection_add(ray, c, from + sdfgi_cells_from_metric(dir) * hit.distance, hit, share,
+                                 length_m);
     }
-    ray.light += rest * sdfgi_sky_towards(dir);
-    ray.distance_m += rest * SDFGI_REFLECTION_SKY_M;
+    ray.light += rest.share * sdfgi_sky_towards(dir);
+    ray.distance_m = rest.length_m + rest.share * SDFGI_REFLECTION_SKY_M;
     return ray;
 }
 
@@ -113,9 +154,9 @@ float sdfgi_reflection_ray_share(float roughness)
     return 1.0 - smoothstep(sdfgi_frame.rays_blend, sdfgi_frame.rays_end, roughness);
 }
 
-/* Asks for the light that leaves a surface that a ray has hit. Metal counts as diffuse: hosts do not bind
+/* The query for the light that leaves a surface that a ray hit. Metal counts as diffuse: hosts do not bind
  * what tells it. */
-sdfgi_lookup_query sdfgi_reflection_query(sdfgi_reflection_hit hit, vec3 dir)
+sdfgi_lookup_query sdfgi_reflection_leaving(sdfgi_reflection_hit hit, vec3 dir)
 {
     return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.pos, vec3(sdfgi_axis_direction(hit.axis)),
                               -dir * hit.distance_m);
@@ -157,7 +198,7 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
             light += weight * (found.a > 0.0 ? found.rgb : rough);
         const sdfgi_reflection_hit hit = i == 0u ? ray.first : ray.second;
         weight = hit.weight;
-        query = sdfgi_reflection_query(hit, dir);
+        query = sdfgi_reflection_leaving(hit, dir);
     }
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
     result.irradiance = rough * (scale * 3.14159265);

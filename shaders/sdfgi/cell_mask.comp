@@ -13,6 +13,7 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cascade_args);
+
 const uint CELLS = uint(SDFGI_GROUP_LINEAR) / 8u;
 shared uint visibility_bits[CELLS];
 

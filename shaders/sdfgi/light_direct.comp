@@ -33,6 +33,7 @@ shared uint rays[SDFGI_GROUP_SURFACES * BATCH];
 shared uint ray_count;
 shared vec3 reflected[CELLS][6];
 
+/* The cascade whose cells this workgroup lights. */
 uint lit_cascade()
 {
     return args.cascade + gl_WorkGroupID.z;

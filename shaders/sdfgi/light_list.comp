@@ -19,6 +19,7 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cascade_args);
+
 /* The blocks of the row, four words each as in the scratch buffer. */
 shared uvec4 blocks[SDFGI_GROUP_LINEAR];
 /* Inclusive prefix sums over the threads. x, y: light cells of the row's blocks, and those in dirty blocks.

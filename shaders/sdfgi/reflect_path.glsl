@@ -40,41 +40,11 @@ struct reflect_end {
     vec3 share; /* of its light; 0: there is no surface */
 };
 
-/* What is left to find out about a ray. */
-struct reflect_rest {
-    uint cascade;   /* the next one */
-    float share;    /* that no surface has taken yet */
-    float start_m;  /* from the surface to where the next cascade takes over */
-    float off_m;    /* along the normal to where the ray starts */
-    float surface;  /* weight of the last cascade at the surface */
-    float length_m; /* of all surfaces that were hit, by their shares */
-};
-
 /* The next leg that begins at the surface: through one cascade. */
-reflect_leg leg_from_surface(vec3 pos_first, vec3 normal, vec3 dir, inout reflect_rest rest)
+reflect_leg leg_from_surface(vec3 pos_first, vec3 normal, vec3 dir, inout sdfgi_reflection_rest rest)
 {
-    const uint c = rest.cascade++;
-    const float cell_m = sdfgi_frame.cascades[c].cell_m;
-    const vec3 surface = sdfgi_cascade_from_first(c, pos_first);
-    rest.surface = sdfgi_lookup_cascade_weight(c, surface);
-    rest.off_m = rest.start_m > 0.0 ? rest.off_m : SDFGI_REFLECTION_START * cell_m;
-    const vec3 off = normal * rest.off_m + dir * rest.start_m;
-    return reflect_leg(c, c, surface + sdfgi_cells_from_metric(off) / cell_m, dir, vec3(0.0), false);
-}
-
-/* How much a surface counts that such a leg has hit: by the weight of its cascade there. */
-float share_of_hit(reflect_leg leg, sdfgi_trace_hit hit, float length_m, inout reflect_rest rest)
-{
-    const vec3 at = leg.from + sdfgi_cells_from_metric(leg.dir) * hit.distance;
-    float share = 0.0;
-    if (hit.hit && !hit.capped)
-        share = rest.share * rest.surface * sdfgi_lookup_cascade_weight(leg.cascade, at);
-    rest.share -= share;
-    rest.length_m += share > 0.0 ? share * length_m : 0.0;
-    if (rest.surface >= 1.0)
-        rest.start_m += sdfgi_frame.cascades[leg.cascade].cell_m *
-                        sdfgi_reflection_handover(leg.cascade, leg.from, leg.dir);
-    return share;
+    const uint c = rest.cascade;
+    return reflect_leg(c, c, sdfgi_reflection_start(pos_first, normal, dir, rest), dir, vec3(0.0), false);
 }
 
 /* What a ray meets. */
@@ -94,14 +64,13 @@ void add_end(reflect_leg leg, sdfgi_trace_hit hit, float length_m, inout reflect
         found.second = end;
 }
 
-/* Sends a ray from a surface point. Where cascades hand over, each sends a ray of its own, and the finer one
- * counts by its weight at what it hit: nothing jumps while cascades move. One loop for all legs, so that
- * drivers compile the ray once. `point` is that of leg_beyond. */
+/* Sends a ray from a surface point, as sdfgi_reflection_trace does, and on from metal. One loop for all legs,
+ * so that drivers compile the ray once. `point` is that of leg_beyond. */
 reflect_found reflect_trace(vec3 pos_first, vec3 normal, vec3 dir, vec2 point)
 {
     const reflect_end none = reflect_end(vec3(0.0), vec3(0.0), 0u, vec3(0.0));
     reflect_found found = reflect_found(none, none, vec3(0.0), 0.0);
-    reflect_rest rest = reflect_rest(0u, 1.0, 0.0, 0.0, 1.0, 0.0);
+    sdfgi_reflection_rest rest = sdfgi_reflection_begin();
     reflect_leg leg;
     bool goes_on = false;
     do {
@@ -116,7 +85,7 @@ reflect_found reflect_trace(vec3 pos_first, vec3 normal, vec3 dir, vec2 point)
             found.light += leg.share * sdfgi_sky_towards(leg.dir);
         if (!leg.beyond_metal) {
             length_m += rest.start_m;
-            leg.share = vec3(share_of_hit(leg, hit, length_m, rest));
+            leg.share = vec3(sdfgi_reflection_share(leg.cascade, leg.from, dir, hit, length_m, rest));
         }
         if (!hit.hit || hit.capped || leg.share == vec3(0.0))
             continue;
@@ -128,7 +97,7 @@ reflect_found reflect_trace(vec3 pos_first, vec3 normal, vec3 dir, vec2 point)
             leg = leg_beyond(leg, hit, block, length_m, point);
         else
             add_end(leg, hit, length_m, found);
-    } while (goes_on || (rest.cascade < sdfgi_frame.cascade_count && rest.share > 1e-3));
+    } while (goes_on || sdfgi_reflection_goes_on(rest));
     found.light += rest.share * sdfgi_sky_towards(dir);
     found.length_m = rest.length_m + rest.share * SDFGI_REFLECTION_SKY_M;
     return found;

@@ -41,8 +41,7 @@ void picture_finish(struct picture *picture);
 /* Irradiance of the picture, 3 floats a pixel; the caller frees it. */
 float (*picture_gather(struct gi_test *t, const struct picture *picture,
                        enum sdfgi_gather_resolution resolution))[3];
-/* What the surfaces of a picture reflect, whose roughness is given for each pixel: four half floats a pixel.
- */
+/* What a picture's surfaces reflect, by the roughness of each pixel: four half floats a pixel. */
 void picture_reflect(struct gi_test *t, const struct picture *picture, const float *roughness,
                      uint16_t (*texels)[4]);
 

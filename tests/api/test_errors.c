@@ -183,9 +183,9 @@ static void materials_are_checked(void **state)
         REQUIRE_CMP(out.id, ==, 77u);                                                                        \
     } while (0)
     REFUSE(d.specular_albedo = 1.01f);
-    REFUSE(d.metallic = -0.01f);
     REFUSE(d.albedo[0] = 1.01f);
     REFUSE(d.albedo[1] = -0.01f);
+    REFUSE(d.albedo[2] = NAN);
     REFUSE(d.emission[0] = -1);
     REFUSE(d.emission[1] = INFINITY);
     REFUSE(d.alpha = 2);

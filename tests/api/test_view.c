@@ -459,6 +459,10 @@ static void bad_views_are_refused(void **state)
     REQUIRE_CMP((int)sdfgi_material_create(stage.t.gi, &too_smooth, &material), ==,
                 (int)SDFGI_ERROR_INVALID_ARGUMENT);
     REQUIRE_TRUE(strstr(stage.t.last_message, "smoothness") != NULL);
+    const struct sdfgi_material_desc bad_metal = { .metallic = -0.01f };
+    REQUIRE_CMP((int)sdfgi_material_create(stage.t.gi, &bad_metal, &material), ==,
+                (int)SDFGI_ERROR_INVALID_ARGUMENT);
+    REQUIRE_TRUE(strstr(stage.t.last_message, "metallic") != NULL);
     close_stage(&stage);
 }
 

@@ -58,7 +58,7 @@ static void require_alike(const struct far_stage *stage, struct host_renderer *r
     static const double tolerance[HOST_LOOKUP_COUNT] = {
         [HOST_LOOKUP_FULL] = 1e-3, [HOST_LOOKUP_HALF] = 2e-3, [HOST_LOOKUP_QUARTER] = 2e-3
     };
-    static const double of_reflections = 3e-3;
+    static const double of_reflections = 2e-3;
     static const enum host_aov aovs[] = { HOST_AOV_IRRADIANCE, HOST_AOV_COLOR };
     for (int i = 0; i < 2; i++) {
         float *expected = read_aov(stage->renderer, aovs[i]), *found = read_aov(renderer, aovs[i]);
