@@ -8,8 +8,8 @@
  * "Monte Carlo techniques for direct lighting calculations"). Both kinds of rays bring a share of the light
  * of what is listed, so nothing counts twice.
  *
- * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade, or of 32 that follow one another as many that are
- * seen (seen.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so
+ * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Four share those of 32 in a row that are seen
+ * (seen.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so
  * that sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -420,6 +420,12 @@ uint seen_cells(uint cascade, out uint first)
     return bits;
 }
 
+/* The first of the seen cells of a word that the workgroup visits: workgroups of as many rows share them. */
+uint first_seen_cell()
+{
+    return CELLS * (gl_WorkGroupID.y / sdfgi_frame.cascade_count - 1u);
+}
+
 /* The number of the n-th set bit. */
 uint number_of_bit(uint bits, uint n)
 {
@@ -428,18 +434,15 @@ uint number_of_bit(uint bits, uint n)
     return uint(findLSB(bits));
 }
 
-/* Entry of the own-th cell that the workgroup visits. False if there is none. Of more seen cells than it can
- * visit others have their turn in other frames. */
+/* Entry of the own-th cell that the workgroup visits. False if there is none. */
 bool find_entry(uint cascade, uint own, uint seen, uint first_seen, out uint entry)
 {
     entry = args.first[cascade] + gl_WorkGroupID.x * CELLS + own;
     if (gl_WorkGroupID.y < sdfgi_frame.cascade_count)
         return entry < min(args.end[cascade], light_cell_count(cascade));
-    const uint count = uint(bitCount(seen));
-    const uint turn = count > CELLS ? sdfgi_random_hash(first_seen + sdfgi_frame.first_sample) % count : 0u;
-    if (own >= count)
+    if (first_seen_cell() + own >= uint(bitCount(seen)))
         return false;
-    entry = first_seen + number_of_bit(seen, (own + turn) % count);
+    entry = first_seen + number_of_bit(seen, first_seen_cell() + own);
     return entry < light_cell_count(cascade);
 }
 
@@ -480,7 +483,7 @@ void main()
     const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
     uint first_seen;
     const uint seen = seen_cells(cascade, first_seen);
-    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count && seen == 0u)
+    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count && uint(bitCount(seen)) <= first_seen_cell())
         return;
     const uint rays = rays_of_visit(cascade);
     find_surfaces(cascade, seen, first_seen);

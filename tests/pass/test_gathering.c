@@ -140,22 +140,45 @@ static void seen_cells_take_half(void **state)
     s.lists.seen[0] = 300;
     take(&s, 400);
     REQUIRE_CMP(cells_of(&s, 0), ==, 100u);
-    REQUIRE_CMP(s.ranges[0].seen_count, ==, 100u);
-    REQUIRE_CMP(s.ranges[0].seen_span, >=, (uint32_t)ENTRIES / 3);
+    REQUIRE_CMP(s.ranges[0].seen_count, ==, 200u);
+    REQUIRE_CMP(s.ranges[0].seen_span, >=, (uint32_t)ENTRIES * 2 / 3);
     REQUIRE_CMP(s.ranges[1].seen_span, ==, 0u);
     /* Piece by piece all of the list has its turn. */
-    uint32_t first = s.gathering.at[0].seen_end;
+    const uint32_t first = s.gathering.at[0].seen_end;
     take(&s, 400);
     REQUIRE_CMP(s.gathering.at[0].seen_first, ==, first);
-    take(&s, 400);
     REQUIRE_CMP(s.gathering.at[0].seen_end, ==, (uint32_t)ENTRIES);
     take(&s, 400);
     REQUIRE_CMP(s.gathering.at[0].seen_first, ==, 0u);
     for (uint32_t c = 0; c < CASCADES; c++)
         s.lists.seen[c] = ENTRIES;
-    take(&s, 4);
+    take(&s, 8);
     for (uint32_t c = 0; c < CASCADES; c++)
         REQUIRE_CMP(cells_of(&s, c), >=, 1u);
+}
+
+/* A view indoors sees near cells alone: those of other cascades get no visits for what is seen. */
+static void seen_cells_count_by_how_near_they_are(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    for (uint32_t c = 0; c < CASCADES; c++)
+        s.lists.seen[c] = 600;
+    take(&s, 700);
+    REQUIRE_CMP(s.ranges[0].seen_count, ==, 200u);
+    REQUIRE_CMP(s.ranges[1].seen_count, ==, 100u);
+    REQUIRE_CMP(s.ranges[2].seen_count, ==, 50u);
+    s.gathering.at[0].settled = true;
+    take(&s, 600);
+    REQUIRE_CMP(s.ranges[0].seen_count, ==, 200u);
+    REQUIRE_CMP(s.ranges[1].seen_count, ==, 100u);
+    /* No cell gets two visits: the rest is for the sweep. */
+    open_scene(&s);
+    s.lists.seen[0] = 10;
+    take(&s, 700);
+    REQUIRE_CMP(s.ranges[0].seen_count, ==, 10u);
+    REQUIRE_CMP(cells_of(&s, 0), ==, 345u);
 }
 
 static void where_all_cells_are_visited_none_come_first(void **state)
@@ -252,6 +275,7 @@ int main(void)
         cmocka_unit_test(cycles_grow_long_when_light_changes_little),
         cmocka_unit_test(a_cascade_that_drifts_has_not_settled),
         cmocka_unit_test(seen_cells_take_half),
+        cmocka_unit_test(seen_cells_count_by_how_near_they_are),
         cmocka_unit_test(where_all_cells_are_visited_none_come_first),
         cmocka_unit_test(cycles_stay_rough_while_many_cells_change),
         cmocka_unit_test(settled_cells_get_no_rays_until_light_changes),

@@ -26,12 +26,12 @@ static bool probes_are_dark(const struct plan_stage *stage)
            stage->frame->next.accumulation.phase == LIGHTING_DARK;
 }
 
-/* A workgroup of cell_gather takes a word of seen cells where others take SDFGI_VISIT_CELLS entries. */
+/* Workgroups of cell_gather share a word of seen cells: as many as it takes at SDFGI_VISIT_CELLS each. */
 #define SEEN_PER_VISIT (32 / SDFGI_VISIT_CELLS)
 
 /* Lets a pass run over ranges of all cascades, and then over the seen cells of each. `first` and `end` are
  * those of its arguments. For an entry's worth of threads there are `seen_per_entry` entries that may be
- * seen. */
+ * seen, and as many rows that share them. */
 static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES],
                         uint end[static SDFGI_MAX_CASCADES], const struct gather_range *ranges,
                         uint32_t count, uint32_t cascades, uint32_t seen_per_entry)
@@ -46,7 +46,7 @@ static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES]
         work->units += ranges[i].count + ranges[i].seen_count;
         any_seen = any_seen || ranges[i].seen_span > 0;
     }
-    work->rows = any_seen ? 2 * cascades : cascades;
+    work->rows = any_seen ? (1 + seen_per_entry) * cascades : cascades;
 }
 
 /* What arrives at surfaces and leaves them. */

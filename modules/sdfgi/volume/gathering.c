@@ -98,24 +98,46 @@ static struct gather_range take(struct gather_cursor *cursor, uint32_t c, uint32
     return range;
 }
 
+/* Shares visits among the seen cells of cascades that have not settled. Those of a cascade count twice as
+ * much as those of the next one, because what is near is looked at closely. None gets two visits in a frame.
+ * Returns how many were shared out. */
+static uint32_t share_seen(const struct gathering *gathering, const struct light_lists *lists,
+                           uint32_t visits, uint32_t parts[static SDFGI_MAX_CASCADES])
+{
+    uint64_t weights[SDFGI_MAX_CASCADES] = { 0 }, sum = 0;
+    uint32_t given = 0;
+    for (uint32_t c = 0; c < lists->cascades; c++) {
+        weights[c] = gathering->at[c].settled ? 0 : (uint64_t)lists->seen[c] << (SDFGI_MAX_CASCADES - c);
+        sum += weights[c];
+    }
+    for (uint32_t c = 0; c < lists->cascades; c++) {
+        const uint64_t part = sum > 0 ? visits * weights[c] / sum : 0;
+        parts[c] = part < lists->seen[c] ? (uint32_t)part : lists->seen[c];
+        given += parts[c];
+    }
+    return given;
+}
+
 uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight *relight,
                               const struct light_lists *lists, uint32_t cells, uint32_t cycle_visits,
                               struct gather_range ranges[static SDFGI_MAX_CASCADES])
 {
-    uint32_t count = 0, unsettled = 0;
+    uint32_t count = 0, unsettled = 0, seen[SDFGI_MAX_CASCADES];
+    uint32_t rest = cells - share_seen(gathering, lists, cells / 2, seen);
     for (uint32_t c = 0; c < lists->cascades; c++)
         unsettled += !gathering->at[c].settled;
-    for (uint32_t c = 0; c < lists->cascades && cells > 0; c++) {
+    for (uint32_t c = 0; c < lists->cascades; c++) {
         if (gathering->at[c].settled)
             continue;
-        const uint32_t most = --unsettled > 0 ? (cells + 1) / 2 : cells;
-        const uint32_t entries = sdfgi_light_list_entries(relight, lists, c), seen = lists->seen[c];
+        const uint32_t most = --unsettled > 0 ? (rest + 1) / 2 : rest;
+        const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
         /* Where all cells have a visit in each frame there is nothing to choose. */
-        const uint32_t seen_most = seen > 0 && entries > most ? most / 2 : 0;
+        const uint32_t seen_most = entries > most + seen[c] ? seen[c] : 0;
         struct gather_range *range = &ranges[count++];
-        *range = take(&gathering->at[c], c, entries, most - seen_most, cycle_visits);
-        take_seen(&gathering->at[c], entries, seen, seen_most, range);
-        cells -= range->count + range->seen_count;
+        rest += seen[c] - seen_most;
+        *range = take(&gathering->at[c], c, entries, most + seen[c] - seen_most, cycle_visits);
+        take_seen(&gathering->at[c], entries, lists->seen[c], seen_most, range);
+        rest -= range->count;
     }
     gathering->seen_frames = (gathering->seen_frames + 1) % SEEN_FRAMES;
     return count;

@@ -4,8 +4,8 @@
  * A sweep visits each entry of a cascade's light list once. A gather cycle takes as many sweeps as a cell has
  * visits in a cycle: few after the lights have changed, because light makes a bounce in each cycle, and more
  * once most of the light changes little. Near cascades get most of a frame's rays: each gets half of what is
- * left, and the last one all of it. Where pictures are gathered, half of a cascade's rays go to the cells
- * that these read, in turn. A cascade whose light changes no more from cycle to cycle has settled, and gets
+ * left, and the last one all of it. Where pictures are gathered, half of all rays go to the cells that these
+ * read, in turn. A cascade whose light changes no more from cycle to cycle has settled, and gets
  * none. Plain data.
  */
 #ifndef SDFGI_GATHERING_H
