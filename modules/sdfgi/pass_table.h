@@ -83,10 +83,10 @@
       R(IRRADIANCE) | R(SEEN) | R(INDIRECT) | R(DIRECT), R(LIGHT) | R(SURFACES) | R(GATHERED) |              \
       R(COUNTERS))                                                                                           \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
-      ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS), R(SCRATCH) | R(INDIRECT))                 \
+      ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS) | R(EMITTERS), R(SCRATCH) | R(INDIRECT))   \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
       ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)               \
-      | R(INDIRECT), R(RAYS))                                                                                \
+      | R(INDIRECT) | R(EMITTERS), R(RAYS))                                                                  \
     X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(ALBEDO)    \
       | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN) | R(INDIRECT),   \

@@ -25,7 +25,8 @@
  * SEEN                      which light cells gathers of pictures have read of late
  * SEARCH                    where the distance search finds set bits, and which blocks it makes again
  * GATHERED                  what light cells gathered with rays of their own, in the order of the list
- * RAYS                      where rays end: valid until a cascade that the ray may reach changes
+ * RAYS                      where rays end: valid until a cascade that the ray may reach changes; behind the
+ *                           rays of each probe its samples towards emitters, if anything emits
  * SUMS                      of this sample cycle; and each probe's history
  * PREVIOUS                  the sample cycle before
  * BOUNDS                    from the start of a change to its end
@@ -91,7 +92,7 @@
 #define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + (e)->blocks) * (e)->cascades : 1)
 #define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
 #define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
-#define RAY_COUNT(e)   ((e)->probes * (e)->cascades * (e)->cycle_samples)
+#define RAY_COUNT(e)   ((e)->probes * (e)->cascades * sdfgi_extent_probe_words(e))
 #define BOUNDS_BYTES   (SDFGI_BOUNDS_BYTES * SDFGI_MAX_CASCADES)
 #define INSTANCES_BYTES(e) \
     (SDFGI_MAX_DRAWS * sizeof(uint32_t) + (e)->instances * sizeof(struct sdfgi_instance_params))

@@ -32,7 +32,7 @@ uint accumulator_albedo(uint side, uint layer)
 /* False if nothing has emitted yet, or there was no memory for emission: its accumulators are not there. */
 bool emission_is_kept()
 {
-    return sdfgi_frame.lists_emitters != 0u;
+    return sdfgi_frame.emitter_samples != 0u;
 }
 
 /* The first of two words with the bits of a cell's sub-voxels that emit along an axis. */

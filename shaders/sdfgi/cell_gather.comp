@@ -141,19 +141,12 @@ vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
         return vec4(0.0);
     const emitter_point point = emitter_point_at(chosen, source.surface, place);
     const vec3 light = emitter_light(chosen, source.surface, source.normal, point.inside);
-    /* The ray starts in the open, and goes on through the emitter's box. */
-    const vec3 offset = sdfgi_metric_from_cells(point.face - source.pos);
-    const float range = max(length(offset), 1e-3),
-                beyond = length(sdfgi_metric_from_cells(chosen.high - chosen.low));
-    const vec3 dir = offset / range;
+    const emitter_way way = emitter_way_to(source.pos, point.face);
     /* Rays at random start in the open, too: what they cannot meet does not count here either. */
-    const float cosine = dot(source.normal, dir);
-    if (light == vec3(0.0) || cosine <= 0.0)
+    const float cosine = dot(source.normal, way.dir);
+    if (light == vec3(0.0) || cosine <= 0.0 || !emitter_is_seen(cascade, chosen, source.pos, way))
         return vec4(0.0);
-    const sdfgi_trace_hit hit = sdfgi_trace_solid(cascade, cascade, source.pos, dir, range + beyond);
-    if (hit.hit && !emitter_is_hit(chosen, hit, range))
-        return vec4(0.0);
-    const float share = share_of_emitter_rays(chosen, chance, dir, range, cosine);
+    const float share = share_of_emitter_rays(chosen, chance, way.dir, way.range, cosine);
     return vec4(light * (share / chance), 1.0);
 }
 

@@ -169,8 +169,10 @@ void store(uint place, uint block)
 void main()
 {
     choose(find_limit());
-    if (gl_LocalInvocationIndex == 0u)
+    if (gl_LocalInvocationIndex == 0u) {
         sdfgi_emitters[emitter_count_word(args.cascade)] = listed_count;
+        sdfgi_emitters[emitter_count_word(args.cascade) + 1u] = uint(found_count() == listed_count);
+    }
     for (uint i = gl_LocalInvocationIndex; i < listed_count; i += THREADS) {
         uint place = 0u;
         for (uint k = 0u; k < listed_count; k++)

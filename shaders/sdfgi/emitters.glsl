@@ -15,8 +15,9 @@
 #define SDFGI_ACCESS_EMITTERS readonly
 #endif
 
-/* Per cascade: the number of listed emitters; from word 8 on the list, SDFGI_EMITTER_WORDS each, in the order
- * of their blocks; from word SDFGI_EMITTERS_STRIDE on the shape of each block that emits. */
+/* Per cascade: the number of listed emitters, and 1 if these are all; from word 8 on the list,
+ * SDFGI_EMITTER_WORDS each, in the order of their blocks; from word SDFGI_EMITTERS_STRIDE on the shape of
+ * each block that emits. */
 layout(std430, set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_EMITTERS) SDFGI_ACCESS_EMITTERS buffer sdfgi_emitters_buffer
 {
@@ -43,7 +44,7 @@ uint emitter_word(uint cascade, uint i)
 
 uint emitter_count(uint cascade)
 {
-    return sdfgi_frame.lists_emitters != 0u ? sdfgi_emitters[emitter_count_word(cascade)] : 0u;
+    return sdfgi_frame.emitter_samples != 0u ? sdfgi_emitters[emitter_count_word(cascade)] : 0u;
 }
 
 /* Bounds of sub-voxels in the block, both included, 3 bits per axis, and `fill` in 14 bits: the emitters' own
@@ -78,6 +79,12 @@ uint emitter_of_block(uint cascade, uint block)
         count -= half_count;
     }
     return first;
+}
+
+/* True if a cascade lists all of its emitters, and there are any. */
+bool emitters_are_complete(uint cascade)
+{
+    return emitter_count(cascade) > 0u && sdfgi_emitters[emitter_count_word(cascade) + 1u] != 0u;
 }
 
 struct emitter {
@@ -165,24 +172,53 @@ emitter_point emitter_point_at(emitter e, vec3 from, vec3 place)
     return emitter_point(face, inside);
 }
 
+/* Solid angle under which an emitter shows if all of it is seen and lies at `point`. `dir` leads there. */
+float emitter_solid_angle(emitter e, vec3 pos, vec3 point, out vec3 dir)
+{
+    const vec3 offset = sdfgi_metric_from_cells(point - pos);
+    const float range = max(length(offset), 1e-3), nearest = max(range, EMITTER_NEAR);
+    dir = offset / range;
+    return emitter_area_towards(e, -dir) / (nearest * nearest);
+}
+
 /* Irradiance over pi times exposure that a surface would get from an emitter, if all of it were seen and lay
  * at `point`. */
 vec3 emitter_light(emitter e, vec3 pos, vec3 normal, vec3 point)
 {
-    const vec3 offset = sdfgi_metric_from_cells(point - pos);
-    const float range = max(length(offset), 1e-3), nearest = max(range, EMITTER_NEAR);
-    const vec3 dir = offset / range;
-    return sdfgi_emission_radiance(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) *
-           emitter_area_towards(e, -dir) * max(dot(normal, dir), 0.0) / (nearest * nearest);
+    vec3 dir;
+    const float shown = emitter_solid_angle(e, pos, point, dir);
+    return sdfgi_emission_radiance(e.radiance) * (sdfgi_frame.emission_scale / 3.14159265) * shown *
+           max(dot(normal, dir), 0.0);
 }
 
-/* True if a ray that has hit something at `distance` met the emitter, towards a point on whose box it went,
- * `range` away: in the box, unless the emitter emits to the other side alone. */
+/* The way to a point on a face of an emitter's box. */
+struct emitter_way {
+    vec3 dir;
+    float range;
+};
+
+emitter_way emitter_way_to(vec3 pos, vec3 face)
+{
+    const vec3 offset = sdfgi_metric_from_cells(face - pos);
+    const float range = max(length(offset), 1e-3);
+    return emitter_way(offset / range, range);
+}
+
+/* True if a ray that has hit something met the emitter at the end of the way: in the box, unless the emitter
+ * emits to the other side alone. */
 bool emitter_is_hit(emitter e, sdfgi_trace_hit hit, float range)
 {
     const float NEAR = 0.02;
     const float net = sdfgi_trace_component(e.net, int(hit.axis >> 1u));
     return !hit.capped && hit.distance >= range - NEAR && ((hit.axis & 1u) == 0u ? net : -net) >= 0.0;
+}
+
+/* True if a ray meets the emitter, or nothing. It starts in the open, and leads through the emitter's box. */
+bool emitter_is_seen(uint cascade, emitter e, vec3 pos, emitter_way way)
+{
+    const float beyond = length(sdfgi_metric_from_cells(e.high - e.low));
+    const sdfgi_trace_hit hit = sdfgi_trace_solid(cascade, cascade, pos, way.dir, way.range + beyond);
+    return !hit.hit || emitter_is_hit(e, hit, way.range);
 }
 
 #endif

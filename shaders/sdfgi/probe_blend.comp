@@ -49,6 +49,8 @@ SDFGI_PUSH(sdfgi_probe_blend_args);
 /* A cycle is complete from this fraction of W on: weights are stored as half floats, which are rounded. */
 const float COMPLETE_FRACTION = 0.99;
 const float HALF_MAX = 65504.0;
+/* The smallest half float with all digits, and the step from one to the next below it. */
+const float HALF_NORMAL = 1.0 / 16384.0, HALF_STEP = 1.0 / 16777216.0;
 /* The history of a NEW probe counts for this much of what the probe has just read, at most. */
 const float NEW_HISTORY_WEIGHT = 1.0;
 /* After a history reset, the light so far counts for this fraction of a cycle at most. */
@@ -102,12 +104,15 @@ uint filter_state(probe_history history)
     return args.without_history != 0u ? min(state, PROBE_WARMING_UP) : state;
 }
 
-/* Relative difference of two colours, at most 1. No channel counts as weaker than WEAKEST_CHANNEL. */
+/* Relative difference of two colours, at most 1. No channel counts as weaker than WEAKEST_CHANNEL. What half
+ * floats round off that are too small for all of their digits does not count. */
 float texel_change(vec3 estimate, vec3 previous)
 {
     const vec3 larger = max(estimate, previous);
     const float weakest = WEAKEST_CHANNEL * max(larger.r, max(larger.g, larger.b));
-    const vec3 change = abs(estimate - previous) / (max(larger, weakest) + sdfgi_frame.dark);
+    const vec3 rounded = HALF_STEP * vec3(lessThan(larger, vec3(HALF_NORMAL)));
+    const vec3 change =
+        max(abs(estimate - previous) - rounded, 0.0) / (max(larger, weakest) + sdfgi_frame.dark);
     return min(max(change.r, max(change.g, change.b)), 1.0);
 }
 

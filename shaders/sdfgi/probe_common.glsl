@@ -107,15 +107,19 @@ uint probe_history_state(probe_history h)
 
 /* ---- Directions */
 
-/* Direction of a sample (unit), and its solid angle up to a constant factor. One sequence spreads the samples
- * of a cycle over the whole octahedron. Each probe shifts it by an amount that depends on the probe's place
- * in the world alone. With one of 20 points in each of the 25 texels instead, edges of walls cost three times
- * the error (docs/decisions.md). */
-vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_angle)
+/* By how much a probe shifts random sequences: it depends on the probe's place in the world alone. */
+uint probe_shift(uint cascade, ivec3 probe)
 {
     const ivec3 world = (probe + sdfgi_frame.cascades[cascade].probe_base) & (SDFGI_HASH_PERIOD - 1);
-    const uint shift = sdfgi_random_hash3(world, sdfgi_frame.seed + cascade);
-    const vec3 point = sdfgi_octahedral_point(sdfgi_random_r2(s, shift) * 2.0 - 1.0);
+    return sdfgi_random_hash3(world, sdfgi_frame.seed + cascade);
+}
+
+/* Direction of a sample (unit), and its solid angle up to a constant factor. One sequence, which each probe
+ * shifts, spreads the samples of a cycle over the whole octahedron. With one of 20 points in each of the 25
+ * texels instead, edges of walls cost three times the error (docs/decisions.md). */
+vec3 probe_sample_direction(uint cascade, ivec3 probe, uint s, out float solid_angle)
+{
+    const vec3 point = sdfgi_octahedral_point(sdfgi_random_r2(s, probe_shift(cascade, probe)) * 2.0 - 1.0);
     solid_angle = sdfgi_octahedral_solid_angle(point);
     return normalize(point);
 }

@@ -7,6 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
+#include "emitter_samples.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"
@@ -21,15 +22,39 @@ const uint MAX_RAYS = 128u;
 shared vec4 ray_dir[MAX_RAYS]; /* w: solid angle, 0 if the light is not known */
 shared vec3 ray_light[MAX_RAYS];
 
-vec3 emission_behind(uint cascade, ivec3 cell, uint axis)
+/* Samples towards emitters that belong to so many at random. */
+uint emitter_samples_of(uint rays)
 {
-    return sdfgi_block_emission(sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis)), axis);
+    return (rays - 1u) / uint(SDFGI_SAMPLES_PER_EMITTER_SAMPLE) + 1u;
+}
+
+const uint MAX_EMITTER_RAYS = MAX_RAYS / uint(SDFGI_SAMPLES_PER_EMITTER_SAMPLE) + 1u;
+shared vec4 emitter_dir[MAX_EMITTER_RAYS]; /* w: 1 if the sample is known */
+shared vec3 emitter_radiance[MAX_EMITTER_RAYS];
+
+/* The probe whose rays a workgroup reads. */
+struct probe_reader {
+    uint cascade, slot;
+    ivec3 probe;
+    float total; /* importance of all emitters; 0 if no ray towards them is known */
+};
+
+/* Emission behind a light cell: as much of it as rays towards emitters do not bring. */
+vec3 emission_behind(probe_reader reader, uint cascade, ivec3 cell, uint axis)
+{
+    const ivec3 solid = cell - sdfgi_axis_direction(axis);
+    const uint block = sdfgi_block_index(cascade, solid);
+    const vec3 emission = sdfgi_block_emission(block, axis);
+    if (emission == vec3(0.0) || reader.total == 0.0 || cascade != reader.cascade ||
+        !surface_is_listed_emitter(block))
+        return emission;
+    return emission * (1.0 - emitter_share(sdfgi_emission[block], reader.total));
 }
 
 /* Emission of the surface at a light cell that faces along an axis. If none does, the mean of the others
  * stands for it, as in light_fill_axes. Software drivers run a loop as often as one of their threads needs:
  * once, where it is not unrolled. */
-vec3 cell_emission(uint cascade, uint entry, ivec3 cell, uint axis)
+vec3 cell_emission(probe_reader reader, uint cascade, uint entry, ivec3 cell, uint axis)
 {
     const bool faces = sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)] != SDFGI_SURFACE_NONE;
     const uint first = faces ? axis : 0u, last = faces ? axis : 5u;
@@ -38,7 +63,7 @@ vec3 cell_emission(uint cascade, uint entry, ivec3 cell, uint axis)
     uint other = first;
     do {
         if (sdfgi_surfaces[sdfgi_surface_index(cascade, entry, other)] != SDFGI_SURFACE_NONE) {
-            sum += emission_behind(cascade, cell, other);
+            sum += emission_behind(reader, cascade, cell, other);
             count += 1.0;
         }
     } while (++other <= last);
@@ -47,7 +72,7 @@ vec3 cell_emission(uint cascade, uint entry, ivec3 cell, uint axis)
 
 /* Light at the end of a ray. False where it is not known, because the light list was too short for the cell
  * and has not grown yet: the ray then has no weight, so the history stands for it instead of black. */
-bool hit_light(uint code, vec3 dir, out vec3 light)
+bool hit_light(probe_reader reader, uint code, vec3 dir, out vec3 light)
 {
     light = vec3(0.0);
     if (code == SDFGI_RAY_SKY)
@@ -61,7 +86,7 @@ bool hit_light(uint code, vec3 dir, out vec3 light)
         return false;
     light = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(cascade, entry, axis)]);
     if (sdfgi_surfaces_emit())
-        light += cell_emission(cascade, entry, sdfgi_cell_from_texel(cascade, texel), axis);
+        light += cell_emission(reader, cascade, entry, sdfgi_cell_from_texel(cascade, texel), axis);
     return true;
 }
 
@@ -79,20 +104,45 @@ uint ray_sample(uint i)
                     : (sdfgi_frame.first_sample + samples + sent - 1u - i) % samples;
 }
 
-void load_ray(uint cascade, ivec3 probe, uint slot, uint i)
+void load_ray(probe_reader reader, uint i)
 {
     const bool of_frame = i < rays_of_frame();
-    const uint s = ray_sample(i), code = sdfgi_rays[slot * sdfgi_frame.cycle_samples + s];
+    const uint s = ray_sample(i), code = sdfgi_rays[reader.slot * emitter_cache_stride() + s];
     float solid_angle;
-    const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
+    const vec3 dir = probe_sample_direction(reader.cascade, reader.probe, s, solid_angle);
     if (code == SDFGI_RAY_UNLIT && of_frame)
         counter_add(SDFGI_COUNTER_UNLIT_HITS, 1u);
     if (code == SDFGI_RAY_CAPPED && of_frame)
         counter_add(SDFGI_COUNTER_TRACE_CAPS, 1u);
     vec3 light = vec3(0.0);
-    const bool known = (of_frame || ray_is_cached(code)) && hit_light(code, dir, light);
+    const bool known = (of_frame || ray_is_cached(code)) && hit_light(reader, code, dir, light);
     ray_light[i] = light;
     ray_dir[i] = vec4(dir, known ? solid_angle : 0.0);
+}
+
+/* ---- Rays towards emitters */
+
+/* The probe's last sample of this frame or, going backwards, the i-th before it. */
+void load_emitter_ray(uint slot, uint i)
+{
+    const uint samples = sdfgi_frame.emitter_samples,
+               last = emitter_first_of_frame() + emitter_rays_of_frame() - 1u;
+    const emitter_sample s = emitter_sample_load(slot, (last + samples - i) % samples);
+    emitter_radiance[i] = sdfgi_emission_radiance(s.radiance) * (sdfgi_frame.emission_scale * s.arrives);
+    emitter_dir[i] = vec4(s.dir, s.total > 0.0 ? 1.0 : 0.0);
+}
+
+/* Irradiance over pi that so many of them bring to a texel. */
+vec3 light_of_emitters(uint texel, uint rays)
+{
+    const vec3 normal = probe_texel_direction(texel);
+    vec3 sum = vec3(0.0);
+    float count = 0.0;
+    for (uint i = 0u; i < rays; i++) {
+        sum += emitter_radiance[i] * (emitter_dir[i].w * max(dot(normal, emitter_dir[i].xyz), 0.0));
+        count += emitter_dir[i].w;
+    }
+    return sum / (3.14159265 * max(count, 1.0));
 }
 
 /* ---- Sums */
@@ -141,17 +191,25 @@ void main()
         return;
 
     const bool is_new = probe_history_state(probe_history_load(slot)) == PROBE_NEW;
-    const uint most = min(MAX_RAYS, sdfgi_frame.cycle_samples);
-    const uint rays = is_new ? min(PROBE_NEW_FRAMES * rays_of_frame(), most) : rays_of_frame();
+    const uint most = min(MAX_RAYS, sdfgi_frame.cycle_samples), frames = is_new ? PROBE_NEW_FRAMES : 1u,
+               rays = min(frames * rays_of_frame(), most);
+    const uint emitter_rays = min(emitter_samples_of(rays), sdfgi_frame.emitter_samples);
+    const float total = emitter_rays > 0u ? emitter_sample_load(slot, emitter_first_of_frame()).total : 0.0;
+    const probe_reader reader = probe_reader(cascade, slot, probe, total);
     uint i = lane;
     do { /* once, mostly; software drivers run a loop that begins with its condition once more than that */
         if (i < rays)
-            load_ray(cascade, probe, slot, i);
+            load_ray(reader, i);
         i += uint(SDFGI_GROUP_PROBE);
     } while (i < rays);
+    if (lane < emitter_rays)
+        load_emitter_ray(slot, lane);
     barrier();
     sum_rays(rays);
     barrier();
-    if (lane < uint(SDFGI_IRRADIANCE_COUNT))
-        sdfgi_sums[probe_sums(slot) + lane] = probe_load_sum(slot, lane) + sum_of_texel(lane);
+    if (lane >= uint(SDFGI_IRRADIANCE_COUNT))
+        return;
+    const vec4 sum = sum_of_texel(lane);
+    const vec3 of_emitters = emitter_rays > 0u ? light_of_emitters(lane, emitter_rays) : vec3(0.0);
+    sdfgi_sums[probe_sums(slot) + lane] = probe_load_sum(slot, lane) + sum + vec4(of_emitters * sum.a, 0.0);
 }

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
+#include "emitter_samples.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"
@@ -19,14 +20,27 @@ uint hit_pack(sdfgi_trace_hit hit)
     return ray_pack(hit.cascade, hit.cell, hit.axis);
 }
 
+void trace_to_emitter(uint word, uint number, uint cascade, ivec3 probe, vec3 pos)
+{
+    const vec3 place = sdfgi_random_r3(number, probe_shift(cascade, probe));
+    const uvec4 found = emitter_sample_pack(emitter_sample_send(cascade, pos, place));
+    for (int i = 0; i < SDFGI_EMITTER_SAMPLE_WORDS; i++)
+        sdfgi_rays[word + uint(i)] = found[i];
+}
+
 void trace(uint ray)
 {
-    const uint slot = ray / sdfgi_frame.cycle_samples;
+    const uint slot = ray / emitter_cache_stride(), s = ray % emitter_cache_stride();
     uint cascade;
     const ivec3 probe = probe_from_index(slot, cascade);
-    float solid_angle;
-    const vec3 dir = probe_sample_direction(cascade, probe, ray % sdfgi_frame.cycle_samples, solid_angle);
     const vec3 pos = sdfgi_probe_position(probe, sdfgi_probes[slot]);
+    if (s >= sdfgi_frame.cycle_samples) {
+        const uint number = (s - sdfgi_frame.cycle_samples) / uint(SDFGI_EMITTER_SAMPLE_WORDS);
+        trace_to_emitter(ray, number, cascade, probe, pos);
+        return;
+    }
+    float solid_angle;
+    const vec3 dir = probe_sample_direction(cascade, probe, s, solid_angle);
     const sdfgi_trace_hit hit = sdfgi_trace_ray(cascade, sdfgi_frame.cascade_count - 1u, pos, dir, 1e9);
     sdfgi_rays[ray] = hit_pack(hit);
 }

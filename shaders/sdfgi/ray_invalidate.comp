@@ -8,6 +8,7 @@
 #include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "dirty_bounds.glsl"
+#include "emitter_samples.glsl"
 #include "probe_common.glsl"
 #include "ray_cache.glsl"
 
@@ -201,11 +202,19 @@ void store_hits(uint cache, uint first)
             sdfgi_rays[cache + hit_sample(first, k)] = SDFGI_RAY_UNKNOWN;
 }
 
+/* A change of the own cascade has made a new list of emitters. */
+void forget_emitters(uint slot)
+{
+    const uint lane = gl_LocalInvocationIndex, count = sdfgi_frame.emitter_samples;
+    for (uint i = lane; i < count && dirty_count(own_cascade()) > 0; i += uint(SDFGI_GROUP_RAYS))
+        emitter_sample_forget(emitter_sample_word(slot, i));
+}
+
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(own_cascade(), probe);
-    const uint state = sdfgi_probes[slot], cache = slot * sdfgi_frame.cycle_samples;
+    const uint state = sdfgi_probes[slot], cache = slot * emitter_cache_stride();
     if (sdfgi_probe_is_dead(state))
         return;
     const vec3 pos = sdfgi_probe_position(probe, state);
@@ -220,4 +229,5 @@ void main()
                 test_hits(c, start, probe, first);
         store_hits(cache, first);
     }
+    forget_emitters(slot);
 }

@@ -8,6 +8,7 @@
 #define SDFGI_WRITES_INDIRECT
 #include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
+#include "emitter_samples.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"
 
@@ -19,7 +20,9 @@ shared uint group_first; /* index of the first of them in the queue */
 /* Whether the n-th ray of a cascade must be traced; its index in the ray cache. */
 bool needs_tracing(uint cascade, uint n, out uint ray)
 {
-    const uint side = sdfgi_frame.probes_per_side, rays = sdfgi_frame.rays_per_frame, i = n / rays;
+    const uint side = sdfgi_frame.probes_per_side, at_random = sdfgi_frame.rays_per_frame,
+               rays = at_random + (emitters_are_complete(cascade) ? emitter_rays_of_frame() : 0u),
+               i = n / rays;
     ray = 0u;
     if (i >= side * side * side)
         return false;
@@ -27,7 +30,11 @@ bool needs_tracing(uint cascade, uint n, out uint ray)
     const uint slot = sdfgi_probe_index(cascade, probe);
     if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
         return false;
-    ray = slot * sdfgi_frame.cycle_samples + sdfgi_frame.first_sample + n % rays;
+    if (n % rays >= at_random) {
+        ray = emitter_sample_word(slot, emitter_first_of_frame() + n % rays - at_random);
+        return !emitter_sample_is_known(ray);
+    }
+    ray = slot * emitter_cache_stride() + sdfgi_frame.first_sample + n % rays;
     return !ray_is_cached(sdfgi_rays[ray]);
 }
 

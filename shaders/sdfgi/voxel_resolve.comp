@@ -266,7 +266,7 @@ bool is_hollow(emitter_view view, uvec3 low, uvec3 high)
 /* Where the block's emissive sub-voxels are, and the emitters' own area over what the sides show. */
 void store_emitter_shape(uint block, ivec3 first, emitter_view view)
 {
-    if (sdfgi_frame.lists_emitters == 0u)
+    if (sdfgi_frame.emitter_samples == 0u)
         return;
     uvec3 low, high;
     [[unroll]] for (int axis = 0; axis < 3; axis++)

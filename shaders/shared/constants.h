@@ -81,6 +81,10 @@
 #define SDFGI_EMITTERS_STRIDE (8 + SDFGI_EMITTER_WORDS * SDFGI_MAX_EMITTERS)
 /* Rays that a visit sends from a light cell along one axis towards listed emitters. */
 #define SDFGI_VISIT_EMITTER_RAYS 4
+/* A probe has a sample towards an emitter for so many at random; its words in the ray cache: see
+ * sdfgi/emitter_samples.glsl. */
+#define SDFGI_SAMPLES_PER_EMITTER_SAMPLE 25
+#define SDFGI_EMITTER_SAMPLE_WORDS       4
 
 /* Bounce gain is capped below 1, so that light between white surfaces converges (HARD_CASES row 34). */
 #define SDFGI_MAX_BOUNCE_GAIN 0.99

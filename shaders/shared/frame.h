@@ -82,7 +82,7 @@ struct sdfgi_frame_params {
     uint first_sample;     /* this frame's first sample in the sample cycle */
     uint cycle_samples;    /* samples of a probe in a sample cycle */
     uint cycle_visits;     /* visits of a light cell in a gather cycle; 0: light cells read probes alone */
-    uint lists_emitters;   /* 1: something emits, and emitters are listed */
+    uint emitter_samples;  /* of a probe in a cycle, towards emitters; 0: nothing emits and none is listed */
     float dark;            /* light times exposure that counts as dark */
     float rays_blend;      /* roughness from which on reflections blend into irradiance */
     float rays_end;        /* roughness from which on they are irradiance; above rays_blend */

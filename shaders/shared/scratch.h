@@ -54,6 +54,15 @@ SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
 
 #define SDFGI_SCRATCH_EMITTERS 4
 
+/* The ray queue: how many rays towards emitters a probe sends in a frame beside those at random, which are
+ * the samples from `first` on of its cycle. Each sample towards an emitter belongs to a run of those at
+ * random. */
+SDFGI_FUNCTION uint sdfgi_scratch_emitter_rays(uint first, uint rays)
+{
+    return (first + rays - 1u) / SDFGI_SAMPLES_PER_EMITTER_SAMPLE - first / SDFGI_SAMPLES_PER_EMITTER_SAMPLE +
+           1u;
+}
+
 /* The search buffer, beside the planes: a bit per run of eight cells and row of sub-voxels from word 0, then
  * a word per layer of cells and SDFGI_GROUP_COLUMNS columns, */
 SDFGI_FUNCTION uint sdfgi_search_layers(uint bits)

@@ -70,7 +70,7 @@
     X(sdfgi_frame_params, first_sample)                                                                      \
     X(sdfgi_frame_params, cycle_samples)                                                                     \
     X(sdfgi_frame_params, cycle_visits)                                                                      \
-    X(sdfgi_frame_params, lists_emitters)                                                                    \
+    X(sdfgi_frame_params, emitter_samples)                                                                   \
     X(sdfgi_frame_params, dark)                                                                              \
     X(sdfgi_frame_params, rays_blend)                                                                        \
     X(sdfgi_frame_params, rays_end)                                                                          \

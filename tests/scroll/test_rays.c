@@ -48,8 +48,9 @@ static struct comparison compare_rays(struct gi_test *walked, struct gi_test *fr
              *probes = gi_test_read(fresh, RESOURCE_PROBES, NULL);
     const struct extent *e = &fresh->gi->volume.resources->extent;
     struct comparison result = { 0 };
-    for (uint64_t i = 0; i < e->probes * e->cascades * e->cycle_samples; i++) {
-        if (probes[i / e->cycle_samples] & SDFGI_PROBE_DEAD)
+    const uint64_t words = sdfgi_extent_probe_words(e);
+    for (uint64_t i = 0; i < e->probes * e->cascades * words; i++) {
+        if (probes[i / words] & SDFGI_PROBE_DEAD || i % words >= e->cycle_samples)
             continue;
         REQUIRE_CMP(a[i], !=, SDFGI_RAY_UNKNOWN);
         result.rays++;

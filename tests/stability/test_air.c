@@ -145,6 +145,64 @@ static void a_glowing_wall_fills_its_solid_angle(void **state)
     }
 }
 
+/* It emits outwards. */
+static void add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr)
+{
+    const float emission = (float)(watts_per_sr / (PI * radius * radius));
+    const struct sdfgi_material_desc desc = { .alpha = 1, .emission = { emission, emission, emission } };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
+    struct test_mesh ball = test_mesh_sphere(center, radius, 3);
+    gi_test_add(t, &ball, material);
+    test_mesh_destroy(&ball);
+}
+
+/* Irradiance at a place in the air on the axis that faces a lamp most, over what the lamp makes there. */
+static double air_ratio(struct gi_test *t, const float place[static 3], const double lamp[static 3],
+                        double watts_per_sr)
+{
+    struct sample sample = { .position = { place[0], place[1], place[2] } };
+    double square = 0, most = 0;
+    int axis = 0;
+    for (int k = 0; k < 3; k++) {
+        const double offset = lamp[k] - (double)place[k];
+        square += offset * offset;
+        if (fabs(offset) > fabs(most)) {
+            most = offset;
+            axis = k;
+        }
+    }
+    sample.direction[axis] = most > 0 ? 1 : -1;
+    look_up(t, &sample, 1);
+    return (double)sample.irradiance[1] * square * sqrt(square) / (watts_per_sr * fabs(most));
+}
+
+/* The smallest ball has a sixth of a cell: most probes' rays at random miss it. The places are those of the
+ * 27 probes around it, between which light is interpolated. */
+static void balls_of_all_sizes_light_the_air_with_their_power(void **state)
+{
+    struct gi_test *t = *state;
+    static const double radii[] = { 0.01, 0.1, 0.3 }, at[3] = { 0.34, 0.46, 0.54 };
+    enum { PLACES = 27 };
+    const struct sdfgi_settings settings = light_settings(64, 0.125f);
+    for (int r = 0; r < 3; r++) {
+        double mean = 0, squares = 0;
+        gi_test_restart(t, &settings);
+        add_ball(t, at, radii[r], 5);
+        gi_test_converge(t, 300);
+        for (int i = 0; i < PLACES; i++) {
+            const float place[3] = { (float)(i % 3 - 1), (float)(i / 3 % 3 - 1), (float)(i / 9 - 1) };
+            const double ratio = air_ratio(t, place, at, 5);
+            mean += ratio / PLACES;
+            squares += (ratio - 1) * (ratio - 1) / PLACES;
+        }
+        printf("ball of %.2f m: mean ratio %.3f, root mean square off 1 %.3f\n", radii[r], mean,
+               sqrt(squares));
+        REQUIRE_NEAR(mean, 1, 0.1);
+        REQUIRE_CMP(sqrt(squares), <=, 0.2);
+    }
+}
+
 /* ---- One point, asked in all ways */
 
 enum { WIDTH = 16, HEIGHT = DIRECTIONS / WIDTH, FRAMES = 32 };
@@ -276,6 +334,7 @@ TEST_GROUP(air)
         cmocka_unit_test(nothing_is_known_within_a_wall),
         cmocka_unit_test(the_mean_of_a_gradient_sky_is_exact),
         cmocka_unit_test(a_glowing_wall_fills_its_solid_angle),
+        cmocka_unit_test(balls_of_all_sizes_light_the_air_with_their_power),
         cmocka_unit_test(opaque_transparent_and_fog_get_the_same),
         cmocka_unit_test(they_get_the_same_on_walls_of_a_furnace),
     };

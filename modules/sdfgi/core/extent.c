@@ -70,7 +70,7 @@ static uint64_t scratch_size(const struct extent *e)
         sdfgi_scratch_distance_end(bits),
         sdfgi_scratch_flood_end(bits),
         sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells),
-        e->probes * e->cascades * e->rays_per_frame,
+        e->probes * e->cascades * sdfgi_extent_probe_rays(e),
     };
     uint64_t most = 0;
     for (size_t i = 0; i < sizeof tenants / sizeof *tenants; i++)
@@ -88,6 +88,22 @@ void sdfgi_extent_set_emits(struct extent *extent)
 {
     extent->emits = true;
     extent->scratch = scratch_size(extent);
+}
+
+uint64_t sdfgi_extent_emitter_samples(const struct extent *extent)
+{
+    return extent->emits ? extent->cycle_samples / SDFGI_SAMPLES_PER_EMITTER_SAMPLE : 0;
+}
+
+uint64_t sdfgi_extent_probe_words(const struct extent *extent)
+{
+    return extent->cycle_samples + SDFGI_EMITTER_SAMPLE_WORDS * sdfgi_extent_emitter_samples(extent);
+}
+
+uint64_t sdfgi_extent_probe_rays(const struct extent *extent)
+{
+    const uint64_t rays = extent->rays_per_frame;
+    return rays + (extent->emits ? rays / SDFGI_SAMPLES_PER_EMITTER_SAMPLE + 2 : 0);
 }
 
 uint32_t sdfgi_extent_visit_rays(const struct extent *extent)

@@ -29,6 +29,11 @@ void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells);
 /* The same for a scene in which something emits. */
 void sdfgi_extent_set_emits(struct extent *extent);
 
+/* Samples of a probe in a cycle that go towards emitters. */
+uint64_t sdfgi_extent_emitter_samples(const struct extent *extent);
+/* Words of a probe in the ray cache, and the most rays that it sends in a frame. */
+uint64_t sdfgi_extent_probe_words(const struct extent *extent);
+uint64_t sdfgi_extent_probe_rays(const struct extent *extent);
 /* Rays that a visit of a light cell sends along an axis. */
 uint32_t sdfgi_extent_visit_rays(const struct extent *extent);
 

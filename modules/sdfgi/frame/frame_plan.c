@@ -106,8 +106,8 @@ static void plan_cycle(struct frame *frame, const struct frame_input *input)
     if (frame->scroll.from_nothing)
         sdfgi_accumulation_go_dark(a);
     /* Any change may invalidate cached rays of any sample, so rays are traced for one full cycle afterwards.
-     */
-    bool changes = restarts(frame);
+     * A new ray cache is empty. */
+    bool changes = restarts(frame) || input->gaps.emitters;
     for (uint32_t c = 0; c < frame->next.cascades.count; c++)
         changes = changes || frame->next.cascades.at[c].change.cause != CHANGE_NONE;
     if (changes)

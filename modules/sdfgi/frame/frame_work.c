@@ -27,13 +27,20 @@ static void clear_counters(struct work_list *list, enum cleared when)
     sdfgi_work_add_clear(list, RESOURCE_COUNTERS, 4 * first, 4 * (end - first));
 }
 
+/* Buffers that are new since something emits. */
+static void clear_emitters(struct work_list *list, const struct extent *extent)
+{
+    static const enum resource cleared[] = { RESOURCE_EMITTERS, RESOURCE_RAYS };
+    for (size_t i = 0; i < sizeof cleared / sizeof *cleared; i++)
+        sdfgi_work_add_clear(list, cleared[i], 0, sdfgi_resource_size(cleared[i], extent));
+}
+
 void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
                           const struct situation_needs *needs)
 {
     const struct plan_stage stage = { frame, input, needs };
     if (input->gaps.emitters)
-        sdfgi_work_add_clear(&frame->work, RESOURCE_EMITTERS, 0,
-                             sdfgi_resource_size(RESOURCE_EMITTERS, &input->extent));
+        clear_emitters(&frame->work, &input->extent);
     if (needs->holds[NEED_GENERATE])
         clear_counters(&frame->work, CLEARED_CHANGE);
     else if (frame->next.accumulation.frame == 0)

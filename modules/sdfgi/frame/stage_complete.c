@@ -89,7 +89,7 @@ static void add_ray_invalidate(const struct plan_stage *stage, uint32_t c)
         return;
     struct work *work = sdfgi_stage_add(stage, PASS_RAY_INVALIDATE, 0);
     work->count = count;
-    work->units = stage->input->extent.probes * stage->input->extent.cycle_samples * count;
+    work->units = stage->input->extent.probes * sdfgi_extent_probe_words(&stage->input->extent) * count;
 }
 
 static void empty_list(const struct plan_stage *stage, uint32_t c)

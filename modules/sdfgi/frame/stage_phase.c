@@ -3,6 +3,7 @@
  * arguments from the argument struct. */
 #include "stage.h"
 
+#include "shaders/shared/scratch.h"
 #include "volume/change.h"
 
 #include <assert.h>
@@ -38,6 +39,14 @@ static uint64_t units_of_probe(const struct plan_stage *stage, const struct pass
         return 1;
     return row->domain == DOMAIN_ALL_PROBES ? stage->frame->next.params.rays_per_frame
                                             : SDFGI_OCCLUSION_TEXELS * SDFGI_OCCLUSION_TEXELS;
+}
+
+/* Rays of a probe in this frame: at random, and towards emitters. */
+static uint32_t rays_of_probe(const struct plan_stage *stage)
+{
+    const struct sdfgi_frame_params *p = &stage->frame->next.params;
+    const bool emits = stage->input->extent.emits;
+    return p->rays_per_frame + (emits ? sdfgi_scratch_emitter_rays(p->first_sample, p->rays_per_frame) : 0);
 }
 
 /* Cells that a pass over layers of blocks looks at. How many it searched, counters tell. */
@@ -76,7 +85,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
         work->units = e->probes * e->cascades * units_of_probe(stage, row);
         break;
     case DOMAIN_ALL_RAYS:
-        work->count = (uint32_t)e->probes * stage->frame->next.params.rays_per_frame;
+        work->count = (uint32_t)e->probes * rays_of_probe(stage);
         work->units = work->count * e->cascades;
         break;
     case DOMAIN_LIGHT_BLOCKS:

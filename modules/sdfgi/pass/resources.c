@@ -258,7 +258,7 @@ static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_DIRECT,  
                                         RESOURCE_SURFACES,    RESOURCE_GATHERED, RESOURCE_SEEN,
                                         RESOURCE_SCRATCH };
 /* What is there only if something emits, or is larger then. */
-static const enum resource emitting[] = { RESOURCE_EMITTERS, RESOURCE_SCRATCH };
+static const enum resource emitting[] = { RESOURCE_EMITTERS, RESOURCE_RAYS, RESOURCE_SCRATCH };
 
 enum { MAX_GROWN = sizeof listed / sizeof *listed };
 

@@ -185,7 +185,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     p->emission_scale = emission_scale(input->scene, exposure);
     p->light_count = input->scene->lights.count;
     p->light_cell_room = (uint32_t)input->extent->light_cells;
-    p->lists_emitters = input->extent->emits;
+    p->emitter_samples = (uint32_t)sdfgi_extent_emitter_samples(input->extent);
     p->has_metal = input->scene->metals > 0;
     p->seed = state->seed;
     fill_cycle(p, state, input->settings);
