@@ -281,16 +281,22 @@ static void images_prepare(VkCommandBuffer cmd, const struct host_fog_passes *f)
     host_image_barrier(cmd, f->blocks.image, 0, 1, layouts, stages, accesses);
 }
 
-/* A pass, and a barrier to those that read what it writes. */
-static void pass_record(VkCommandBuffer cmd, VkPipeline pipeline, uint32_t width, uint32_t height,
-                        uint32_t depth)
+/* A pass over an image, of whose width and height a group takes `side`. `depth`: groups along the third axis.
+ */
+static void pass_record(VkCommandBuffer cmd, VkPipeline pipeline, const struct host_image *image,
+                        uint32_t side, uint32_t depth)
+{
+    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    vkCmdDispatch(cmd, divide_up(image->width, side), divide_up(image->height, side), depth);
+}
+
+/* What passes have written is there for those that follow, and for what draws. */
+static void barrier_record(VkCommandBuffer cmd)
 {
     static const VkMemoryBarrier after = { .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                            .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
                                            .dstAccessMask =
                                                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT };
-    vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdDispatch(cmd, divide_up(width, HOST_FOG_THREADS), divide_up(height, HOST_FOG_THREADS), depth);
     vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                          VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1,
                          &after, 0, NULL, 0, NULL);
@@ -302,7 +308,7 @@ static void air_record(struct host_renderer *renderer, VkCommandBuffer cmd)
     const VkDescriptorSet gi_set = host_gi_set(renderer->gi);
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, f->air_layout, HOST_SET_GI, 1, &gi_set, 0,
                             NULL);
-    pass_record(cmd, f->air, f->blocks.width, f->blocks.height,
+    pass_record(cmd, f->air, &f->blocks, HOST_FOG_THREADS,
                 divide_up(HOST_FOG_SLICES / HOST_FOG_AIR, HOST_FOG_THREADS));
 }
 
@@ -317,9 +323,12 @@ void host_fog_record(struct host_renderer *renderer, VkCommandBuffer cmd, VkDesc
     const VkPipelineLayout layout = is_lit_by_gi(renderer) ? f->air_layout : f->layout;
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, layout, HOST_SET_FRAME, HOST_COUNT(sets),
                             sets, 0, NULL);
-    pass_record(cmd, f->tiles, f->volume.width, f->volume.height, 1);
+    pass_record(cmd, f->tiles, &f->volume, HOST_FOG_COLUMNS, 1);
+    barrier_record(cmd);
     if (is_lit_by_gi(renderer))
         air_record(renderer, cmd);
-    pass_record(cmd, f->scatter, f->volume.width, f->volume.height, HOST_FOG_SLICES / HOST_FOG_THREADS);
-    pass_record(cmd, f->integrate, f->volume.width, f->volume.height, 1);
+    pass_record(cmd, f->scatter, &f->volume, HOST_FOG_THREADS, HOST_FOG_SLICES / HOST_FOG_THREADS);
+    barrier_record(cmd);
+    pass_record(cmd, f->integrate, &f->volume, HOST_FOG_COLUMNS, 1);
+    barrier_record(cmd);
 }

@@ -13,7 +13,6 @@
 
 layout(local_size_x = HOST_FOG_THREADS, local_size_y = HOST_FOG_THREADS, local_size_z = HOST_FOG_THREADS) in;
 
-layout(set = HOST_SET_FOG, binding = 0, rgba16f) uniform readonly image3D volume;
 layout(set = HOST_SET_FOG, binding = 1, rgba16f) uniform writeonly image3D air;
 
 /* Metres along the camera's axis that are seen through a block: it is interpolated for columns up to one
@@ -39,7 +38,7 @@ void main()
     const ivec3 block = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(block, imageSize(air))))
         return;
-    const ivec2 columns = imageSize(volume).xy, first = min(HOST_FOG_AIR * block.xy, columns - 1);
+    const ivec2 columns = fog_columns(), first = min(HOST_FOG_AIR * block.xy, columns - 1);
     /* From the first of its columns to its middle. */
     const vec2 offset = vec2(0.5 * float(HOST_FOG_AIR - 1));
     const vec3 ray = fog_ray(vec2(first) + offset);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The radiance that the fog of each froxel sends towards the camera per optical depth: light of suns and
- * lamps times phase function, and GI's, times albedo. Dispatched as 1 thread per froxel. */
+ * lamps times phase function times albedo. Runs beside fog_air. Dispatched as 1 thread per froxel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/on_cpu.glsl"
@@ -12,7 +12,6 @@
 layout(local_size_x = HOST_FOG_THREADS, local_size_y = HOST_FOG_THREADS, local_size_z = HOST_FOG_THREADS) in;
 
 layout(set = HOST_SET_FOG, binding = 0, rgba16f) uniform writeonly image3D volume;
-layout(set = HOST_SET_FOG, binding = 2) uniform sampler3D air;
 
 /* Places in a froxel at which shadows of suns are looked up: the same in all frames, so that nothing
  * flickers. More make shafts with sharp edges smoother. */
@@ -49,40 +48,40 @@ vec3 from_suns(ivec3 froxel, vec4 column, vec3 direction, float reach, int place
 vec3 from_lamps(vec3 eye, vec3 direction, vec2 range_m, float tile, int count)
 {
     vec3 sum = vec3(0.0);
+    const float thick = range_m.y - range_m.x;
     for (int i = 0; i < count; i++) {
         const host_light_data light = lights[i];
         const vec3 to_lamp = light.position.xyz - eye;
         const float along = dot(to_lamp, direction);
         const vec3 off = to_lamp - along * direction;
+        const float beside = max(max(range_m.x - along, along - range_m.y), 0.0);
+        if ((dot(off, off) + beside * beside) * light.position.w * light.position.w > 1.0)
+            continue; /* none of the slice is within its range */
         /* A froxel is as wide as its tile, a disc of as much area. The mean of 1 / h over it is 2 / radius at
          * the lamp; far off, h^2 is radius^2 / 4 less. Both together keep the sum over a plane. */
         const float wide = frame.camera_forward.w > 0.0 ? 1.0 : clamp(along, range_m.x, range_m.y);
         const float half_radius = 0.2821 * tile * wide;
         const float floor2 = half_radius * half_radius + 1e-8;
         const float h = sqrt(max(dot(off, off) - floor2, floor2));
-        const float near = atan((range_m.x - along) / h), far = atan((range_m.y - along) / h);
-        const vec3 offset = (along + h * tan(0.5 * (near + far))) * direction - to_lamp;
+        /* Tangents of the angles to both ends, cosines and sines; and the tangent of half their sum. */
+        const vec2 ends = (range_m - along) / h, cosines = inversesqrt(1.0 + ends * ends),
+                   sines = ends * cosines;
+        const float half_way = (sines.x + sines.y) / (cosines.x + cosines.y);
+        const vec3 offset = (along + h * half_way) * direction - to_lamp;
         const float distance2 = max(dot(offset, offset), 1e-8);
         const vec3 to_light = -offset * inversesqrt(distance2);
-        const float mean = (far - near) / (h * (range_m.y - range_m.x));
-        sum += light.intensity.rgb *
-               (mean * light_share(light, to_light, distance2) * fog_phase(dot(to_light, direction)) *
-                shadow_punctual_in_air(light, offset));
+        const float share = light_share(light, to_light, distance2);
+        const float angle = atan(thick / h, 1.0 + ends.x * ends.y);
+        if (share > 0.0)
+            sum += light.intensity.rgb * (angle / (h * thick) * share * fog_phase(dot(to_light, direction)) *
+                                          shadow_punctual_in_air(light, offset));
     }
     return sum;
 }
 
-/* As fog_air.comp has stored it. */
-vec3 from_air(ivec3 froxel)
-{
-    const vec3 at = (vec3(froxel) + 0.5) / (float(HOST_FOG_AIR) * vec3(textureSize(air, 0)));
-    const vec4 light = textureLod(air, at, 0.0);
-    return light.a > 1e-3 ? light.rgb / light.a : vec3(0.0);
-}
-
 void main()
 {
-    const ivec3 froxel = ivec3(gl_GlobalInvocationID), size = ivec3(imageSize(volume).xy, HOST_FOG_SLICES);
+    const ivec3 froxel = ivec3(gl_GlobalInvocationID), size = ivec3(fog_columns(), HOST_FOG_SLICES);
     if (any(greaterThanEqual(froxel, size)))
         return;
     const vec3 ray = fog_ray(vec2(froxel.xy));
@@ -99,7 +98,5 @@ void main()
                                length(ray) * vec2(range_m.x, max(range_m.y, 1.001 * range_m.x)), tile,
                                near < reach ? int(frame.counts.y) : 0);
     radiance *= frame.fog_density.w;
-    if (frame.fog_grid.w > 0.0)
-        radiance += from_air(froxel);
     imageStore(volume, froxel, vec4(min(frame.fog_medium.rgb * radiance, vec3(FOG_MAX_STORED)), 0.0));
 }

@@ -7,9 +7,8 @@
 #include "host/host_frame.glsl"
 #include "host/host_fog_space.glsl"
 
-layout(local_size_x = HOST_FOG_THREADS, local_size_y = HOST_FOG_THREADS) in;
+layout(local_size_x = HOST_FOG_COLUMNS, local_size_y = HOST_FOG_COLUMNS) in;
 
-layout(set = HOST_SET_FOG, binding = 0, rgba16f) uniform readonly image3D volume;
 layout(set = HOST_SET_FOG, binding = 3) uniform sampler2D depth_image;
 layout(set = HOST_SET_FOG, binding = 4, std430) writeonly buffer seen_block
 {
@@ -28,8 +27,13 @@ float least_depth(ivec2 first, ivec2 end)
 {
     float least = 1.0;
     for (int y = first.y; y < end.y; y++) {
-        for (int x = first.x; x < end.x; x++)
-            least = min(least, depth_at(ivec2(x, y)));
+        /* Four loads at once. Pixels beyond the end count as the last one. */
+        for (int x = first.x; x < end.x; x += 4) {
+            vec4 depths;
+            for (int k = 0; k < 4; k++)
+                depths[k] = depth_at(ivec2(min(x + k, end.x - 1), y));
+            least = min(least, min(min(depths.x, depths.y), min(depths.z, depths.w)));
+        }
     }
     return least;
 }
@@ -46,7 +50,7 @@ float slope_at(ivec2 pixel, ivec2 step)
 
 void main()
 {
-    const ivec2 column = ivec2(gl_GlobalInvocationID.xy), columns = imageSize(volume).xy;
+    const ivec2 column = ivec2(gl_GlobalInvocationID.xy), columns = fog_columns();
     if (any(greaterThanEqual(column, columns)))
         return;
     const int side = int(frame.fog_grid.z);

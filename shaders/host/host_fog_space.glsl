@@ -22,6 +22,13 @@ float fog_slice(float distance_m)
     return 1.0 + log2(distance_m / frame.fog_slices.x) / frame.fog_slices.y;
 }
 
+/* Columns along the picture's width and height: one for each corner of a tile. */
+ivec2 fog_columns()
+{
+    const int side = int(frame.fog_grid.z);
+    return (ivec2(frame.fog_grid.xy) + side - 1) / side + 1;
+}
+
 vec2 fog_ndc(vec2 column)
 {
     return 2.0 * column * frame.fog_grid.z / frame.fog_grid.xy - 1.0;

@@ -24,7 +24,8 @@
 #define HOST_FOG_TILE         8  /* pixels along a froxel's side, where that does not make too many */
 #define HOST_FOG_SLICES       64 /* froxels along a ray */
 #define HOST_FOG_AIR          2  /* froxels along a side of those in which GI is looked up */
-#define HOST_FOG_THREADS      4  /* along each axis of a group */
+#define HOST_FOG_THREADS      4  /* along each axis of a group of froxels */
+#define HOST_FOG_COLUMNS      8  /* along each axis of a group of columns */
 #define HOST_EXPOSURE_THREADS 64
 #define HOST_EXPOSURE_SAMPLES 64 /* along each side of the picture */
 
