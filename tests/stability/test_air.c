@@ -145,18 +145,6 @@ static void a_glowing_wall_fills_its_solid_angle(void **state)
     }
 }
 
-/* It emits outwards. */
-static void add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr)
-{
-    const float emission = (float)(watts_per_sr / (PI * radius * radius));
-    const struct sdfgi_material_desc desc = { .alpha = 1, .emission = { emission, emission, emission } };
-    sdfgi_material material;
-    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
-    struct test_mesh ball = test_mesh_sphere(center, radius, 3);
-    gi_test_add(t, &ball, material);
-    test_mesh_destroy(&ball);
-}
-
 /* Irradiance at a place in the air on the axis that faces a lamp most, over what the lamp makes there. */
 static double air_ratio(struct gi_test *t, const float place[static 3], const double lamp[static 3],
                         double watts_per_sr)
@@ -188,7 +176,7 @@ static void balls_of_all_sizes_light_the_air_with_their_power(void **state)
     for (int r = 0; r < 3; r++) {
         double mean = 0, squares = 0;
         gi_test_restart(t, &settings);
-        add_ball(t, at, radii[r], 5);
+        light_add_ball(t, at, radii[r], 5);
         gi_test_converge(t, 300);
         for (int i = 0; i < PLACES; i++) {
             const float place[3] = { (float)(i % 3 - 1), (float)(i / 3 % 3 - 1), (float)(i / 9 - 1) };

@@ -30,18 +30,6 @@ static void add_lamp(struct gi_test *t, const double center[static 3], double si
     light_add(t, test_mesh_plane(center, u, v, 1), 0, (float)(watts_per_sr / (side * side)));
 }
 
-/* It emits outwards. */
-static void add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr)
-{
-    const float emission = (float)(watts_per_sr / (PI * radius * radius));
-    const struct sdfgi_material_desc desc = { .alpha = 1, .emission = { emission, emission, emission } };
-    sdfgi_material material;
-    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
-    struct test_mesh ball = test_mesh_sphere(center, radius, 3);
-    gi_test_add(t, &ball, material);
-    test_mesh_destroy(&ball);
-}
-
 /* A floor whose top is at -0.05. */
 static void add_floor(struct gi_test *t, double half)
 {
@@ -145,7 +133,7 @@ static void a_ball_shines_alike_in_all_directions(void **state)
         const double r = radii[i], watts_per_sr = 10;
         gi_test_restart(&t, &settings);
         add_floor(&t, 1.8);
-        add_ball(&t, (double[]){ 0, HEIGHT / 2, 0 }, r, watts_per_sr);
+        light_add_ball(&t, (double[]){ 0, HEIGHT / 2, 0 }, r, watts_per_sr);
         gi_test_converge(&t, 400);
         gi_test_irradiance(&t, at, POINTS, found);
         for (int k = 0; k < POINTS; k++) {

@@ -70,6 +70,17 @@ sdfgi_instance light_add_metal(struct gi_test *t, struct test_mesh mesh, float a
     return instance;
 }
 
+void light_add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr)
+{
+    const float emission = (float)(watts_per_sr / (PI * radius * radius));
+    const struct sdfgi_material_desc desc = { .alpha = 1, .emission = { emission, emission, emission } };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &desc, &material), ==, (int)SDFGI_OK);
+    struct test_mesh ball = test_mesh_sphere(center, radius, 3);
+    gi_test_add(t, &ball, material);
+    test_mesh_destroy(&ball);
+}
+
 sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], const double high[static 3],
                              const float albedo[static 3], float emission)
 {

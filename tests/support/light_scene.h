@@ -23,6 +23,8 @@ sdfgi_instance light_add_metal(struct gi_test *t, struct test_mesh mesh, float a
 /* An axis-aligned box between two corners. */
 sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], const double high[static 3],
                              const float albedo[static 3], float emission);
+/* A ball that emits outwards, of this intensity in all directions. */
+void light_add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr);
 /* White lights. `direction` is the way the light travels. */
 struct sdfgi_light_desc light_sun(float x, float y, float z, float irradiance);
 struct sdfgi_light_desc light_point(double x, double y, double z, float intensity);
