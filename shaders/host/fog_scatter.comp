@@ -14,8 +14,8 @@ layout(local_size_x = HOST_FOG_THREADS, local_size_y = HOST_FOG_THREADS, local_s
 layout(set = HOST_SET_FOG, binding = 0, rgba16f) uniform writeonly image3D volume;
 
 /* Places in a froxel at which shadows of suns are looked up: the same in all frames, so that nothing
- * flickers. More make shafts with sharp edges smoother. */
-const int SUN_PLACES = 8;
+ * flickers. More make shafts with sharp edges smoother. Where the first few agree there is no edge. */
+const int SUN_PLACES = 8, SUN_FIRST = 4;
 
 /* The i-th place in a froxel, spread evenly: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
  * Sequences". */
@@ -24,20 +24,30 @@ vec3 place_within(int i)
     return fract(0.5 + float(i + 1) * vec3(0.8191725, 0.6710436, 0.5497005)) - vec3(0.5, 0.5, 0.0);
 }
 
+/* How much of a froxel a sun reaches. */
+float sun_share(int sun, ivec3 froxel, vec4 column, float reach, int places)
+{
+    float lit = 0.0;
+    int count = 0;
+    for (; count < places; count++) {
+        if (count == SUN_FIRST && (lit == 0.0 || lit == float(SUN_FIRST)))
+            break;
+        const vec3 place = place_within(count);
+        const float distance_m =
+            fog_lit_distance(column, place.xy, 1.0, fog_distance(float(froxel.z) + place.z), reach);
+        lit += shadow_sun_in_air(sun, fog_position(vec2(froxel.xy) + place.xy, distance_m));
+    }
+    return lit / float(max(count, 1));
+}
+
 vec3 from_suns(ivec3 froxel, vec4 column, vec3 direction, float reach, int places)
 {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < places; i++) {
-        const vec3 place = place_within(i);
-        const float distance_m =
-            fog_lit_distance(column, place.xy, 1.0, fog_distance(float(froxel.z) + place.z), reach);
-        const vec3 position = fog_position(vec2(froxel.xy) + place.xy, distance_m);
-        for (int s = 0; s < int(frame.counts.x); s++) {
-            const float phase = fog_phase(dot(frame.suns[s].direction.xyz, direction));
-            sum += frame.suns[s].irradiance.rgb * (phase * shadow_sun_in_air(s, position));
-        }
+    for (int s = 0; s < int(frame.counts.x); s++) {
+        const float phase = fog_phase(dot(frame.suns[s].direction.xyz, direction));
+        sum += frame.suns[s].irradiance.rgb * (phase * sun_share(s, froxel, column, reach, places));
     }
-    return sum / float(SUN_PLACES);
+    return sum;
 }
 
 /* A lamp's light falls with the square of the distance d, over a slice by a lot. The mean of 1 / d^2 along a

@@ -23,19 +23,17 @@ float depth_at(ivec2 pixel)
                : texelFetch(depth_image, pixel, 0).r;
 }
 
+/* Four pixels at a time. Where a side is odd the last four begin a pixel before it ends. */
 float least_depth(ivec2 first, ivec2 end)
 {
-    float least = 1.0;
-    for (int y = first.y; y < end.y; y++) {
-        /* Four loads at once. Pixels beyond the end count as the last one. */
-        for (int x = first.x; x < end.x; x += 4) {
-            vec4 depths;
-            for (int k = 0; k < 4; k++)
-                depths[k] = depth_at(ivec2(min(x + k, end.x - 1), y));
-            least = min(least, min(min(depths.x, depths.y), min(depths.z, depths.w)));
+    vec4 least = vec4(1.0);
+    for (int y = first.y; y < end.y; y += 2) {
+        for (int x = first.x; x < end.x; x += 2) {
+            const vec2 middle = vec2(min(ivec2(x, y), end - 2) + 1);
+            least = min(least, textureGather(depth_image, middle / frame.fog_grid.xy));
         }
     }
-    return least;
+    return min(min(least.x, least.y), min(least.z, least.w));
 }
 
 /* Change of depth per pixel, to the side on which there is a surface; if there are two, the smaller one,
