@@ -133,11 +133,11 @@ static const struct row rows[] = {
         "light on surfaces that follows changes sooner", "tracing time in proportion",
         "Rays that light cells send in a frame, until light has converged. Near cascades get most of them. "
         "Where sdfgi_gather is used, half go to what pictures show."),
-    LOOKUPS(reflection_blend, "sdfgi_reflection_blend", FLOAT, 0.4, 0, 1, "roughness", "",
+    LOOKUPS(reflection_blend, "sdfgi_reflection_blend", FLOAT, 0.5, 0, 1, "roughness", "",
         "rays for rougher surfaces: reflections that follow what is near", "a little noise on these",
         "Surfaces up to this roughness reflect what rays meet. From here to sdfgi_reflection_end irradiance "
         "takes over. At or above that there is no blend: rays stop at once."),
-    LOOKUPS(reflection_end, "sdfgi_reflection_end", FLOAT, 0.7, 0, 1, "roughness", "",
+    LOOKUPS(reflection_end, "sdfgi_reflection_end", FLOAT, 0.75, 0, 1, "roughness", "",
         "rays for rougher surfaces: reflections that follow what is near",
         "rays for pixels that are smoother, and noise on the roughest",
         "Surfaces of this roughness and above send no rays: they reflect their irradiance. 0 switches rays "

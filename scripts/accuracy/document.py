@@ -4,6 +4,7 @@ import os
 import pathlib
 import sys
 
+import measure
 import scenes
 
 NOTES = pathlib.Path(__file__).with_name("notes.md")
@@ -173,8 +174,8 @@ SPLIT = """*Transport* compares the renderer with the truth over voxels. That is
 ray but the camera's meets what the renderer's rays meet. *Voxels* compares the two truths."""
 
 TIERS = """What leaves the specular part of surfaces, without sun and punctual lights, against the truth over triangles, by
-roughness: *sharp* below 0.4 sends a ray over the lobe, *rough* from 0.7 on takes irradiance, and *medium* blends
-the two."""
+roughness: *sharp* below {sharp} sends a ray over the lobe, *rough* from {rough} on takes irradiance, and *medium*
+blends the two."""
 
 LEAK = """The closed room is black in truth. A leak is the mean of its indirect light over that of the lit room
 (`{lit}`).
@@ -217,7 +218,8 @@ def text(results, docs):
     parts = ["# Accuracy", notes[""], how(results), "## The picture", picture_table(results)]
     legend = [ALL] + [FINER] * results["options"]["finer"] + [SPLIT] * results["voxels"]
     parts += ["## Indirect light", "\n".join(legend), indirect_table(results)]
-    parts += ["## Reflected light", TIERS, tier_table(results)]
+    tiers = TIERS.format(sharp=measure.TIERS["sharp"][1], rough=measure.TIERS["rough"][0])
+    parts += ["## Reflected light", tiers, tier_table(results)]
     parts += before(notes) + front(notes, docs)
     parts += ["## Leaks", LEAK.format(lit="two_rooms_lit"), leak_table(results), "## Scene by scene"]
     parts += [STRIPS]

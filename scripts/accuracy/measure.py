@@ -24,7 +24,7 @@ OPTIONS = ("size", "frames", "ssaa", "spp", "error", "set", "finer")
 PARTS = ("picture", "indirect")
 
 # Of roughness: a ray over the lobe, a blend of that and irradiance, and irradiance alone (shaders/shared/constants.h).
-TIERS = {"sharp": (0, 0.4), "medium": (0.4, 0.7), "rough": (0.7, 2)}
+TIERS = {"sharp": (0, 0.5), "medium": (0.5, 0.75), "rough": (0.75, 2)}
 
 # A tier that fewer pixels show than this share says nothing.
 MIN_SHARE = 0.005

@@ -28,14 +28,14 @@ float sdfgi_ggx_fresnel(float rest)
     return 0.04 + 0.96 * rest2 * rest2 * rest;
 }
 
-/* The mean of that over the facets that a viewer at `cosine` from the normal sees. A fit to quadrature,
- * within 8 % up to alpha = 0.64: rough surfaces show facets at all angles, and none that is quite level to
- * the view. */
+/* The mean of that over the directions of the lobe that a viewer at `cosine` from the normal sees. A fit to
+ * quadrature, within 5 % up to alpha = 0.56. */
 float sdfgi_ggx_mean_fresnel(float cosine, float alpha)
 {
-    const float alpha2 = 0.899 * alpha * alpha, mixed = 1.224 * alpha / (alpha + 0.487);
+    const float alpha2 = 1.076 * alpha * alpha;
     const float raised = sqrt((cosine * cosine + alpha2) / (1.0 + alpha2));
-    return sdfgi_ggx_fresnel(mix(1.0 - raised, 0.636, min(mixed, 1.0)));
+    const float mixed = 1.1228 * alpha / (alpha + 0.3265) * (1.0 - 0.6272 * sqrt(cosine));
+    return sdfgi_ggx_fresnel(mix(1.0 - raised, 0.6751, mixed));
 }
 
 #endif

@@ -24,6 +24,8 @@ const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TI
 const float PICTURE_NO_RAY = -1.0;
 /* Roughness from which on the filter takes squares of squares in part, and wholly. */
 const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
+/* Roughness from which on every second pixel along each axis sends a ray, and every fourth. */
+const vec2 PICTURE_SPARSE_RAYS = vec2(0.55, 0.64);
 
 uint picture_pack(ivec2 place)
 {
@@ -72,12 +74,12 @@ bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
     return sdfgi_reflection_ray_share(roughness) > 0.0;
 }
 
-/* Pixels from ray to ray, along each axis. Where irradiance takes over, fewer rays will do: the filter's
- * second run takes the mean of squares all around, and noise that is left counts as little as rays do. */
+/* Pixels from ray to ray, along each axis. Wide lobes do with fewer rays: the filter's second run takes the
+ * mean of squares all around. */
 int picture_ray_step(float roughness)
 {
-    const float share = sdfgi_reflection_ray_share(roughness);
-    return int(args.ray_step) * (share < 0.5 ? (share < 0.125 ? 4 : 2) : 1);
+    const int sparse = roughness < PICTURE_SPARSE_RAYS.x ? 1 : (roughness < PICTURE_SPARSE_RAYS.y ? 2 : 4);
+    return int(args.ray_step) * sparse;
 }
 
 /* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of

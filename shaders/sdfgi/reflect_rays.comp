@@ -14,6 +14,10 @@ layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 
 /* Cosine between a ray and the face's normal, at least. */
 const float LEAST_RISE = 0.02;
+/* Minus that cosine, from which on a ray into the surface brings nothing. */
+const float DEEPEST = 0.15;
+/* Of the square of the way to a neighbouring pixel: that of the bend of a surface, at least, at an edge. */
+const float EVEN = 0.1;
 /* The share of a narrow lobe to which rays keep, from its middle on. In the tail one ray of many meets a
  * lamp, and a square of few rays would show it as a dot. */
 const float NARROW_SHARE = 0.9;
@@ -63,37 +67,53 @@ float facet_share(picture_surface s, float roughness, vec3 dir)
     return is_metal(s) ? 1.0 : share;
 }
 
+bool is_inside(ivec2 pixel)
+{
+    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(args.width, args.height)));
+}
+
 /* From a point to the surface of another pixel; far away if there is none. */
 vec3 way_to(ivec2 pixel, vec3 pos)
 {
     vec4 position = vec4(0.0);
-    const bool inside =
-        all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(args.width, args.height)));
-    return inside && picture_position(pixel, position) ? position.xyz / position.w - pos : vec3(1e25);
+    return is_inside(pixel) && picture_position(pixel, position) ? position.xyz / position.w - pos
+                                                                 : vec3(1e25);
 }
 
-/* Along a surface, to that of one of two neighbouring pixels: to the nearer one, as edges lie farther off. */
-vec3 tangent(ivec2 pixel, ivec2 step, vec3 pos)
+/* Along a surface, to that of one of two neighbouring pixels: to the nearer one, as edges lie farther off.
+ * `even`: both neighbours and the pixel lie in a line, or one neighbour is beyond the picture. */
+vec3 tangent(ivec2 pixel, ivec2 step, vec3 pos, inout bool even)
 {
-    const vec3 next = way_to(pixel + step, pos), last = way_to(pixel - step, pos);
-    return dot(next, next) <= dot(last, last) ? next : -last;
+    const vec3 next = way_to(pixel + step, pos), last = way_to(pixel - step, pos), bend = next + last;
+    const float next2 = dot(next, next), last2 = dot(last, last);
+    even = even && (dot(bend, bend) < EVEN * min(next2, last2) || !is_inside(pixel + step) ||
+                    !is_inside(pixel - step));
+    return next2 <= last2 ? next : -last;
 }
 
 /* The normal of what is drawn, without the detail that a texture gives it; that of the pixel where no
- * neighbours tell. */
-vec3 face_normal(ivec2 pixel, picture_surface s)
+ * neighbours tell. `even`: there is no edge beside the pixel. */
+vec3 face_normal(ivec2 pixel, picture_surface s, out bool even)
 {
-    const vec3 normal = cross(tangent(pixel, ivec2(1, 0), s.pos), tangent(pixel, ivec2(0, 1), s.pos));
+    even = true;
+    const vec3 normal =
+        cross(tangent(pixel, ivec2(1, 0), s.pos, even), tangent(pixel, ivec2(0, 1), s.pos, even));
     const float length2 = dot(normal, normal);
     if (!(length2 > 0.0) || !picture_is_finite(length2))
         return s.normal;
     return normal * (dot(normal, s.to_eye) < 0.0 ? -inversesqrt(length2) : inversesqrt(length2));
 }
 
-/* A normal of a texture may lean so far that the ray would lead into the surface, which would see itself. */
+/* A normal of a texture may lean so far that the ray would lead into the surface, which would see itself. A
+ * little below the face it is turned back; deep below, what it shows is the dark of a groove. */
 vec3 off_face(vec3 dir, vec3 face)
 {
     return normalize(dir + max(2.0 * LEAST_RISE - 2.0 * dot(dir, face), 0.0) * face);
+}
+
+float open_share(vec3 dir, vec3 face)
+{
+    return clamp(1.0 + dot(dir, face) / DEEPEST, 0.0, 1.0);
 }
 
 void reflect_pixel(ivec2 pixel)
@@ -105,11 +125,13 @@ void reflect_pixel(ivec2 pixel)
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
     const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
-    const vec3 face = face_normal(pixel, s), of_lobe = ray_direction(point, s, roughness),
+    bool even;
+    const vec3 face = face_normal(pixel, s, even), of_lobe = ray_direction(point, s, roughness),
                dir = off_face(of_lobe, face);
     const reflect_found found =
         reflect_trace(sdfgi_first_from_position(s.pos), face, dir, fract(5.0 * point));
-    const vec3 light = scale * facet_share(s, roughness, of_lobe) * reflect_light(found, rough);
+    const float share = (even ? open_share(of_lobe, face) : 1.0) * facet_share(s, roughness, dir);
+    const vec3 light = scale * share * reflect_light(found, rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), found.length_m));
 }
 

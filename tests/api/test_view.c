@@ -284,12 +284,12 @@ static void fewer_rays_show_the_same(void **state)
     static float full[PIXELS][4], other[PIXELS][4];
     static const struct {
         enum sdfgi_gather_resolution resolution;
-        float roughness;
+        float roughness, beside; /* of the picture that it is compared with */
         uint32_t step;
-    } rows[] = { { SDFGI_GATHER_HALF, 0, 2 },     { SDFGI_GATHER_QUARTER, 0, 4 },
-                 { SDFGI_GATHER_HALF, 0.2f, 2 },  { SDFGI_GATHER_QUARTER, 0.2f, 4 },
-                 { SDFGI_GATHER_HALF, 0.5f, 2 },  { SDFGI_GATHER_QUARTER, 0.5f, 4 },
-                 { SDFGI_GATHER_FULL, 0.56f, 2 }, { SDFGI_GATHER_FULL, 0.64f, 4 } };
+    } rows[] = { { SDFGI_GATHER_HALF, 0, 0, 2 },         { SDFGI_GATHER_QUARTER, 0, 0, 4 },
+                 { SDFGI_GATHER_HALF, 0.2f, 0.2f, 2 },   { SDFGI_GATHER_QUARTER, 0.2f, 0.2f, 4 },
+                 { SDFGI_GATHER_HALF, 0.3f, 0.3f, 2 },   { SDFGI_GATHER_QUARTER, 0.3f, 0.3f, 4 },
+                 { SDFGI_GATHER_FULL, 0.56f, 0.54f, 2 }, { SDFGI_GATHER_FULL, 0.65f, 0.63f, 4 } };
     stage.ridge = 13;
     open_stage(&stage, 1);
     stage.ridge = 0;
@@ -297,8 +297,9 @@ static void fewer_rays_show_the_same(void **state)
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const float roughness = rows[k].roughness;
         sdfgi_view *view = create_view_at(&stage, rows[k].resolution);
-        resolve(&stage, whole, fminf(roughness, 0.54f)); /* each pixel sends a ray */
-        REQUIRE_CMP(rays_sent(&stage, whole), ==, SURFACES);
+        resolve(&stage, whole, rows[k].beside);
+        const uint32_t all = rays_sent(&stage, whole);
+        REQUIRE_TRUE(all == SURFACES || rows[k].beside > 0.55f);
         read_picture(&stage, &whole->reflection, full);
         resolve(&stage, view, roughness);
         read_picture(&stage, &view->reflection, other);
@@ -308,7 +309,7 @@ static void fewer_rays_show_the_same(void **state)
             REQUIRE_TRUE(other[i][3] >= 0 && (other[i][3] > 0) == (stage.depths[i] < 1));
         for (int i = 13; i < PIXELS && roughness == 0; i += SIDE)
             REQUIRE_TRUE(fabsf(other[i][0] / full[i][0] - 1) < 1e-3f && full[i][2] < ZENITH[2]);
-        printf("roughness %.2f: %u rays instead of %u, mean off by %.4f\n", (double)roughness, sent, SURFACES,
+        printf("roughness %.2f: %u rays instead of %u, mean off by %.4f\n", (double)roughness, sent, all,
                off);
         REQUIRE_CMP(sent, >=, SURFACES / (step * step));
         REQUIRE_CMP(sent, <, SURFACES / (step * step) + (2 * step + 1) * SIDE);
@@ -381,12 +382,12 @@ static void set_thresholds(float blend, float end)
         REQUIRE_CMP(report.passes[i].dispatches, ==, 0u);
 }
 
-/* Share of a picture of roughness 0.5 that is not what irradiance makes of it. */
+/* Share of a picture of roughness 0.6 that is not what irradiance makes of it. */
 static double unlike_irradiance(sdfgi_view *view)
 {
     static float diffuse[PIXELS][4], reflection[PIXELS][4];
     double unlike = 0, sum = 0;
-    resolve(&stage, view, 0.5f);
+    resolve(&stage, view, 0.6f);
     read_picture(&stage, &view->diffuse, diffuse);
     read_picture(&stage, &view->reflection, reflection);
     for (int i = 0; i < PIXELS; i++)
@@ -412,9 +413,9 @@ static void thresholds_of_roughness_are_followed_and_wake_no_light(void **state)
     const double blended = unlike_irradiance(view);
     set_thresholds(1, 1);
     const double rays = unlike_irradiance(view);
-    set_thresholds(0.6f, 0.5f); /* the blend would begin beyond its end: there is none */
+    set_thresholds(0.7f, 0.6f); /* the blend would begin beyond its end: there is none */
     const double rough = unlike_irradiance(view);
-    set_thresholds(0.6f, 0.51f);
+    set_thresholds(0.7f, 0.61f);
     const double sharp = unlike_irradiance(view);
     printf("unlike irradiance: blended %.4f, rays alone %.4f, rough %.4f\n", blended, rays, rough);
     REQUIRE_NEAR(sharp, rays, 1e-6);

@@ -56,7 +56,7 @@ static void write_boxes(FILE *file)
     for (int i = 0; i < BOX_COUNT; i++)
         fprintf(file,
                 "%s{\"pbrMetallicRoughness\":{\"baseColorFactor\":[%g,%g,%g,1],\"metallicFactor\":0,"
-                "\"roughnessFactor\":0.5}}",
+                "\"roughnessFactor\":0.6}}",
                 i ? "," : "", (double)boxes[i].color[0], (double)boxes[i].color[1],
                 (double)boxes[i].color[2]);
     fputs("],\"meshes\":[", file);

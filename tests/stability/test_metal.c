@@ -94,7 +94,8 @@ static void roughness_tells_the_kind_of_metal(void **state)
     static const struct {
         float smoothness;
         uint32_t kind;
-    } rows[] = { { 1, 1 }, { 0.8f, 1 }, { 0.79f, 2 }, { 0.6f, 2 }, { 0.59f, 3 }, { 0.4f, 3 }, { 0.39f, 0 } };
+    } rows[] = { { 1, 1 },     { 0.8f, 1 }, { 0.79f, 2 },    { 0.6f, 2 },
+                 { 0.59f, 3 }, { 0.4f, 3 }, { 1 - 0.6f, 3 }, { 0.39f, 0 } };
     struct gi_test *t = *state;
     const struct sdfgi_settings settings = light_settings(32, 0.25f);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

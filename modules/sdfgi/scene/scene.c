@@ -100,13 +100,15 @@ static bool emits(const struct sdfgi_material_desc *desc)
     return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
 }
 
-/* Least smoothness of each kind. Rougher metals count as diffuse: what they reflect comes from all around. */
+/* Least smoothness of each kind. Rougher metals count as diffuse: what they reflect comes from all around.
+ * Hosts have roughness, and 1 less 0.6 is a little below 0.4. */
 static const float METAL_SMOOTHNESS[3] = { 0.8f, 0.6f, 0.4f };
+#define ROUNDING 1e-5f
 
 uint32_t sdfgi_scene_metal_kind(const struct sdfgi_material_desc *desc)
 {
     for (uint32_t kind = 0; kind < 3 && desc->metallic > 0.5f; kind++)
-        if (desc->smoothness >= METAL_SMOOTHNESS[kind])
+        if (desc->smoothness >= METAL_SMOOTHNESS[kind] - ROUNDING)
             return kind + 1;
     return 0;
 }
