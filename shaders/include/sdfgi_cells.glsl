@@ -19,8 +19,13 @@
 #define SDFGI_CELLS_TOWARDS_EYE 0.2
 /* Cell widths. Beyond the sub-voxels of a flat surface, which are a quarter of a cell wide. */
 #define SDFGI_CELLS_OFF_SURFACE 0.35
-/* Places from which a surface point tries to read. */
+/* Cell widths from a surface to the middle of what is interpolated. The light cells before a level surface
+ * are then always among the cells around. */
+#define SDFGI_CELLS_MIDDLE 0.5
+/* Places from which a surface point tries to read, after that. */
 #define SDFGI_CELLS_TRIES 3
+/* A bit for each face of a cell. */
+#define SDFGI_CELLS_ALL_FACES 63u
 /* Added to each weight, so that a cell that is alone counts although the point lies on the edge of its
  * reach. */
 #define SDFGI_CELLS_LEAST_WEIGHT 1e-4
@@ -106,27 +111,25 @@ uvec3 sdfgi_cells_lines(uvec2 bits, uvec3 subvoxel)
                  (z.x & 1u) | (z.x >> 15u & 2u) | (z.y & 1u) << 2u | (z.y >> 13u & 8u));
 }
 
-/* The faces of an occupied cell towards which no sub-voxel of the cell is set, a bit each, seen from a point
- * in the cell, and how good a way each of them is: the one along the normal, or else the nearest. */
-uint sdfgi_cells_open_faces(uvec2 bits, vec3 normal, vec3 at, out float scores[6])
+/* The faces of a cell towards which no sub-voxel of it is set, a bit each, seen from a point in the cell. */
+uint sdfgi_cells_open_faces(uvec2 bits, vec3 at)
 {
     const uvec3 subvoxel = uvec3(ivec3(floor(at * 4.0)) & 3);
     const uvec3 lines = sdfgi_cells_lines(bits, subvoxel), ahead = lines >> subvoxel,
                 behind = lines & ((uvec3(2u) << subvoxel) - 1u);
-    const vec3 inside = at - floor(at), forward = 2.0 * normal - 1.0 + inside,
-               backward = -2.0 * normal - inside;
-    scores = float[6](forward.x, backward.x, forward.y, backward.y, forward.z, backward.z);
     return uint(ahead.x == 0u) | uint(behind.x == 0u) << 1u | uint(ahead.y == 0u) << 2u |
            uint(behind.y == 0u) << 3u | uint(ahead.z == 0u) << 4u | uint(behind.z == 0u) << 5u;
 }
 
 /* Moves a point out of an occupied cell, into a neighbouring light cell. Between the point and the face that
  * it leaves by, no sub-voxel of the cell is set: both are on the same side of a wall in the cell. The best
- * way mostly leads to a light cell, so few are looked at. */
+ * way, the one along the normal or else the nearest, mostly leads to a light cell, so few are looked at. */
 bool sdfgi_cells_leave(uint cascade, uvec2 bits, vec3 normal, inout vec3 at)
 {
-    float scores[6];
-    uint open = sdfgi_cells_open_faces(bits, normal, at, scores);
+    const vec3 inside = at - floor(at), forward = 2.0 * normal - 1.0 + inside,
+               backward = -2.0 * normal - inside;
+    const float scores[6] = float[6](forward.x, backward.x, forward.y, backward.y, forward.z, backward.z);
+    uint open = sdfgi_cells_open_faces(bits, at);
     while (open != 0u) {
         uint best = uint(findLSB(open)); /* of scores that are no numbers, any */
         float score = -1e9;
@@ -168,21 +171,33 @@ bool sdfgi_cells_step_out(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout
            !sdfgi_cells_is_set(sdfgi_cell_bits(cascade, ivec3(floor(at))), at);
 }
 
-/* Moves a point into an empty cell, if it is not in one; `bits` are those of its cell. A point in a set
- * sub-voxel is first moved a little towards the viewer, who is known to be on the open side of the surface.
- * False if there is no way. */
-bool sdfgi_cells_find_open(uint cascade, uvec2 bits, vec3 normal, vec3 eye, inout vec3 at)
+/* Moves a point that is in a set sub-voxel out of it: a little towards the viewer, who is known to be on the
+ * open side of the surface. `bits` are those of its cell. False if there is no way. */
+bool sdfgi_cells_unset(uint cascade, vec3 normal, vec3 eye, inout vec3 at, inout uvec2 bits)
 {
-    if (sdfgi_cells_is_set(bits, at)) {
-        at += sdfgi_cells_from_metric(eye) * SDFGI_CELLS_TOWARDS_EYE;
-        bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-        if (sdfgi_cells_is_set(bits, at)) {
-            if (!sdfgi_cells_step_out(cascade, bits, normal, eye, at))
-                return false;
-            bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-        }
-    }
-    return bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
+    if (!sdfgi_cells_is_set(bits, at))
+        return true;
+    at += sdfgi_cells_from_metric(eye) * SDFGI_CELLS_TOWARDS_EYE;
+    bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
+    if (!sdfgi_cells_is_set(bits, at))
+        return true;
+    const bool found = sdfgi_cells_step_out(cascade, bits, normal, eye, at);
+    bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
+    return found;
+}
+
+/* Moves a point to a place near it, if that is in the same cell, or in an empty one beyond an open face; or
+ * else as far as the point's cell goes. `open`: the faces by which the point may leave its cell; afterwards,
+ * by which it may leave that of the place. */
+void sdfgi_cells_move(vec3 place, uvec2 place_bits, inout vec3 at, inout uint open)
+{
+    const vec3 cell = floor(at), way = floor(place) - cell;
+    const float steps = dot(abs(way), vec3(1.0));
+    const uvec3 sides = uvec3(greaterThan(way, vec3(0.0))) | uvec3(lessThan(way, vec3(0.0))) << 1u;
+    const bool beyond =
+        steps == 1.0 && place_bits == uvec2(0u) && ((sides.x | sides.y << 2u | sides.z << 4u) & open) != 0u;
+    at = steps == 0.0 || beyond ? place : clamp(place, cell, cell + (1.0 - SDFGI_CELLS_INSIDE));
+    open = beyond ? SDFGI_CELLS_ALL_FACES : open;
 }
 
 /* ---- Interpolation */
@@ -194,11 +209,11 @@ struct sdfgi_cells_cage {
     float weights[8];
 };
 
-/* The light cells around a point in an empty cell. Those beyond an edge or a corner take part only if a light
- * cell that shares a face with the point's cell leads to them: others may be behind walls. All blocks are
- * loaded before any is looked at, and so are the surfaces afterwards: a load that waits for another one takes
- * most of the time of a lookup. */
-sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at)
+/* The light cells around a point. Those that share a face with the point's cell take part if that face is
+ * open, and those beyond an edge or a corner if one of them leads there: others may be behind walls. All
+ * blocks are loaded before any is looked at, and so are the surfaces afterwards: a load that waits for
+ * another one takes most of the time of a lookup. */
+sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at, uint open)
 {
     const ivec3 own = ivec3(floor(at));
     const vec3 off = at - vec3(own) - 0.5;
@@ -208,13 +223,15 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at)
     uint light = 0u; /* a bit per cell: it is a light cell */
     for (uint i = 0u; i < 8u; i++) {
         const uvec3 texel = mix(here, beside, bvec3(i & 1u, i & 2u, i & 4u));
-        const bool is_light = sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel,
-                                                      cage.entries[i]);
+        const bool is_light =
+            sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, cage.entries[i]);
         light |= is_light ? 1u << i : 0u;
     }
-    const uint faces = light & 0x16u, open = faces >> 1u & 3u | faces >> 2u & 4u;
+    const uvec3 sides = uvec3(open, open >> 2u, open >> 4u) >> uvec3(lessThan(off, vec3(0.0))) & 1u;
+    const uint faces = light & 0x16u,
+               ways = (faces >> 1u & 3u | faces >> 2u & 4u) & (sides.x | sides.y << 1u | sides.z << 2u);
     for (uint i = 0u; i < 8u; i++) {
-        const bool counts = (light >> i & 1u) != 0u && (bitCount(i) < 2 || (i & open) != 0u);
+        const bool counts = (light >> i & 1u) != 0u && (i == 0u || (i & ways) != 0u);
         const vec3 near = mix(1.0 - abs(off), abs(off), bvec3(i & 1u, i & 2u, i & 4u));
         cage.weights[i] = counts ? near.x * near.y * near.z + SDFGI_CELLS_LEAST_WEIGHT : 0.0;
         cage.entries[i] = counts ? cage.entries[i] : 0u;
@@ -241,9 +258,9 @@ vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal, uint wh
     return sum;
 }
 
-vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, uint what)
+vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, uint open, vec3 normal, bool around, uint what)
 {
-    const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, at);
+    const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, at, open);
     if (!around)
         return sdfgi_cells_along(cascade, cage, normal, what);
     vec4 sum = vec4(0.0);
@@ -257,18 +274,22 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, vec3 normal, bool around, ui
  * radiance, or irradiance over pi, times exposure. The weight is 0 if no light cell on the point's side of
  * the surface is near. `eye` leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
  *
- * A first try begins right above the surface. Where that finds nothing, in a niche or at a small thing,
- * others begin farther off and nearer to the viewer. A point in the air has no other places: what is near it
- * need not be on its side of a wall, and its normal may lead into one. But the surfaces around stand for one
- * that the air's cell does not know. */
+ * A surface point first reads around a place that moves as the point does, so that nothing jumps where
+ * surfaces are curved. What a ray hit does without: it is not looked at as closely. Where that finds nothing
+ * it tries the light cell that it leaves into, and in a niche or at a small thing places farther off and
+ * nearer to the viewer. A point in the air has no other places: what is near it need not be on its side of a
+ * wall, and its normal may lead into one. But the surfaces around stand for one that the air's cell does not
+ * know. */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
 {
     const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
                high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
-    const vec3 above = SDFGI_CELLS_OFF_SURFACE * sdfgi_frame.normal_bias * normal,
-               surface = clamp(pos, low, high);
-    vec3 at = clamp(pos + sdfgi_cells_from_metric(above), low, high);
-    const uvec2 surface_bits = sdfgi_cell_bits(cascade, ivec3(floor(surface)));
+    const vec3 off = sdfgi_cells_from_metric(sdfgi_frame.normal_bias * normal),
+               above = SDFGI_CELLS_OFF_SURFACE * off, surface = clamp(pos, low, high),
+               middle = clamp(pos + SDFGI_CELLS_MIDDLE * off, low, high);
+    vec3 at = clamp(pos + above, low, high);
+    const uvec2 surface_bits = sdfgi_cell_bits(cascade, ivec3(floor(surface))),
+                middle_bits = sdfgi_cell_bits(cascade, ivec3(floor(middle)));
     uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
     const bool at_surface = surface_bits != uvec2(0u);
     if (!at_surface && bits != uvec2(0u)) {
@@ -279,17 +300,25 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
     const uvec2 first_bits = bits;
     const int tries = at_surface ? SDFGI_CELLS_TRIES : 2;
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < tries; i++) {
-        if (sdfgi_cells_find_open(cascade, bits, normal, eye, at))
-            sum = sdfgi_cells_interpolate(cascade, at, normal, i > 0, what);
+    for (int i = at_surface && what == SDFGI_CELLS_ARRIVING ? -1 : 0; i < tries; i++) {
+        uint open = SDFGI_CELLS_ALL_FACES;
+        bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
+        if (found && i < 0) {
+            open = bits == uvec2(0u) ? open : sdfgi_cells_open_faces(bits, at);
+            sdfgi_cells_move(middle, middle_bits, at, open);
+        } else if (found) {
+            found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
+        }
+        if (found)
+            sum = sdfgi_cells_interpolate(cascade, at, open, normal, i > 0, what);
         if (sum.a > 0.0)
             break;
         at = first;
         bits = first_bits;
-        if (at_surface) {
+        if (at_surface && i >= 0) {
             const float place = float(i + 1);
             const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
-            at = clamp(pos + sdfgi_cells_from_metric((place + 1.0) * above + towards), low, high);
+            at = clamp(pos + sdfgi_cells_from_metric(towards) + (place + 1.0) * above, low, high);
             bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
         }
     }
