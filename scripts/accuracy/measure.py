@@ -23,7 +23,8 @@ OPTIONS = ("size", "frames", "ssaa", "spp", "error", "set", "finer")
 
 PARTS = ("picture", "indirect")
 
-# Of roughness: a ray over the lobe, a blend of that and irradiance, and irradiance alone (shaders/shared/constants.h).
+# Of roughness: a ray over the lobe, a blend of that and irradiance, and irradiance alone. The limits are the defaults of
+# sdfgi_reflection_blend and sdfgi_reflection_end.
 TIERS = {"sharp": (0, 0.5), "medium": (0.5, 0.75), "rough": (0.75, 2)}
 
 # A tier that fewer pixels show than this share says nothing.

@@ -31,6 +31,11 @@ mat4 picture_to_position()
                 args.inverse_view_projection[2], args.inverse_view_projection[3]);
 }
 
+bool picture_contains(ivec2 pixel)
+{
+    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(args.width, args.height)));
+}
+
 vec2 picture_ndc(ivec2 pixel)
 {
     return (vec2(pixel) + 0.5) / vec2(args.width, args.height) * 2.0 - 1.0;

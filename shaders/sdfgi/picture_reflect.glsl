@@ -67,8 +67,7 @@ ivec2 picture_listed(uint i)
 bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
 {
     roughness = 1.0;
-    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= int(args.width) || pixel.y >= int(args.height) ||
-        !picture_surface_at(pixel, s))
+    if (!picture_contains(pixel) || !picture_surface_at(pixel, s))
         return false;
     roughness = picture_roughness(pixel);
     return sdfgi_reflection_ray_share(roughness) > 0.0;

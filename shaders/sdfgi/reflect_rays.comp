@@ -67,17 +67,12 @@ float facet_share(picture_surface s, float roughness, vec3 dir)
     return is_metal(s) ? 1.0 : share;
 }
 
-bool is_inside(ivec2 pixel)
-{
-    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(args.width, args.height)));
-}
-
 /* From a point to the surface of another pixel; far away if there is none. */
 vec3 way_to(ivec2 pixel, vec3 pos)
 {
     vec4 position = vec4(0.0);
-    return is_inside(pixel) && picture_position(pixel, position) ? position.xyz / position.w - pos
-                                                                 : vec3(1e25);
+    return picture_contains(pixel) && picture_position(pixel, position) ? position.xyz / position.w - pos
+                                                                        : vec3(1e25);
 }
 
 /* Along a surface, to that of one of two neighbouring pixels: to the nearer one, as edges lie farther off.
@@ -86,8 +81,8 @@ vec3 tangent(ivec2 pixel, ivec2 step, vec3 pos, inout bool even)
 {
     const vec3 next = way_to(pixel + step, pos), last = way_to(pixel - step, pos), bend = next + last;
     const float next2 = dot(next, next), last2 = dot(last, last);
-    even = even && (dot(bend, bend) < EVEN * min(next2, last2) || !is_inside(pixel + step) ||
-                    !is_inside(pixel - step));
+    even = even && (dot(bend, bend) < EVEN * min(next2, last2) || !picture_contains(pixel + step) ||
+                    !picture_contains(pixel - step));
     return next2 <= last2 ? next : -last;
 }
 

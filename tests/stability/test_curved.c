@@ -15,9 +15,7 @@ static const double center[3] = { 0.07, -0.04, 0.11 };
 /* A black ball between a panel that glows and a dark sky. */
 static void build(struct gi_test *t, double radius)
 {
-    struct sdfgi_settings settings = light_settings(32, 0.25f);
-    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
-    settings.cell_rays_per_frame = 1 << 20;
+    const struct sdfgi_settings settings = light_cell_settings(32, 0.25f);
     gi_test_restart(t, &settings);
     light_add(t, test_mesh_sphere(center, radius, 5), 0, 0);
     light_add_box(t, (double[]){ 1.5, -2, -2 }, (double[]){ 2, 2, 2 }, (float[]){ 0, 0, 0 }, 1);

@@ -17,20 +17,12 @@ enum { POINTS = 6, FRAMES = 40 };
 
 enum wall { WALL_BLACK, WALL_MIRROR, WALL_MATT, WALL_ABSENT };
 
-static struct sdfgi_settings cell_settings(float cell_m)
-{
-    struct sdfgi_settings settings = light_settings(64, cell_m);
-    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
-    settings.cell_rays_per_frame = 1 << 20;
-    return settings;
-}
-
 /* A black floor between a wall at x < 0 and a panel that glows at x = 2; without the wall, the panel's image
  * glows at x = -2. */
 static void build(struct gi_test *t, enum wall wall)
 {
     static const float black[3] = { 0, 0, 0 };
-    const struct sdfgi_settings settings = cell_settings(0.125f);
+    const struct sdfgi_settings settings = light_cell_settings(64, 0.125f);
     gi_test_restart(t, &settings);
     light_add_box(t, (double[]){ -0.5, -1, -0.5 }, (double[]){ 2, 0, 1 }, black, 0);
     light_add_box(t, (double[]){ 2, 0, -1 }, (double[]){ 2.5, 1, 1 }, black, 1);
@@ -119,7 +111,7 @@ static void a_ball_of_metal_is_dark_inside(void **state)
     struct gi_test *t = *state;
     struct gi_test_point points[4];
     float found[4][3];
-    const struct sdfgi_settings settings = cell_settings(0.25f);
+    const struct sdfgi_settings settings = light_cell_settings(64, 0.25f);
     gi_test_restart(t, &settings);
     light_add_metal(t, test_mesh_sphere((double[]){ 0.07, -0.04, 0.11 }, 0.625, 4), 1, 1);
     light_set_uniform_sky(t, 1e4f);

@@ -50,6 +50,14 @@ struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m)
     return s;
 }
 
+struct sdfgi_settings light_cell_settings(uint32_t resolution, float cell_m)
+{
+    struct sdfgi_settings s = light_settings(resolution, cell_m);
+    s.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    s.cell_rays_per_frame = 1 << 20;
+    return s;
+}
+
 sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo, float emission)
 {
     const float a[3] = { albedo, albedo, albedo }, e[3] = { emission, emission, emission };

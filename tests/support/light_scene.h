@@ -17,6 +17,9 @@ struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
  * SDFGI_TEST_FULL=1 as many as by default. */
 struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m);
 
+/* light_settings for light cells that gather for themselves, all of them in each frame. */
+struct sdfgi_settings light_cell_settings(uint32_t resolution, float cell_m);
+
 sdfgi_instance light_add(struct gi_test *t, struct test_mesh mesh, float albedo, float emission);
 /* Of metal. With a smoothness of 0 it counts as diffuse. */
 sdfgi_instance light_add_metal(struct gi_test *t, struct test_mesh mesh, float albedo, float smoothness);
