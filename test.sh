@@ -66,7 +66,8 @@ choose_lavapipe
 export CMOCKA_MESSAGE_OUTPUT=TAP SDFGI_VALIDATION=1
 unset CMOCKA_XML_FILE
 # Meson has glibc fill what is allocated and freed. That is device memory, too, with a software driver: it takes
-# a tenth of the time. Contexts of a test reuse memory that is full of other values anyway.
+# a tenth of the time. Contexts of a test reuse memory that is full of other values anyway. With --full the
+# programs of the default suites have it filled.
 [ "$full" = true ] || export MALLOC_PERTURB_=0
 # What is freed stays with the program, in huge pages: a software driver's memory is then mapped once. Without it
 # the system takes up to a fifth of the time.

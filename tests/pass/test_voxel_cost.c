@@ -171,8 +171,7 @@ static uint32_t count_or(uint32_t some)
 {
     const struct sdfgi_settings settings = gi_test_settings();
     gi_test_renew(&pass_context, &settings);
-    const bool is_slow = pass_context.gpu.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    return is_slow && !getenv("SDFGI_TEST_FULL") ? some : 1000000;
+    return gpu_test_is_software(&pass_context.gpu) && !getenv("SDFGI_TEST_FULL") ? some : 1000000;
 }
 
 /* Copies of one triangle, each at its own place: half as large as a block of 2^3 cells. */

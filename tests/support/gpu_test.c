@@ -311,10 +311,14 @@ void gpu_test_require_silence(struct gpu_test *gpu)
     require_silence(gpu_test_take_messages(gpu));
 }
 
+bool gpu_test_is_software(const struct gpu_test *gpu)
+{
+    return gpu->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
 uint32_t gpu_test_repeats(const struct gpu_test *gpu, uint32_t count)
 {
-    const bool is_software = gpu->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    return is_software ? (count + 7) / 8 : count;
+    return gpu_test_is_software(gpu) ? (count + 15) / 16 : count;
 }
 
 void gpu_test_close(struct gpu_test *gpu)

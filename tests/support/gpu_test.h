@@ -70,7 +70,10 @@ bool gpu_test_available(void);
  * NULL for a device without any. */
 void gpu_test_open(struct gpu_test *gpu, gpu_test_requirements_fn requirements);
 
-/* How often suite `full` repeats what it asks for `count` times on a GPU: an eighth of that on a software
+/* True for a driver that has the processor do all work. */
+bool gpu_test_is_software(const struct gpu_test *gpu);
+
+/* How often suite `full` repeats what it asks for `count` times on a GPU: a sixteenth of that on a software
  * driver, where all of it would take hours. */
 uint32_t gpu_test_repeats(const struct gpu_test *gpu, uint32_t count);
 

@@ -45,8 +45,7 @@ struct sdfgi_settings light_settings(uint32_t resolution, float cell_m)
 struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m)
 {
     struct sdfgi_settings s = light_settings(resolution, cell_m);
-    if (!getenv("SDFGI_TEST_FULL"))
-        s.cell_rays = 64;
+    s.cell_rays = getenv("SDFGI_TEST_FULL") ? 128 : 64;
     return s;
 }
 

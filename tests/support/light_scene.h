@@ -13,8 +13,8 @@ int light_close(void **state);
 
 /* Settles in few frames: a cycle of 500 samples in 4 frames. */
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
-/* The same with 64 rays per surface of a light cell, for light that may be a little noisy. With
- * SDFGI_TEST_FULL=1 as many as by default. */
+/* The same with 64 rays per surface of a light cell, or 128 with SDFGI_TEST_FULL=1, for light that may be a
+ * little noisy. */
 struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m);
 
 /* light_settings for light cells that gather for themselves, all of them in each frame. */
