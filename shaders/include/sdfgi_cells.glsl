@@ -73,8 +73,10 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
 {
     const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces[index];
 #ifdef SDFGI_REFLECTIONS
-    if (what == SDFGI_CELLS_LEAVING)
-        return arriving == SDFGI_SURFACE_NONE ? vec4(0.0) : vec4(sdfgi_rgbe_decode(sdfgi_light[index]), 1.0);
+    if (what == SDFGI_CELLS_LEAVING) {
+        const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light[index]);
+        return arriving == SDFGI_SURFACE_NONE ? vec4(0.0) : vec4(leaving, 1.0);
+    }
 #endif
     return arriving < SDFGI_SURFACE_UNKNOWN ? vec4(sdfgi_rgbe_decode(arriving), 1.0) : vec4(0.0);
 }

@@ -71,17 +71,25 @@ vec4 sdfgi_lookup(sdfgi_lookup_query query)
     vec3 result = vec3(0.0);
     float rest = 1.0;    /* weight that the cascades so far have left */
     float outside = 1.0; /* weight of what lies beyond the last cascade */
-    for (uint c = 0u; c < sdfgi_frame.cascade_count && rest > 0.0; c++) {
-        const vec3 pos = sdfgi_cascade_from_first(c, query.pos);
-        const float weight = sdfgi_lookup_cascade_weight(c, pos);
+    uint c = 0u;
+    /* In a round, the next cascade around the point answers, which may be another one for other threads. */
+    for (;;) {
+        vec3 pos = query.pos;
+        float weight = 0.0;
+        for (; c < sdfgi_frame.cascade_count && weight <= 0.0; c++) {
+            pos = sdfgi_cascade_from_first(c, query.pos);
+            weight = sdfgi_lookup_cascade_weight(c, pos);
+        }
         if (weight <= 0.0)
-            continue;
+            break;
         outside *= 1.0 - weight;
-        const vec4 light = sdfgi_lookup_cascade(c, pos, query);
-        if (light.a <= 0.0)
-            continue;
-        result += rest * weight * light.rgb / light.a;
-        rest *= 1.0 - weight;
+        const vec4 light = sdfgi_lookup_cascade(c - 1u, pos, query);
+        if (light.a > 0.0) {
+            result += rest * weight * light.rgb / light.a;
+            rest *= 1.0 - weight;
+        }
+        if (rest <= 0.0)
+            break;
     }
     const vec3 sky = outside > 0.0 ? sdfgi_sky_around(query.normal) : vec3(0.0);
     /* What no cascade has answered, although it lies within one, is not outside: the others stand for it. */
