@@ -128,7 +128,7 @@ static const struct row rows[] = {
     RECREATE(cell_rays, "sdfgi_cell_rays", INT, 512, 16, 2048, "rays per surface", "",
         "less noise between neighbouring light cells", "frames until light has settled, in proportion",
         "Rays that a light cell sends for each of its surfaces in a gather cycle. Every cycle repeats the "
-        "same directions."),
+        "same directions. A cell that sdfgi_gather shows goes on to four times as many, at most 2048."),
     LIVE(cell_rays_per_frame, "sdfgi_cell_rays_per_frame", INT, 131072, 1024, 16777216, "rays", "",
         "light on surfaces that follows changes sooner", "tracing time in proportion",
         "Rays that light cells send in a frame, until light has converged. Near cascades get most of them. "

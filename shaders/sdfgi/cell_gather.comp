@@ -15,7 +15,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
 #include "emitters.glsl"
-#include "gathered.glsl"
+#include "gather_cycle.glsl"
 #include "metal.glsl"
 #include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
@@ -47,7 +47,7 @@ struct ray_source {
     uint own;         /* its cell's index in `cells` */
     vec3 pos, normal; /* pos: in the open, within the cell and close to the surface */
     vec3 surface;     /* where the surface is: on the faces of its sub-voxels, in the mean */
-    uint visits;      /* so far in this cycle */
+    uint visits;      /* before this one in the sequence of rays */
     uint shift;       /* of its random sequences */
 };
 
@@ -68,7 +68,8 @@ ray_source source_of(uint cascade, uint surface)
                 depth = clamp(distance - 0.5 / float(SDFGI_SUBVOXELS), 0.5, 1.0);
     const vec3 centre = vec3(cell) + 0.5, towards = -vec3(sdfgi_axis_direction(axis));
     return ray_source(own, centre + towards * clamp(distance - RAY_CLEARANCE, 0.0, 0.49),
-                      surface_normal(block, axis), centre + towards * depth, states[own].visits, shift);
+                      surface_normal(block, axis), centre + towards * depth,
+                      gather_cycle_visits_before(states[own]), shift);
 }
 
 /* ---- Emitters */
@@ -306,44 +307,10 @@ gathered_light load_light(uint cascade, uint entry, uint axis)
     return light;
 }
 
-/* Difference of two colours over the brighter one, at most 1. */
-float relative_change(vec3 a, vec3 b)
+/* The gather cycle of a cell that the workgroup visits. */
+gather_cycle cycle_of(uint cascade, uint own)
 {
-    const vec3 difference = abs(a - b), larger = max(a, b);
-    const float most = max(difference.r, max(difference.g, difference.b));
-    return min(most / (max(larger.r, max(larger.g, larger.b)) + sdfgi_frame.dark), 1.0);
-}
-
-/* Visits in a cycle of a cell. Seen cells, where they are visited more often than others, need no second
- * rough cycle. */
-uint cycle_of(uint cascade, uint own)
-{
-    const bool seen_first = sdfgi_frame.cascades[cascade].seen_first < sdfgi_frame.cascades[cascade].seen_end;
-    const bool is_ahead =
-        seen_first && states[own].mean >= GATHERED_FIRST && seen_holds(cascade, entries[own]);
-    return is_ahead ? sdfgi_frame.cycle_visits : args.visits[cascade];
-}
-
-/* True if this visit is the last one of a cell's cycle. */
-bool ends_cycle(uint cascade, uint own)
-{
-    return states[own].visits + 1u >= cycle_of(cascade, own);
-}
-
-/* What a cell's mean is at the end of a cycle. */
-uint mean_after(uint cascade, uint own)
-{
-    if (cycle_of(cascade, own) >= sdfgi_frame.cycle_visits)
-        return GATHERED_COMPLETE;
-    return states[own].mean < GATHERED_FIRST ? GATHERED_FIRST : GATHERED_ROUGH;
-}
-
-/* True if the mean that the end of this cycle makes takes the place of one of as many visits. */
-bool follows_its_like(uint cascade, uint own)
-{
-    const uint before = states[own].mean, after = mean_after(cascade, own);
-    return after == GATHERED_COMPLETE ? before == after
-                                      : before == GATHERED_FIRST || before == GATHERED_ROUGH;
+    return gather_cycle_of(cascade, entries[own], states[own], args.visits[cascade]);
 }
 
 const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half floats */
@@ -358,20 +325,22 @@ void add_visit(uint cascade, uint surface, vec4 light)
         sdfgi_light_luminance(states[own].mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
         sdfgi_frame.dark;
     atomicMax(noises[own], floatBitsToUint(min(light.a / (shown * shown), MOST_NOISE)));
-    if (ends_cycle(cascade, own)) {
+    const gather_cycle cycle = cycle_of(cascade, own);
+    if (cycle.ends) {
         const vec3 mean = gathered_mean(states[own], gathered.sum, states[own].visits + 1u);
-        const float change = follows_its_like(cascade, own) ? relative_change(mean, gathered.mean) : 1.0;
-        atomicMax(changes[own], floatBitsToUint(change));
+        atomicMax(changes[own],
+                  floatBitsToUint(gather_cycle_change(cycle, states[own], mean, gathered.mean)));
         atomicMax(lights[own], floatBitsToUint(sdfgi_light_luminance(mean)));
         gathered = gathered_light(vec3(0.0), mean);
     }
     gathered_store(cascade, entry, axis, gathered);
 }
 
-/* Tells how far the light of a cell has changed since its last mark. Returns the next one. */
+/* Tells how far the light of a cell has changed since its last mark. Returns the next one. Long cycles end
+ * too seldom to have marks. */
 uint next_mark(uint cascade, uint own)
 {
-    if ((args.marks >> cascade & 1u) == 0u)
+    if ((args.marks >> cascade & 1u) == 0u || states[own].mean >= GATHERED_GOES_ON)
         return states[own].mark;
     const uint mark = gathered_mark(uintBitsToFloat(lights[own]));
     atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_DRIFT + cascade)],
@@ -382,13 +351,14 @@ uint next_mark(uint cascade, uint own)
 void end_visit(uint cascade, uint own)
 {
     gathered_state state = states[own];
+    const gather_cycle cycle = cycle_of(cascade, own);
     const gathered_noise noise = gathered_load_noise(cascade, entries[own]);
-    gathered_store_noise(
-        cascade, entries[own],
-        gathered_add_noise(state, noise, uintBitsToFloat(noises[own]), ends_cycle(cascade, own)));
+    gathered_store_noise(cascade, entries[own],
+                         gathered_add_noise(state, noise, uintBitsToFloat(noises[own]), cycle.ends));
     state.visits++;
-    if (ends_cycle(cascade, own))
-        state = gathered_state(0u, mean_after(cascade, own), state.epoch, next_mark(cascade, own));
+    if (cycle.ends)
+        state = gathered_state(0u, gather_cycle_mean(cycle, states[own], uintBitsToFloat(changes[own])),
+                               state.epoch, next_mark(cascade, own));
     gathered_store_state(cascade, entries[own], state);
     if (changes[own] != 0u)
         atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_CHANGE + cascade)], changes[own]);

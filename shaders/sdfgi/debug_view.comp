@@ -117,7 +117,7 @@ float confidence(gathered_state state)
 {
     const float cycle = float(sdfgi_frame.cycle_visits), rough = gathered_worth(state),
                 visits = float(state.visits);
-    if (state.mean == GATHERED_COMPLETE)
+    if (state.mean >= GATHERED_COMPLETE)
         return 1.0;
     return state.mean >= GATHERED_FIRST ? (visits + rough) / (cycle + rough) : visits / cycle;
 }
@@ -180,10 +180,10 @@ vec3 view_of_cell(surface_hit hit, float shade)
     case SDFGI_SHADER_DEBUG_LEAKS:
         return leaks(hit);
     }
-    return shade * (changed                           ? DEBUG_RED
-                    : state.mean == GATHERED_NOTHING  ? DEBUG_ORANGE
-                    : state.mean != GATHERED_COMPLETE ? DEBUG_YELLOW
-                                                      : DEBUG_GREY);
+    return shade * (changed                          ? DEBUG_RED
+                    : state.mean == GATHERED_NOTHING ? DEBUG_ORANGE
+                    : state.mean < GATHERED_COMPLETE ? DEBUG_YELLOW
+                                                     : DEBUG_GREY);
 }
 
 /* ---- Views of surfaces */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * What light cells have gathered with rays of their own. A visit sends SDFGI_VISIT_RAYS rays from a cell for
  * each axis along which a surface faces; a gather cycle is so many visits. Every cycle repeats the directions
- * of the one before, so what a static scene gathers converges exactly. Per axis a cell has two values:
+ * of the one before, so what a static scene gathers converges exactly. A long cycle has four times as many as
+ * a complete one (gather_cycle.glsl). Per axis a cell has two values:
  *
  * S  Once a cycle has been completed, the sum of this cycle's visits so far. In the first cycle of a new
  *    cell, a mean of the visits so far, in which later ones count more, because they see more bounces.
@@ -9,9 +10,10 @@
  *
  * A cell shows P once a cycle has been completed. It does not show S then, because the rays of a part of a
  * cycle have another mean than all of them even while the light stays the same. Only where P is the mean of a
- * rough cycle S is mixed in: at once if that was a first one, or else once it holds as many visits. In its
- * first cycle, and in the first one after the lights have changed, a cell shows S; a new cell shows what
- * probes tell before its first visit. */
+ * rough cycle S is mixed in: at once if that was a first one, or else once it holds as many visits. In the
+ * first long cycle it is mixed in at once, because its rays are others than those of P. In its first cycle,
+ * and in the first one after the lights have changed, a cell shows S; a new cell shows what probes tell
+ * before its first visit. */
 #ifndef SDFGI_GATHERED_GLSL
 #define SDFGI_GATHERED_GLSL
 
@@ -21,7 +23,7 @@
 /* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
  * S and P, 48 bits each (lib/rgb48.glsl); the packed gathered_state; and per axis the irradiance before it is
  * filtered, and between the two runs of the filter, as the surfaces' of sdfgi_resources.glsl; and its noise.
- * Sums count a visit as 1 / sdfgi_frame.cycle_visits. Behind them stand the counters from
+ * Sums count a visit as 1 / gathered_long_visits(). Behind them stand the counters from
  * SDFGI_COUNTER_GATHER on. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
 {
@@ -44,10 +46,14 @@ const uint GATHERED_OUTDATED = 1u; /* what the cell showed before the lights cha
 const uint GATHERED_FIRST = 2u;    /* the mean of a first cycle that was rough */
 const uint GATHERED_ROUGH = 3u;    /* the mean of a later rough cycle */
 const uint GATHERED_COMPLETE = 4u; /* the mean of a complete cycle */
+const uint GATHERED_GOES_ON = 5u;  /* that, too, and the first long cycle is under way */
+const uint GATHERED_LONG = 6u;     /* the mean of a long cycle */
+
+const uint GATHERED_MOST_VISITS = 128u; /* in a cycle */
 
 struct gathered_state {
-    uint visits; /* in this cycle, at most 127 */
-    uint mean;   /* GATHERED_NOTHING to _COMPLETE */
+    uint visits; /* in this cycle, less than GATHERED_MOST_VISITS */
+    uint mean;   /* GATHERED_NOTHING to _LONG */
     uint epoch;  /* of the lights that S and P belong to; 8 bits */
     uint mark;   /* P when it was last marked, as gathered_mark tells; 14 bits */
 };
@@ -56,6 +62,12 @@ struct gathered_state {
 bool gathers()
 {
     return sdfgi_frame.cycle_visits > 0u;
+}
+
+/* Visits in a long cycle. */
+uint gathered_long_visits()
+{
+    return min(4u * sdfgi_frame.cycle_visits, GATHERED_MOST_VISITS);
 }
 
 /* Word `plane` of an entry. */
@@ -109,11 +121,25 @@ void gathered_store_noise(uint cascade, uint entry, gathered_noise noise)
         (floatBitsToUint(noise.shown) & 0xffff0000u) | packHalf2x16(vec2(noise.sum, 0.0));
 }
 
+/* How many visits P is worth where S is mixed in. */
+float gathered_worth(gathered_state state)
+{
+    return state.mean == GATHERED_FIRST   ? GATHERED_FIRST_VISITS
+           : state.mean == GATHERED_ROUGH ? float(SDFGI_ROUGH_VISITS)
+                                          : float(sdfgi_frame.cycle_visits);
+}
+
+/* True if each visit makes what the cell shows better. */
+bool gathered_mixes(gathered_state state)
+{
+    return state.mean == GATHERED_FIRST || state.mean == GATHERED_GOES_ON;
+}
+
 /* Noise of one visit in a first cycle, whatever its rays found: rays that would have found more may come. */
 const float GATHERED_NOISE_OF_VISIT = 0.5;
 
 /* Noise after a visit that found `found`; `state` is the one before it. In a first cycle the last two visits
- * count most. After it each visit adds to its mean. */
+ * count most. After it each visit adds to its mean, as in a first long cycle. */
 gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, float found, bool ends_cycle)
 {
     const float visits = float(state.visits + 1u);
@@ -122,8 +148,8 @@ gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, fl
         noise.shown = noise.sum / visits / (state.mean < GATHERED_FIRST ? GATHERED_FIRST_VISITS : visits);
     else if (state.mean < GATHERED_FIRST)
         noise.shown = GATHERED_NOISE_OF_VISIT / min(visits, 2.0);
-    else if (state.mean == GATHERED_FIRST)
-        noise.shown *= 1.0 - 1.0 / (visits + GATHERED_FIRST_VISITS);
+    else if (gathered_mixes(state))
+        noise.shown *= 1.0 - 1.0 / (visits + gathered_worth(state));
     return noise;
 }
 
@@ -167,12 +193,6 @@ void gathered_store(uint cascade, uint entry, uint axis, gathered_light light)
     sdfgi_gathered[word + 2u * plane] = mean.x;
 }
 
-/* How many visits the mean of a rough cycle is worth. */
-float gathered_worth(gathered_state state)
-{
-    return state.mean == GATHERED_FIRST ? GATHERED_FIRST_VISITS : float(SDFGI_ROUGH_VISITS);
-}
-
 /* The irradiance that a cell shows along an axis. `prior` is what probes tell, with its weight, 0 or 1, in a.
  * False if there is nothing to tell. */
 bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 prior, out vec3 light)
@@ -181,8 +201,8 @@ bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 pri
     if (state.mean == GATHERED_OUTDATED && state.visits > 0u)
         light = gathered.sum;
     const float worth = gathered_worth(state);
-    if (state.mean == GATHERED_FIRST || state.mean == GATHERED_ROUGH && float(state.visits) >= worth)
-        light = (gathered.sum * float(sdfgi_frame.cycle_visits) + gathered.mean * worth) /
+    if (gathered_mixes(state) || state.mean == GATHERED_ROUGH && float(state.visits) >= worth)
+        light = (gathered.sum * float(gathered_long_visits()) + gathered.mean * worth) /
                 (float(state.visits) + worth);
     if (state.mean != GATHERED_NOTHING)
         return true;
@@ -196,7 +216,7 @@ bool gathered_irradiance(gathered_state state, gathered_light gathered, vec4 pri
 vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
 {
     if (state.mean >= GATHERED_FIRST)
-        return gathered.sum + light / float(sdfgi_frame.cycle_visits);
+        return gathered.sum + light / float(gathered_long_visits());
     const float before =
         float(state.visits) + (state.mean == GATHERED_OUTDATED ? GATHERED_PRIOR_VISITS : 0.0);
     return mix(state.visits == 0u ? gathered.mean : gathered.sum, light,
@@ -206,7 +226,7 @@ vec3 gathered_add(gathered_state state, gathered_light gathered, vec3 light)
 /* The mean of a cycle that ends with this S, after so many visits. */
 vec3 gathered_mean(gathered_state state, vec3 sum, uint visits)
 {
-    return state.mean >= GATHERED_FIRST ? sum * (float(sdfgi_frame.cycle_visits) / float(visits)) : sum;
+    return state.mean >= GATHERED_FIRST ? sum * (float(gathered_long_visits()) / float(visits)) : sum;
 }
 
 #endif

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Light cells that a gathered picture reads are visited more often than others. */
+ * Light cells that a gathered picture reads are visited more often than others, and gather more rays. */
 #include "gather_picture.h"
+#include "light_scene.h"
 #include "require.h"
 #include "test_group.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { FRAMES = 60, STATE_PLANE = 18, FIRST = 2 };
+enum { FRAMES = 60, STATE_PLANE = 18, FIRST = 2, LONG = 6 };
 
 static void open_ground(struct gi_test *t, struct picture_scene *scene)
 {
@@ -35,7 +37,7 @@ static const struct picture_camera above = { .position = { 0.4, 1.5, 0.3 },
                                              .near_m = 0.05 };
 
 struct progress {
-    uint32_t cells, complete; /* light cells, and those with a complete cycle */
+    uint32_t cells, complete, after_long; /* light cells, those with a complete cycle, and with a long one */
 };
 
 /* Of the cells that are seen, [1], and of those that are not, [0]. */
@@ -49,12 +51,78 @@ static void read_progress(struct gi_test *t, struct progress found[static 2])
         struct progress *p = &found[seen[i / 32] >> (i % 32) & 1];
         p->cells++;
         p->complete += (gathered[STATE_PLANE * room + i] >> 7 & 7) >= FIRST;
+        p->after_long += (gathered[STATE_PLANE * room + i] >> 7 & 7) == LONG;
         marked += seen[i / 32] >> (i % 32) & 1;
     }
     REQUIRE_CMP(counters[SDFGI_COUNTER_CELLS_SEEN], ==, marked);
     free(counters);
     free(seen);
     free(gathered);
+}
+
+/* The sun shines on a box beside the ground that the picture shows, and few rays find it. */
+static void add_sunlit_box(struct gi_test *t)
+{
+    const struct sdfgi_light_desc sun = light_sun(0.9f, -0.4f, 0.1f, 100);
+    light_add_box(t, (double[]){ 1.9, -1.5, -0.1 }, (double[]){ 2.6, 0.2, 0.6 },
+                  (float[]){ 0.9f, 0.9f, 0.9f }, 0);
+    light_create(t, &sun);
+}
+
+enum { SIDE = 64, PIXELS = SIDE * SIDE };
+
+static void look(struct gi_test *t, const struct picture *picture, float light[static PIXELS])
+{
+    float(*found)[3] = picture_gather(t, picture, SDFGI_GATHER_FULL);
+    for (int i = 0; i < PIXELS; i++)
+        light[i] = found[i][1];
+    free(found);
+}
+
+/* Root of the mean square of the difference, over the mean. */
+static double difference(const float a[static PIXELS], const float b[static PIXELS])
+{
+    double sum = 0, squares = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        sum += (double)b[i] / PIXELS;
+        squares += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]) / PIXELS;
+    }
+    return sqrt(squares) / sum;
+}
+
+/* Against 2,048 rays a surface, after three cycles and after some long ones. */
+static void seen_cells_gather_four_times_the_rays(void **state)
+{
+    (void)state;
+    enum { SOON = FRAMES / 2, LATE = 3 * FRAMES };
+    static float soon[PIXELS], late[PIXELS], exact[PIXELS];
+    struct gi_test t;
+    struct picture_scene scene;
+    struct progress found[2] = { { 0 } };
+    open_ground(&t, &scene);
+    add_sunlit_box(&t);
+    const struct picture picture = picture_draw(&scene, &above, SIDE, SIDE);
+    for (int i = 0; i < LATE; i++) {
+        gi_test_update(&t, 1);
+        look(&t, &picture, i < SOON ? soon : late);
+    }
+    read_progress(&t, found);
+    struct sdfgi_settings settings = t.gi->settings;
+    settings.cell_rays = 2048;
+    settings.cell_rays_per_frame = 1 << 20;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
+    gi_test_converge(&t, 1000);
+    look(&t, &picture, exact);
+    const double before = difference(soon, exact), after = difference(late, exact);
+    printf(
+        "%u of %u cells that are seen have completed a long cycle, and %u of %u others; light is off by %.4f "
+        "after %d frames and by %.4f after %d\n",
+        found[1].after_long, found[1].cells, found[0].after_long, found[0].cells, before, SOON, after, LATE);
+    REQUIRE_CMP(found[1].after_long, >=, found[1].cells * 9 / 10);
+    REQUIRE_CMP(found[0].after_long, ==, 0u);
+    REQUIRE_CMP(after, <=, 0.53 * before);
+    picture_scene_finish(&scene);
+    gi_test_close(&t);
 }
 
 static void what_a_picture_shows_is_visited_first(void **state)
@@ -88,6 +156,7 @@ TEST_GROUP(gather_seen)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_a_picture_shows_is_visited_first),
+        cmocka_unit_test(seen_cells_gather_four_times_the_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
