@@ -29,7 +29,7 @@ void scroll_use_cells(struct sdfgi_settings *settings, uint32_t visits)
 {
     settings->surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings->cell_rays_per_frame = scroll_is_full() ? 1 << 22 : 1 << 15;
-    settings->cell_rays = visits * SDFGI_VISIT_RAYS * (scroll_is_full() ? 4 : 1);
+    settings->cell_rays = visits * SDFGI_VISIT_RAYS * (scroll_is_full() ? 2 : 1);
 }
 
 static void add_boxes(struct gi_test *t, const double center[static 3], double reach)

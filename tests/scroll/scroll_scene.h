@@ -12,8 +12,8 @@ uint32_t scroll_resolution(void);
 
 /* Two cascades of `resolution` cells, 0.25 m, that settle in few frames. */
 struct sdfgi_settings scroll_settings(uint32_t resolution);
-/* Light cells gather for themselves. All are visited in each frame, and a cycle has so few visits, or four
- * times as many in suite `full`: with one, what cells show is steady at once; with more, neighbours differ
+/* Light cells gather for themselves. All are visited in each frame, and a cycle has so few visits, or twice
+ * as many in suite `full`: with one, what cells show is steady at once; with more, neighbours differ
  * less. */
 void scroll_use_cells(struct sdfgi_settings *settings, uint32_t visits);
 
