@@ -142,7 +142,7 @@ static void hard_54_a_furnace_reads_the_same_in_all_cascades(void **state)
 static void hard_54_thin_walls_too(void **state)
 {
     (void)state;
-    furnace_walk(2.5, 0.1, -0.41, 128);
+    furnace_walk(2.5, 0.1, -0.41, 64);
     if (scroll_is_full()) /* light that swung for ever */
         furnace_walk(2.5, 0.1, -0.71, 128);
 }
