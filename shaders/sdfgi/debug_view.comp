@@ -122,6 +122,13 @@ float confidence(gathered_state state)
     return state.mean >= GATHERED_FIRST ? (visits + rough) / (cycle + rough) : visits / cycle;
 }
 
+/* Visits so far over those of a complete cycle, or of a long one. */
+float age(gathered_state state)
+{
+    const uint cycle = state.mean >= GATHERED_GOES_ON ? gathered_long_visits() : sdfgi_frame.cycle_visits;
+    return float(state.visits) / float(cycle);
+}
+
 float visible_share(surface_hit hit)
 {
     const vec3 pos = vec3(hit.cell) + 0.5;
@@ -173,8 +180,7 @@ vec3 view_of_cell(surface_hit hit, float shade)
     case SDFGI_SHADER_DEBUG_CONFIDENCE:
         return gathers() ? shade * debug_red_to_green(confidence(state)) : DEBUG_UNKNOWN;
     case SDFGI_SHADER_DEBUG_AGE:
-        return gathers() ? shade * debug_blue_to_red(float(state.visits) / float(sdfgi_frame.cycle_visits))
-                         : DEBUG_UNKNOWN;
+        return gathers() ? shade * debug_blue_to_red(age(state)) : DEBUG_UNKNOWN;
     case SDFGI_SHADER_DEBUG_VISIBILITY:
         return shade * debug_red_to_green(visible_share(hit));
     case SDFGI_SHADER_DEBUG_LEAKS:
