@@ -39,7 +39,7 @@ struct gpu_test_messages {
 /* The pipeline of the last shader that gpu_test_compute ran: compiling takes much longer than running. */
 struct gpu_test_pipeline {
     const uint32_t *code;
-    VkDescriptorSetLayout given;      /* of set 0, by the caller; null: none */
+    bool given;                       /* the caller gave a layout of set 0 */
     VkDescriptorSetLayout layouts[2]; /* of sets 0 and 1 */
     VkPipelineLayout layout;
     VkPipeline pipeline;

@@ -32,7 +32,7 @@ static void pipeline_create(struct gpu_test *gpu, const struct gpu_test_shader *
 {
     struct gpu_test_pipeline *kept = &gpu->kept;
     kept->code = shader->code;
-    kept->given = shader->layout;
+    kept->given = shader->layout != VK_NULL_HANDLE;
     kept->layouts[0] = shader->layout ? shader->layout : set_layout_create(gpu, 0);
     kept->layouts[1] = set_layout_create(gpu, 1);
     const VkPushConstantRange push = { VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(uint32_t) };
@@ -118,7 +118,7 @@ void gpu_test_compute_forget(struct gpu_test *gpu)
 void gpu_test_compute(struct gpu_test *gpu, const struct gpu_test_shader *shader, uint32_t count, void *data,
                       size_t size)
 {
-    if (gpu->kept.code != shader->code || gpu->kept.given != shader->layout) {
+    if (gpu->kept.code != shader->code || gpu->kept.given != (shader->layout != VK_NULL_HANDLE)) {
         gpu_test_compute_forget(gpu);
         pipeline_create(gpu, shader);
     }

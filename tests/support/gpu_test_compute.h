@@ -14,7 +14,8 @@ struct gpu_test_shader {
 };
 
 /* Runs `shader` for `count` elements on a copy of `data`, and brings back what it left there. The pipeline is
- * kept for the next call with the same code and layout. */
+ * kept for the next call with the same code. Its layout of set 0 may be another one of equal definition: that
+ * of another context. */
 void gpu_test_compute(struct gpu_test *gpu, const struct gpu_test_shader *shader, uint32_t count, void *data,
                       size_t size);
 
