@@ -300,17 +300,17 @@ static void switches_make_nothing(void **state)
     add_scene();
     struct frame_times first = { .count = 0 };
     const uint32_t frames = is_full() ? gpu_test_repeats(&t.gpu, FRAMES_MOST) : FRAMES_MOST / 4,
-                   steady_frames = frames / 5;
-    for (uint32_t i = 0; i < WARM; i++)
+                   steady_frames = frames / 5, warm = gpu_test_is_software(&t.gpu) ? WARM / 4 : WARM;
+    for (uint32_t i = 0; i < warm; i++)
         run_frame(&s[1], i, i == 0 ? &first : NULL);
     const struct counting_vulkan before = counting_vulkan_get();
     const uint64_t bytes = held();
     REQUIRE_CMP(before.pipelines, ==, prepared.pipelines);
     REQUIRE_CMP(before.memory, ==, prepared.memory);
     for (uint32_t i = 0; i < steady_frames; i++)
-        run_frame(&s[1], WARM + i, &steady);
+        run_frame(&s[1], warm + i, &steady);
     for (uint32_t i = 0; i < frames; i++)
-        run_frame(&s[i % 2], WARM + steady_frames + i, i % 2 ? &on : &off);
+        run_frame(&s[i % 2], warm + steady_frames + i, i % 2 ? &on : &off);
     print_summary(first.cpu_ms[0] + first.gpu_ms[0]);
     const struct counting_vulkan after = counting_vulkan_get();
     REQUIRE_CMP(after.pipelines, ==, before.pipelines);

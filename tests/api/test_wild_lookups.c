@@ -103,6 +103,7 @@ static void lookups_of_anything_give_finite_light(void **state)
     settings.resolution = CELLS;
     settings.min_cell_size_m = (float)CELL;
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = 2 * SDFGI_VISIT_RAYS;
     gi_test_open(&t, &settings);
     add_scene(&t);
     gi_test_converge(&t, 400);

@@ -133,7 +133,7 @@ static void a_fixed_point_hardly_notices_by_light_cells(void **state)
 {
     (void)state;
     struct sdfgi_settings settings = light_walk_settings(25);
-    scroll_use_cells(&settings, 4);
+    scroll_use_cells(&settings, 2);
     settings.cell_rays_per_frame = 1 << 22; /* all of them in each frame */
     walk_past_a_point(&settings);
 }

@@ -71,8 +71,10 @@ static int use_probes(void **state)
     return 0;
 }
 
-/* Light cells have gone through three rough cycles of 8 visits by then. */
-enum { CELL_FRAMES = 26 };
+/* Light cells have gone through three rough cycles of 8 visits by then, or through one. */
+enum { CELL_FRAMES = 26, FEW_CELL_FRAMES = 10 };
+
+static uint32_t cell_frames = CELL_FRAMES;
 
 /* Sun and sky shine on `room`, which is taken over. */
 static void open_room(struct gi_test *t, struct test_mesh room, float albedo)
@@ -87,7 +89,7 @@ static void open_room(struct gi_test *t, struct test_mesh room, float albedo)
     light_create(t, &sun);
     light_set_uniform_sky(t, (float)SKY);
     if (surface_light == SDFGI_SURFACE_LIGHT_CELLS && !getenv("SDFGI_TEST_FULL"))
-        gi_test_update(t, CELL_FRAMES);
+        gi_test_update(t, cell_frames);
     else
         gi_test_converge(t, 1000);
 }
@@ -262,7 +264,9 @@ static void a_room_without_a_roof_is_lit(void **state)
     }
     REQUIRE_CMP(kept, ==, room.triangle_count - 4);
     room.triangle_count = kept;
+    cell_frames = FEW_CELL_FRAMES;
     light_room(room, 0.5f, test_rotation_none);
+    cell_frames = CELL_FRAMES;
     double least = 1e30;
     for (uint32_t i = 0; i < POINT_COUNT; i++)
         least = fmin(least, (double)found[i][1] / OUTSIDE);

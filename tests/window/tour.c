@@ -162,7 +162,7 @@ static struct sdfgi_settings small_settings(void)
     settings.surface_light = SDFGI_SURFACE_LIGHT_PROBES;
     settings.bounce_feedback = 0.75f;
     settings.ray_count = 125;
-    settings.frames_to_converge = 4;
+    settings.frames_to_converge = 1;
     return settings;
 }
 
