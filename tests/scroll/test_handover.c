@@ -165,8 +165,7 @@ static void walk_in_the_blend(bool cells)
 {
     static struct walk w;
     /* From here the wall at -2.5 m is in the blend, whose width is that of a probe's spacing. */
-    const uint32_t of_cells = scroll_is_full() ? 64 : 32; /* light cells of 5 cm take half an hour */
-    walk_open(&w, cells, cells ? of_cells : 128);
+    walk_open(&w, cells, cells ? 64 : 128); /* light cells of 5 cm take it half an hour */
     walk_in_colored_box(&w, (double[]){ w.resolution > 64 ? 0.55 : 0.15, 0.4, 1.3 });
     walk_steps(&w, 20, 0.001);
     const double mm = w.worst_step, way = 0.05 * w.t.gi->settings.min_cell_size_m;
