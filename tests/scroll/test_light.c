@@ -25,7 +25,7 @@ static struct sdfgi_settings light_walk_settings(uint32_t rays)
     struct sdfgi_settings settings = scroll_settings(32);
     settings.min_cell_size_m = 0.5f;
     settings.ray_count = rays;
-    settings.frames_to_converge = 500 / rays;
+    settings.frames_to_converge = (scroll_is_full() ? 500 : 250) / rays;
     return settings;
 }
 

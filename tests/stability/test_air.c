@@ -172,7 +172,7 @@ static void balls_of_all_sizes_light_the_air_with_their_power(void **state)
     struct gi_test *t = *state;
     static const double radii[] = { 0.01, 0.1, 0.3 }, at[3] = { 0.34, 0.46, 0.54 };
     enum { PLACES = 27 };
-    const struct sdfgi_settings settings = light_settings(64, 0.125f);
+    const struct sdfgi_settings settings = light_exact_settings(64, 0.125f);
     for (int r = 0; r < 3; r++) {
         double mean = 0, squares = 0;
         gi_test_restart(t, &settings);

@@ -237,7 +237,7 @@ enum { FLOOR_SIDE = 12, FLOOR_POINTS = FLOOR_SIDE * FLOOR_SIDE };
 /* A room whose wall a lamp lights in one spot, which few rays hit. */
 static void open_room_with_a_spot(struct gi_test *t, uint32_t rays)
 {
-    struct sdfgi_settings settings = light_settings(32, 0.2f);
+    struct sdfgi_settings settings = light_exact_settings(32, 0.2f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = rays;
     settings.cell_rays_per_frame = 1 << 17;

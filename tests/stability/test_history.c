@@ -119,7 +119,7 @@ static uint32_t go_on(struct gi_test *t, uint32_t frames, float (*wanted)[3])
  * CYCLES_BEFORE gather cycles, in which it comes within the tolerance of it. */
 static double spoil(struct gi_test *t, const struct histories *histories)
 {
-    struct sdfgi_settings settings = light_settings(32, 0.4f);
+    struct sdfgi_settings settings = light_exact_settings(32, 0.4f);
     settings.surface_light = histories->surface_light;
     float before[POINTS][3], found[POINTS][3];
     double worst = 0;

@@ -178,7 +178,7 @@ static double most_difference(float (*found)[3], float (*expected)[3], const cha
 static void a_turned_room_has_the_same_light(void **state)
 {
     (void)state;
-    struct sdfgi_settings settings = light_settings(32, 0.25f);
+    struct sdfgi_settings settings = light_exact_settings(32, 0.25f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = 128;
     settings.cell_rays_per_frame = 1 << 18;
@@ -200,7 +200,7 @@ static void a_turned_room_has_the_same_light(void **state)
 /* Light above a lamp that shines up, in a world whose z points the other way if it is of the left hand. */
 static double light_above(bool mirrored, bool left_handed)
 {
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    const struct sdfgi_settings settings = light_exact_settings(32, 0.25f);
     open_world(SDFGI_UP_Y, &settings);
     t.left_handed = left_handed;
     gi_test_restart(&t, &settings);

@@ -38,6 +38,13 @@ struct sdfgi_settings light_settings(uint32_t resolution, float cell_m)
     s.resolution = resolution;
     s.min_cell_size_m = cell_m;
     s.ray_count = 125;
+    s.frames_to_converge = getenv("SDFGI_TEST_FULL") ? 4 : 2;
+    return s;
+}
+
+struct sdfgi_settings light_exact_settings(uint32_t resolution, float cell_m)
+{
+    struct sdfgi_settings s = light_settings(resolution, cell_m);
     s.frames_to_converge = 4;
     return s;
 }
