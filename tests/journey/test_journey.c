@@ -17,7 +17,7 @@
 /* A cycle of 100 samples in 4 frames: journeys see several end. */
 static struct sdfgi_settings short_cycles(uint32_t cascades)
 {
-    struct sdfgi_settings settings = light_settings(32, 0.25f);
+    struct sdfgi_settings settings = light_exact_settings(32, 0.25f);
     settings.cascades = cascades;
     settings.ray_count = 25;
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
