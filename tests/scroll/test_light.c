@@ -19,13 +19,13 @@ static struct gi_test_point at(double x, double y, double z, float nx, float ny,
     return (struct gi_test_point){ { (float)x, (float)y, (float)z }, { nx, ny, nz } };
 }
 
-/* Two cascades of 32^3 cells of 0.5 m, 500 rays a probe in all. */
+/* Two cascades of 32^3 cells of 0.5 m, `rays` of a probe in a frame. */
 static struct sdfgi_settings light_walk_settings(uint32_t rays)
 {
     struct sdfgi_settings settings = scroll_settings(32);
     settings.min_cell_size_m = 0.5f;
     settings.ray_count = rays;
-    settings.frames_to_converge = (scroll_is_full() ? 500 : 250) / rays;
+    settings.frames_to_converge = light_cycle_samples() / rays;
     return settings;
 }
 

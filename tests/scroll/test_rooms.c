@@ -82,7 +82,7 @@ static void arrive(const struct arrival *a, double ratio[static FRAMES])
     struct sdfgi_settings settings = light_settings(32, 0.2f);
     settings.cascades = 4;
     settings.ray_count = a->rays;
-    settings.frames_to_converge = (scroll_is_full() ? 500 : 250) / a->rays;
+    settings.frames_to_converge = light_cycle_samples() / a->rays;
     gi_test_open(&t, &settings);
     add_room(&t, a->window);
     light_add_box(&t, (double[]){ -400, -4.4, -400 }, (double[]){ 400, -half[1] - wall, 400 },

@@ -32,13 +32,18 @@ int light_close(void **state)
     return 0;
 }
 
+uint32_t light_cycle_samples(void)
+{
+    return getenv("SDFGI_TEST_FULL") ? 500 : 250;
+}
+
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m)
 {
     struct sdfgi_settings s = gi_test_settings();
     s.resolution = resolution;
     s.min_cell_size_m = cell_m;
     s.ray_count = 125;
-    s.frames_to_converge = getenv("SDFGI_TEST_FULL") ? 4 : 2;
+    s.frames_to_converge = light_cycle_samples() / s.ray_count;
     return s;
 }
 

@@ -11,12 +11,14 @@
 int light_open(void **state);
 int light_close(void **state);
 
-/* Settles in few frames: a cycle of 250 samples in 2 frames, or of 500 in 4 with SDFGI_TEST_FULL=1. */
+/* Samples of a probe in a cycle: 250, or 500 with SDFGI_TEST_FULL=1. */
+uint32_t light_cycle_samples(void);
+/* Settles in few frames: 125 samples in each. */
 struct sdfgi_settings light_settings(uint32_t resolution, float cell_m);
-/* Likewise with 500 samples in any case, where noise of 250 is more than the test allows. */
+/* Likewise with 500 samples in any case: for tests that allow less noise, or compare with records. */
 struct sdfgi_settings light_exact_settings(uint32_t resolution, float cell_m);
-/* The same with 64 rays per surface of a light cell, or 128 with SDFGI_TEST_FULL=1, for light that may be a
- * little noisy. */
+/* light_settings with 64 rays per surface of a light cell, or 128 with SDFGI_TEST_FULL=1, for light that may
+ * be a little noisy. */
 struct sdfgi_settings light_quick_settings(uint32_t resolution, float cell_m);
 
 /* light_settings for light cells that gather for themselves, all of them in each frame. */
