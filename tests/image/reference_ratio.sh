@@ -20,9 +20,9 @@ if [ "$kind" != leak ]; then
     high=$1
     shift
 fi
-leak_size=320x180 leak_frames=28
+leak_size=320x180 leak_frames=28 frames=24
 if [ $# -gt 0 ]; then # where cells are larger, too
-    leak_size=160x90 leak_frames=16
+    leak_size=160x90 leak_frames=16 frames=16
 fi
 if [ ! -d "$folder" ]; then
     echo "skipped: no reference scenes in $folder"
@@ -79,7 +79,7 @@ diffuse | flat)
         sed 's/"yfov_deg": *[0-9.]*/"ymag": 2.7/' "$view" >"$work/flat.json"
         view=$work/flat.json
     fi
-    render 160x90 24
+    render 160x90 "$frames"
     # The mean of 64 samples differs from seed to seed by 2 %.
     "$sdfgi" reference "$scene" --view "$view" --size 160x90 --spp 256 --aov diffuse_indirect="$work/truth.exr" \
         --out "$work/reference.exr"

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 96, PIXELS = SIDE * SIDE, FRAMES = 20, SETTLE = 48 };
+enum { SIDE = 96, PIXELS = SIDE * SIDE, FRAMES = 20, SETTLE = 32 };
 
 /* A room of 3.2 m with a pillar, which two lamps light. One of them changes. */
 #define HALF_M  1.6
@@ -30,6 +30,7 @@ static void open_room(struct stage *s)
     static float depths[PIXELS], normals[PIXELS][4];
     struct sdfgi_settings settings = light_settings(32, 0.2f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = 16 * SDFGI_VISIT_RAYS;
     gi_test_open(&s->t, &settings);
     light_add(
         &s->t,
