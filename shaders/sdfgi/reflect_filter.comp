@@ -44,17 +44,25 @@ float lobe_pixels(picture_surface s, float roughness, float distance_m)
     return 2.0 * roughness * roughness * seen * eye_m / s.pixel_m;
 }
 
+/* How much neighbours count: wholly where the lobe is wide. Squares of squares whose rays lie apart are
+ * large, and alike only where the lobe is as wide in the picture. */
+float spread_of(picture_surface s, float roughness, float distance_m, float reach, bool is_sparse)
+{
+    const vec2 range = is_first() ? FIRST : SECOND;
+    const float wide = is_first() ? 0.0 : lobe_pixels(s, roughness, distance_m) / reach;
+    const float by_roughness = is_sparse && !is_first() ? 0.0 : smoothstep(range.x, range.y, roughness);
+    return max(by_roughness, smoothstep(LOBE.x, LOBE.y, wide));
+}
+
 /* The first run interpolates between rays, which may lie apart; the second begins with pixels. */
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
 {
-    const vec2 range = is_first() ? FIRST : SECOND;
-    const int ray_step = int(args.ray_step), step = ray_step * int(args.filter_step);
+    const int ray_step = picture_ray_step(roughness), step = ray_step * int(args.filter_step);
     const float reach = float(SDFGI_RAYS_SIDE * step);
     const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
     const bool interpolates = is_first() && ray_step > 1;
     const vec4 own = before_at(pixel);
-    const float wide = is_first() ? 0.0 : lobe_pixels(s, roughness, own.a) / reach;
-    const float spread = max(smoothstep(range.x, range.y, roughness), smoothstep(LOBE.x, LOBE.y, wide));
+    const float spread = spread_of(s, roughness, own.a, reach, ray_step > int(args.ray_step));
     float weights = own.a < 0.0 ? 0.0 : 1.0;
     vec4 sum = weights * own;
     const int taps = spread > 0.0 || interpolates ? SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE : 0;
