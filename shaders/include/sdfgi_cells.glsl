@@ -279,8 +279,7 @@ vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, uint open, vec3 normal, bool
  * A surface point first reads around a place that moves as the point does, so that nothing jumps where
  * surfaces are curved. What a ray hit does without: it is not looked at as closely. Where that finds nothing
  * it tries the light cell that it leaves into, and in a niche or at a small thing places farther off and
- * nearer to the viewer. It does so, too, where it finds black: that may be the inside of a hollow ball whose
- * foot the point is at. A point in the air has no other places: what is near it need not be on its side of a
+ * nearer to the viewer. A point in the air has no other places: what is near it need not be on its side of a
  * wall, and its normal may lead into one. But the surfaces around stand for one that the air's cell does not
  * know. */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
@@ -303,7 +302,6 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
     const uvec2 first_bits = bits;
     const int tries = at_surface ? SDFGI_CELLS_TRIES : 2;
     vec4 sum = vec4(0.0);
-    float dark = 0.0;
     for (int i = at_surface && what == SDFGI_CELLS_ARRIVING ? -1 : 0; i < tries; i++) {
         uint open = SDFGI_CELLS_ALL_FACES;
         bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
@@ -315,9 +313,8 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
         }
         if (found)
             sum = sdfgi_cells_interpolate(cascade, at, open, normal, i > 0, what);
-        dark = max(dark, sum.a);
-        if (sum.r + sum.g + sum.b > 0.0)
-            return sum;
+        if (sum.a > 0.0)
+            break;
         at = first;
         bits = first_bits;
         if (at_surface && i >= 0) {
@@ -327,7 +324,7 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
             bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
         }
     }
-    return vec4(0.0, 0.0, 0.0, dark);
+    return sum;
 }
 
 #endif
