@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The reflection of a pixel: the mean of the rays of the pixels around it that see the same surface. It runs
- * twice: over a square of neighbouring pixels, and then over such squares, which together hold rays of all
- * parts of the lobe (Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global
+ * twice: over a square of 4 x 4 neighbouring rays, and then over such squares, which together hold rays of
+ * all parts of the lobe (Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global
  * Illumination Filtering"). Mirrors keep their own ray. A workgroup per listed tile, a thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
