@@ -46,12 +46,13 @@ float lobe_pixels(picture_surface s, float roughness, float distance_m)
 
 /* How much neighbours count: wholly where the lobe is wide. Squares of squares whose rays lie apart are
  * large, and alike only where the lobe is as wide in the picture. */
-float spread_of(picture_surface s, float roughness, float distance_m, float reach, bool is_sparse)
+float spread_of(picture_surface s, float roughness, float distance_m, float reach)
 {
-    const vec2 range = is_first() ? FIRST : SECOND;
-    const float wide = is_first() ? 0.0 : lobe_pixels(s, roughness, distance_m) / reach;
-    const float by_roughness = is_sparse && !is_first() ? 0.0 : smoothstep(range.x, range.y, roughness);
-    return max(by_roughness, smoothstep(LOBE.x, LOBE.y, wide));
+    if (is_first())
+        return smoothstep(FIRST.x, FIRST.y, roughness);
+    const bool is_sparse = picture_ray_step(roughness) > int(args.ray_step);
+    const float by_roughness = is_sparse ? 0.0 : smoothstep(SECOND.x, SECOND.y, roughness);
+    return max(by_roughness, smoothstep(LOBE.x, LOBE.y, lobe_pixels(s, roughness, distance_m) / reach));
 }
 
 /* The first run interpolates between rays, which may lie apart; the second begins with pixels. */
@@ -62,7 +63,7 @@ vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
     const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
     const bool interpolates = is_first() && ray_step > 1;
     const vec4 own = before_at(pixel);
-    const float spread = spread_of(s, roughness, own.a, reach, ray_step > int(args.ray_step));
+    const float spread = spread_of(s, roughness, own.a, reach);
     float weights = own.a < 0.0 ? 0.0 : 1.0;
     vec4 sum = weights * own;
     const int taps = spread > 0.0 || interpolates ? SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE : 0;

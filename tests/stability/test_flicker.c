@@ -30,7 +30,7 @@ static void open_room(struct stage *s)
     static float depths[PIXELS], normals[PIXELS][4];
     struct sdfgi_settings settings = light_settings(32, 0.2f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
-    settings.cell_rays = 16 * SDFGI_VISIT_RAYS;
+    settings.cell_rays = 16 * SDFGI_VISIT_RAYS; /* a complete cycle within SETTLE frames */
     gi_test_open(&s->t, &settings);
     light_add(
         &s->t,

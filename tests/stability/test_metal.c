@@ -115,7 +115,7 @@ static void a_ball_of_metal_is_dark_inside(void **state)
     gi_test_restart(t, &settings);
     light_add_metal(t, test_mesh_sphere((double[]){ 0.07, -0.04, 0.11 }, 0.625, 4), 1, 1);
     light_set_uniform_sky(t, 1e4f);
-    gi_test_update(t, getenv("SDFGI_TEST_FULL") ? 120 : 40);
+    gi_test_update(t, 40);
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 3; k++) {
             points[i].normal[k] = (float)-normals[i][k];
