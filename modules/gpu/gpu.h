@@ -46,6 +46,7 @@
     X(CmdUpdateBuffer)                                                                                       \
     X(CmdWriteTimestamp)                                                                                     \
     X(CreateBuffer)                                                                                          \
+    X(CreateBufferView)                                                                                      \
     X(CreateComputePipelines)                                                                                \
     X(CreateDescriptorPool)                                                                                  \
     X(CreateDescriptorSetLayout)                                                                             \
@@ -59,6 +60,7 @@
     X(CreateSampler)                                                                                         \
     X(CreateShaderModule)                                                                                    \
     X(DestroyBuffer)                                                                                         \
+    X(DestroyBufferView)                                                                                     \
     X(DestroyDescriptorPool)                                                                                 \
     X(DestroyDescriptorSetLayout)                                                                            \
     X(DestroyFramebuffer)                                                                                    \
@@ -151,6 +153,7 @@ VkResult gpu_named(const struct gpu_device *device, VkResult result, VkObjectTyp
 
 struct gpu_buffer {
     VkBuffer handle;
+    VkBufferView texels;      /* of the whole buffer; VK_NULL_HANDLE: it has none */
     struct gpu_memory memory; /* mapped: host-visible buffers only */
     uint64_t size;
 };
@@ -167,6 +170,9 @@ enum gpu_placement { GPU_DEVICE_LOCAL, GPU_HOST_READ };
 /* `category` and `name` are for the allocator. */
 VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
                          VkBufferUsageFlags usage, enum gpu_placement placement, uint32_t category,
+                         const char *name);
+/* Has shaders read a buffer as texels, too. `usage` must have said so. */
+VkResult gpu_buffer_view(const struct gpu_device *device, struct gpu_buffer *buffer, VkFormat format,
                          const char *name);
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer);
 

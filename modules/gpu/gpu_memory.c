@@ -104,16 +104,27 @@ static VkResult buffer_back(const struct gpu_device *device, struct gpu_buffer *
                                        buffer->memory.offset);
 }
 
+/* Bytes of a buffer that is read as texels. lavapipe compiles a shader anew where such a buffer's size
+ * becomes a power of two, or ceases to be one, and where bits 8 to 15 of it become 0 or cease to be: none of
+ * that happens with these sizes. */
+static uint64_t size_of_texels(uint64_t size)
+{
+    while ((size & (size - 1)) == 0 || (size >> 8 & 0xff) == 0)
+        size += 256;
+    return size;
+}
+
 VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
                          VkBufferUsageFlags usage, enum gpu_placement placement, uint32_t category,
                          const char *name)
 {
     memset(buffer, 0, sizeof *buffer);
     buffer->size = size;
+    const bool texels = (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
     VkResult result = device->fn.CreateBuffer(device->handle,
                                               &(VkBufferCreateInfo){
                                                   .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                                  .size = size,
+                                                  .size = texels ? size_of_texels(size) : size,
                                                   .usage = usage,
                                                   .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
                                               },
@@ -127,8 +138,23 @@ VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buf
     return gpu_named(device, result, VK_OBJECT_TYPE_BUFFER, &buffer->handle, name);
 }
 
+VkResult gpu_buffer_view(const struct gpu_device *device, struct gpu_buffer *buffer, VkFormat format,
+                         const char *name)
+{
+    const VkResult result = device->fn.CreateBufferView(
+        device->handle,
+        &(VkBufferViewCreateInfo){ .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                   .buffer = buffer->handle,
+                                   .format = format,
+                                   .range = VK_WHOLE_SIZE },
+        device->callbacks, &buffer->texels);
+    return gpu_named(device, result, VK_OBJECT_TYPE_BUFFER_VIEW, &buffer->texels, name);
+}
+
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer)
 {
+    if (buffer->texels)
+        device->fn.DestroyBufferView(device->handle, buffer->texels, device->callbacks);
     device->fn.DestroyBuffer(device->handle, buffer->handle, device->callbacks);
     release(device, &buffer->memory);
     memset(buffer, 0, sizeof *buffer);

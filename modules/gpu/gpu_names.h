@@ -9,6 +9,7 @@
 #define gpu_buffer_finish           sdfgi_gpu_buffer_finish
 #define gpu_buffer_init             sdfgi_gpu_buffer_init
 #define gpu_buffer_invalidate       sdfgi_gpu_buffer_invalidate
+#define gpu_buffer_view             sdfgi_gpu_buffer_view
 #define gpu_buffer_zero             sdfgi_gpu_buffer_zero
 #define gpu_compute_pipeline_create sdfgi_gpu_compute_pipeline_create
 #define gpu_copy                    sdfgi_gpu_copy

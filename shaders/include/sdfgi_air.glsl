@@ -44,7 +44,7 @@ vec4 sdfgi_air_mean_of_probe(uint probe_index)
         const uint index =
             probe_index * uint(SDFGI_IRRADIANCE_COUNT) + at.x + uint(SDFGI_IRRADIANCE_TEXELS) * at.y;
         const sdfgi_irradiance_texel texel =
-            sdfgi_irradiance_unpack(sdfgi_half4_decode(sdfgi_irradiance_texels[index]));
+            sdfgi_irradiance_unpack(sdfgi_half4_decode(sdfgi_irradiance_texels_at(index)));
         sum += vec4(texel.light, texel.confidence);
     }
     return sum / 6.0;

@@ -37,7 +37,7 @@ uvec4 sdfgi_light_block_of_texel(uint cascade, uvec3 texel)
 {
     const uint bits = sdfgi_frame.resolution_log2 - 2u;
     const uvec3 block = texel >> 2u;
-    return sdfgi_light_blocks[block.x | block.y << bits | block.z << (2u * bits) | cascade << (3u * bits)];
+    return sdfgi_light_blocks_at(block.x | block.y << bits | block.z << (2u * bits) | cascade << (3u * bits));
 }
 
 /* Whether a texel of a light block is a light cell; its entry in the light list. */
@@ -71,10 +71,10 @@ const uint SDFGI_CELLS_LEAVING = 1u;
 /* The light of the surface of a light cell that faces an axis in rgb, and 1 in a; 0 where there is none. */
 vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
 {
-    const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces[index];
+    const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces_at(index);
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING) {
-        const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light[index]);
+        const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(index));
         return arriving == SDFGI_SURFACE_NONE ? vec4(0.0) : vec4(leaving, 1.0);
     }
 #endif

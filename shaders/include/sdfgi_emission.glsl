@@ -29,7 +29,7 @@ vec3 sdfgi_emission_radiance(uvec2 packed)
 /* Emitted radiance times exposure towards `axis`. */
 vec3 sdfgi_block_emission(uint block, uint axis)
 {
-    const uvec2 packed = sdfgi_emission[block];
+    const uvec2 packed = sdfgi_emission_at(block);
     return sdfgi_emission_radiance(packed) * (float(packed.y >> (5u * axis) & 31u) / 31.0) *
            sdfgi_frame.emission_scale;
 }

@@ -34,8 +34,8 @@ sdfgi_irradiance_halves sdfgi_irradiance_load(uint probe_index, sdfgi_irradiance
     const uint first =
         probe_index * uint(SDFGI_IRRADIANCE_COUNT) + uint(footprint.low.x) + side * uint(footprint.low.y);
     return sdfgi_irradiance_halves(
-        uvec2[4](sdfgi_irradiance_texels[first], sdfgi_irradiance_texels[first + 1u],
-                 sdfgi_irradiance_texels[first + side], sdfgi_irradiance_texels[first + side + 1u]));
+        uvec2[4](sdfgi_irradiance_texels_at(first), sdfgi_irradiance_texels_at(first + 1u),
+                 sdfgi_irradiance_texels_at(first + side), sdfgi_irradiance_texels_at(first + side + 1u)));
 }
 
 sdfgi_irradiance_texel sdfgi_irradiance_interpolate(sdfgi_irradiance_halves halves, vec2 fraction)

@@ -38,7 +38,7 @@ vec3 sdfgi_probe_trilinear(ivec3 cage, int k, vec3 pos)
 float sdfgi_probe_weight_at(uint cascade, ivec3 cage, int k, vec3 pos, vec3 normal)
 {
     const ivec3 probe = cage + sdfgi_cage_corner(k);
-    const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
+    const uint state = sdfgi_probes_at(sdfgi_probe_index(cascade, probe));
     const vec3 offset = sdfgi_metric_from_cells(sdfgi_probe_position(probe, state) - pos);
     return sdfgi_probe_weight(sdfgi_probe_trilinear(cage, k, pos), offset, normal);
 }
@@ -76,7 +76,7 @@ uint sdfgi_probes_seen(uint cascade, ivec3 cage, vec3 pos, float free)
     uint seen = 0u;
     for (int k = 0; k < 8; k++) {
         const ivec3 probe = cage + sdfgi_cage_corner(k);
-        const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
+        const uint state = sdfgi_probes_at(sdfgi_probe_index(cascade, probe));
         const vec3 at = sdfgi_probe_position(probe, state);
         if (!sdfgi_probe_is_dead(state) &&
             free + sdfgi_free_radius(cascade, at) > length(sdfgi_metric_from_cells(at - pos)))
@@ -119,7 +119,7 @@ uint sdfgi_probes_around(uint cascade, ivec3 cage, vec3 pos)
     float free = sdfgi_free_radius(cascade, pos);
     uint links = 0u, seen = 0u;
     for (int k = 0; k < 8; k++) {
-        const uint state = sdfgi_probes[sdfgi_probe_index(cascade, cage + sdfgi_cage_corner(k))];
+        const uint state = sdfgi_probes_at(sdfgi_probe_index(cascade, cage + sdfgi_cage_corner(k)));
         for (int axis = 0; axis < 3; axis++)
             if ((k >> axis & 1) == 0 && !sdfgi_probe_is_dead(state) && sdfgi_probe_is_linked(state, axis))
                 links |= 1u << (8 * axis + k);

@@ -129,4 +129,6 @@ layout(std430, set = SDFGI_SET,
     uvec2 sdfgi_emission[];
 };
 
+#include "sdfgi_texels.glsl"
+
 #endif

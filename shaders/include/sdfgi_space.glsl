@@ -101,7 +101,7 @@ uint sdfgi_albedo_block_count()
 
 uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)
 {
-    return sdfgi_bits[sdfgi_cell_index(cascade, cell)];
+    return sdfgi_bits_at(sdfgi_cell_index(cascade, cell));
 }
 
 /* Units of a stored distance per cell width. The diagonal of a cascade, N sqrt(3) cells, fits 16 bits. */
@@ -120,7 +120,7 @@ uint sdfgi_distance_reach()
  * to the nearest set sub-voxel, and at most SDFGI_DISTANCE_REACH. */
 float sdfgi_stored_distance(uint index)
 {
-    const uint pair = sdfgi_distances[index >> 1u];
+    const uint pair = sdfgi_distances_at(index >> 1u);
     return float((index & 1u) != 0u ? pair >> 16u : pair & 0xffffu) *
            (float(sdfgi_frame.resolution) / 32768.0);
 }

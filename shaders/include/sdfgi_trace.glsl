@@ -177,7 +177,7 @@ bool sdfgi_trace_cross_cell(uint index, float distance, inout sdfgi_trace_state 
     t_exit = max(ray.t, t_exit);
     uvec2 bits = uvec2(0u);
     if (distance < SDFGI_TRACE_OCCUPIED_DISTANCE)
-        bits = sdfgi_bits[index] & sdfgi_trace_bits_near_ray(ray.cell, ray.origin, ray.dir, ray.t, t_exit);
+        bits = sdfgi_bits_at(index) & sdfgi_trace_bits_near_ray(ray.cell, ray.origin, ray.dir, ray.t, t_exit);
     if (bits != uvec2(0u))
         return sdfgi_trace_walk_subvoxels(bits, ray.cell, ray.origin, ray.dir, ray.inv_dir, ray.t, ray.axis);
     ray.axis = exit_axis;

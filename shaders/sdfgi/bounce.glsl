@@ -27,7 +27,7 @@ bounce_light bounce_sum(uint cascade, ivec3 cage, vec3 pos, vec3 normal, sdfgi_v
     const sdfgi_irradiance_footprint footprint = sdfgi_irradiance_footprint_of(normal);
     for (int k = 0; k < 8; k++) {
         const uint index = sdfgi_probe_index(cascade, cage + sdfgi_cage_corner(k));
-        states[k] = sdfgi_probes[index];
+        states[k] = sdfgi_probes_at(index);
         halves[k] = sdfgi_irradiance_load(index, footprint);
     }
     bounce_light sum = bounce_light(vec3(0.0), vec3(0.0), 0.0);

@@ -46,7 +46,7 @@ const float SHARE = 1.0 / 9.0;
 /* What is filtered: irradiance along an axis, packed. */
 uint filtered_word(uint cascade, uint axis, uint entry)
 {
-    return sdfgi_gathered[gathered_word(cascade, FILTER_FROM + axis, entry)];
+    return sdfgi_gathered_at(gathered_word(cascade, FILTER_FROM + axis, entry));
 }
 
 /* Three neighbours in a row, or the cell itself in place of one that is no light cell. */
@@ -95,7 +95,7 @@ void main()
     if (!visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, args.first[cascade], args.end[cascade],
                        light_cell_count(cascade), entry))
         return;
-    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[light_cell_slot(cascade, entry)]);
+    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
     if (!sdfgi_cell_is_valid(cascade, cell))
         return;
     const float noise = gathered_load_shown_noise(cascade, entry);

@@ -41,6 +41,7 @@ shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus 
 shared uint surface_count;
 shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
 shared float importance[CELLS * PARTS];     /* per cell and part of the list: sums over emitters */
+shared float total_importance[CELLS];
 
 /* What rays of a surface need to know of it. */
 struct ray_source {
@@ -83,9 +84,10 @@ uint first_of_part(uint part, uint count)
 float sum_part(uint cascade, uint own, uint part)
 {
     const uint count = emitter_count(cascade);
+    const vec3 centre = vec3(cells[own]) + 0.5;
     float sum = 0.0;
     for (uint i = first_of_part(part, count); i < first_of_part(part + 1u, count); i++)
-        sum += emitter_importance(emitter_load(cascade, i), vec3(cells[own]) + 0.5);
+        sum += emitter_importance(emitter_load(cascade, i), centre);
     return sum;
 }
 
@@ -102,17 +104,21 @@ float sum_of_parts(uint own)
  * choose. */
 bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
 {
-    const float total = sum_of_parts(own);
-    float rest = place * total;
+    const float total = total_importance[own];
+    const vec3 centre = vec3(cells[own]) + 0.5;
+    float rest = place * total, of_part = importance[own * PARTS];
     uint part = 0u;
-    for (; part < PARTS - 1u && rest >= importance[own * PARTS + part]; part++)
-        rest -= importance[own * PARTS + part];
+    while (part < PARTS - 1u && rest >= of_part) {
+        rest -= of_part;
+        part++;
+        of_part = importance[own * PARTS + part];
+    }
     const uint end = first_of_part(part + 1u, emitter_count(cascade));
     float share = 0.0;
     for (uint i = first_of_part(part, emitter_count(cascade)); i < end; i++) {
         rest -= share;
         chosen = emitter_load(cascade, i);
-        share = emitter_importance(chosen, vec3(cells[own]) + 0.5);
+        share = emitter_importance(chosen, centre);
         if (rest < share)
             break;
     }
@@ -164,7 +170,7 @@ vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit
     const emitter e =
         emitter_load(cascade, emitter_of_block(cascade, sdfgi_albedo_block_index(cascade, hit.solid)));
     const float chance =
-        emitter_importance(e, vec3(cells[source.own]) + 0.5) / max(sum_of_parts(source.own), 1e-30);
+        emitter_importance(e, vec3(cells[source.own]) + 0.5) / max(total_importance[source.own], 1e-30);
     return emission * (1.0 - share_of_emitter_rays(e, chance, dir, hit.distance, dot(source.normal, dir)));
 }
 
@@ -215,7 +221,7 @@ vec4 send_random_ray(uint cascade, ray_source source, uint index)
     uint entry;
     if (!hit.has_cell || !sdfgi_cell_entry(hit.cascade, hit.cell, entry))
         return vec4(0.0);
-    const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(hit.cascade, entry, hit.axis)]);
+    const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(hit.cascade, entry, hit.axis)));
     return vec4(light + share * leaving, 1.0);
 }
 
@@ -374,7 +380,7 @@ uint seen_cells(uint cascade, out uint first)
     first = sdfgi_frame.cascades[cascade].seen_first + 32u * gl_WorkGroupID.x;
     if (gl_WorkGroupID.y < sdfgi_frame.cascade_count || first >= sdfgi_frame.cascades[cascade].seen_end)
         return 0u;
-    uint bits = sdfgi_seen[seen_word(cascade, first)];
+    uint bits = sdfgi_seen_at(seen_word(cascade, first));
     for (uint rest = bits; rest != 0u; rest &= rest - 1u) {
         const uint entry = first + uint(findLSB(rest));
         if (entry >= args.first[cascade] && entry < args.end[cascade])
@@ -417,7 +423,7 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
     const bool visited = own < CELLS && find_entry(cascade, own, seen, first_seen, entry);
     ivec3 cell = ivec3(0);
     if (visited)
-        cell = light_cell_from_index(cascade, sdfgi_light_cells[light_cell_slot(cascade, entry)]);
+        cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
     const bool there = visited && sdfgi_cell_is_valid(cascade, cell);
     if (axis == 0u && own < CELLS) {
         cells[own] = cell;
@@ -453,6 +459,9 @@ void main()
     barrier();
     for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);
+    barrier();
+    if (rays > RAYS && lane < CELLS)
+        total_importance[lane] = sum_of_parts(lane);
     barrier();
     send_rays(cascade, rays);
     barrier();

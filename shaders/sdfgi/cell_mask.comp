@@ -20,7 +20,7 @@ shared uint visibility_bits[CELLS];
 bool sees(ivec3 cell, ivec3 cage, ivec3 corner)
 {
     const ivec3 base = cage * SDFGI_PROBE_SPACING;
-    const uint state = sdfgi_probes[sdfgi_probe_index(args.cascade, cage + corner)];
+    const uint state = sdfgi_probes_at(sdfgi_probe_index(args.cascade, cage + corner));
     return !sdfgi_probe_is_dead(state) &&
            sdfgi_trace_visible_from(args.cascade, base, vec3(cell - base) + LIGHT_CELL_EYE,
                                     sdfgi_probe_position(corner, state));
@@ -30,9 +30,9 @@ void main()
 {
     const uint lane = gl_LocalInvocationIndex, k = lane & 7u, n = workgroup_index() * CELLS + lane / 8u;
     const bool listed = n < indirect_number(uint(SDFGI_INDIRECT_MASKS) + args.cascade) &&
-                        sdfgi_scratch[light_dirty_slot(n)] < sdfgi_frame.light_cell_room;
+                        sdfgi_scratch_at(light_dirty_slot(n)) < sdfgi_frame.light_cell_room;
     const ivec3 cell =
-        light_cell_from_index(args.cascade, listed ? sdfgi_scratch[light_dirty_slot(n) + 1u] : 0u);
+        light_cell_from_index(args.cascade, listed ? sdfgi_scratch_at(light_dirty_slot(n) + 1u) : 0u);
     const ivec3 cage = cell / SDFGI_PROBE_SPACING;
     const uint index = sdfgi_cell_index(args.cascade, cell), shift = 8u * (index & 3u);
     if (k == 0u)

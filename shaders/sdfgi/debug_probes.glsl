@@ -55,7 +55,7 @@ bool debug_walk_meets(debug_walk walk, vec3 dir, inout debug_ball ball)
 {
     if (!debug_probe_exists(walk.cascade, walk.probe))
         return false;
-    const uint state = sdfgi_probes[sdfgi_probe_index(walk.cascade, walk.probe)];
+    const uint state = sdfgi_probes_at(sdfgi_probe_index(walk.cascade, walk.probe));
     const vec3 to_probe = sdfgi_metric_from_cells(sdfgi_probe_position(walk.probe, state) - walk.origin);
     const float along = dot(to_probe, dir);
     const vec3 beside = to_probe - along * dir;
@@ -120,7 +120,8 @@ bool debug_cage_is_bad(uint cascade, ivec3 cage, int count)
         const uint slot = sdfgi_probe_index(cascade, cage + sdfgi_cage_corner(i / SDFGI_SUMS_STRIDE));
         bad = bad || debug_float_is_bad(floatBitsToUint(sdfgi_sums[probe_sums(slot) + word]));
         const uint texel = min(word, uint(SDFGI_IRRADIANCE_COUNT) - 1u);
-        bad = bad || debug_half_is_bad(sdfgi_irradiance_texels[slot * uint(SDFGI_IRRADIANCE_COUNT) + texel]);
+        bad =
+            bad || debug_half_is_bad(sdfgi_irradiance_texels_at(slot * uint(SDFGI_IRRADIANCE_COUNT) + texel));
     }
     return bad;
 }

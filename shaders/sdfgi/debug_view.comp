@@ -172,7 +172,7 @@ vec3 view_of_cell(surface_hit hit, float shade)
     switch (args.view) {
     case SDFGI_SHADER_DEBUG_LIGHT:
         return shown_light(
-            sdfgi_rgbe_decode(sdfgi_light[sdfgi_surface_index(hit.cascade, hit.entry, hit.axis)]));
+            sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(hit.cascade, hit.entry, hit.axis))));
     case SDFGI_SHADER_DEBUG_IRRADIANCE: {
         const vec4 arriving = arriving_light(hit);
         return arriving.a > 0.0 ? shown_light(arriving.rgb) : DEBUG_UNKNOWN;
@@ -246,7 +246,7 @@ vec3 view_of_ball(debug_ball ball, vec3 dir, float surface_m, vec3 behind)
         return behind;
     if (!shows_state)
         return shown_light(sdfgi_irradiance_of_probe(ball.cascade, ball.probe, ball.normal).light);
-    const vec3 color = probe_state_color(slot, sdfgi_probes[slot], ball.normal);
+    const vec3 color = probe_state_color(slot, sdfgi_probes_at(slot), ball.normal);
     return mix(behind, color * (0.4 - 0.6 * dot(ball.normal, dir)), hidden ? 0.4 : 1.0);
 }
 

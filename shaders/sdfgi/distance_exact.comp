@@ -74,7 +74,7 @@ void load_costs(uint count)
     {
         const uint n = min(gl_LocalInvocationIndex + k * SDFGI_GROUP_LINES, count * PAIRS - 1u);
         planes[k] =
-            sdfgi_scratch[plane_slot(line_batch[n / PAIRS], first_x(), first_z()) + (n & (PAIRS - 1u))];
+            sdfgi_scratch_at(plane_slot(line_batch[n / PAIRS], first_x(), first_z()) + (n & (PAIRS - 1u)));
     }
     [[unroll]] for (uint k = 0u; k < PER_THREAD; k++)
     {

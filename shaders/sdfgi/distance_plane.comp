@@ -8,6 +8,7 @@
  * per layer and run: eight lines along z, one for each cell of the run. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_SCRATCH
 #extension GL_EXT_control_flow_attributes : require
 
 /* 12.3 KiB of shared memory, of the 16 that every device has. A layer of a village takes one batch. */
@@ -95,7 +96,7 @@ uint row_bits(uint position, uint run)
     uint row = 0u;
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
-        row |= (sdfgi_bits[first + i][word] >> shift & 15u) << 4u * i;
+        row |= (sdfgi_bits_at(first + i)[word] >> shift & 15u) << 4u * i;
     }
     return row;
 }

@@ -4,6 +4,7 @@
  * dispatch finds both: the first workgroups find runs and layers, and the others find blocks. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_SEARCH
 #extension GL_EXT_control_flow_attributes : require
 #include "../lib/on_cpu.glsl"
 #include "dirty_bounds.glsl"
@@ -40,7 +41,7 @@ uint rows_of_run(uint y, uint z, uint run)
     uvec2 bits = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
-        bits |= sdfgi_bits[first + i];
+        bits |= sdfgi_bits_at(first + i);
     }
     const uint low = any_of_fours(bits.x), high = any_of_fours(bits.y);
     return (low & 0xffffu) | (low >> 16u) << 1u | (high & 0xffffu) << 2u | (high >> 16u) << 3u;
@@ -158,7 +159,7 @@ bool cells_are_dirty(ivec3 first)
     uint pairs[8], most = 0u;
     for (int i = 0; i < 8; i++)
         pairs[i] =
-            sdfgi_distances[sdfgi_cell_index(args.cascade, first + ivec3(2 * (i & 1), i >> 1, 0)) >> 1u];
+            sdfgi_distances_at(sdfgi_cell_index(args.cascade, first + ivec3(2 * (i & 1), i >> 1, 0)) >> 1u);
     for (int i = 0; i < 8; i++)
         most = max(most, max(pairs[i] & 0xffffu, pairs[i] >> 16u));
     /* For most cells the two boxes around all others rule out up to 32 boxes. */

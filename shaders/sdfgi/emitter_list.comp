@@ -27,17 +27,17 @@ shared uint listed_count;
 
 uint found_count()
 {
-    return sdfgi_scratch[0];
+    return sdfgi_scratch_at(0);
 }
 
 uint found_block(uint i)
 {
-    return sdfgi_scratch[SDFGI_SCRATCH_EMITTERS + i];
+    return sdfgi_scratch_at(SDFGI_SCRATCH_EMITTERS + i);
 }
 
 uvec2 emission_of(uint block)
 {
-    return sdfgi_emission[block + args.cascade * sdfgi_albedo_block_count()];
+    return sdfgi_emission_at(block + args.cascade * sdfgi_albedo_block_count());
 }
 
 /* Orders blocks: by how much they emit, to one part in 128, and then by a hash. */
@@ -101,8 +101,8 @@ void load_block(uint block, out uvec2 cells[8])
 {
     const uvec3 texel = sdfgi_albedo_block_texel(block);
     for (uint i = 0u; i < 8u; i++)
-        cells[i] = sdfgi_bits[sdfgi_texel_index(texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u)) |
-                              args.cascade << (3u * sdfgi_frame.resolution_log2)];
+        cells[i] = sdfgi_bits_at(sdfgi_texel_index(texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u)) |
+                                 args.cascade << (3u * sdfgi_frame.resolution_log2));
 }
 
 /* What the two sides of each axis see of an emitter, in squares of a cell's width. */
@@ -146,8 +146,8 @@ void find_form(float area, inout vec3 seen, inout vec3 net, out float boxy, out 
 void store(uint place, uint block)
 {
     const uint index = block + args.cascade * sdfgi_albedo_block_count();
-    const uvec2 emission = sdfgi_emission[index];
-    const uint shape = sdfgi_emitters[emitter_shape_word(args.cascade, block)],
+    const uvec2 emission = sdfgi_emission_at(index);
+    const uint shape = sdfgi_emitters_at(emitter_shape_word(args.cascade, block)),
                word = emitter_word(args.cascade, place);
     vec3 seen, net;
     load_sides(block, emission.y, seen, net);

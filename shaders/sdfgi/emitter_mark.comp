@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_EMISSION
+#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
 #include "emitters.glsl"
 #include "workgroup.glsl"
@@ -14,7 +15,7 @@ SDFGI_PUSH(sdfgi_cascade_args);
 bool is_to_be_listed(uint block)
 {
     const uvec3 texel = sdfgi_albedo_block_texel(block);
-    return emitter_shape_fill(sdfgi_emitters[emitter_shape_word(args.cascade, block)]) > 0.0 &&
+    return emitter_shape_fill(sdfgi_emitters_at(emitter_shape_word(args.cascade, block))) > 0.0 &&
            sdfgi_cell_is_valid(args.cascade, sdfgi_cell_from_texel(args.cascade, texel));
 }
 
@@ -24,7 +25,7 @@ void main()
     if (block >= sdfgi_albedo_block_count())
         return;
     const uint index = block + args.cascade * sdfgi_albedo_block_count();
-    const uvec2 emission = sdfgi_emission[index];
+    const uvec2 emission = sdfgi_emission_at(index);
     if (emission == uvec2(0u))
         return;
     sdfgi_emission[index].y = emission.y & ~SDFGI_EMISSION_IS_LISTED;

@@ -59,13 +59,13 @@ emitter_sample emitter_sample_unpack(uvec4 words)
 emitter_sample emitter_sample_load(uint slot, uint number)
 {
     const uint word = emitter_sample_word(slot, number);
-    return emitter_sample_unpack(
-        uvec4(sdfgi_rays[word], sdfgi_rays[word + 1u], sdfgi_rays[word + 2u], sdfgi_rays[word + 3u]));
+    return emitter_sample_unpack(uvec4(sdfgi_rays_at(word), sdfgi_rays_at(word + 1u),
+                                       sdfgi_rays_at(word + 2u), sdfgi_rays_at(word + 3u)));
 }
 
 bool emitter_sample_is_known(uint word)
 {
-    return sdfgi_rays[word + 3u] != SDFGI_RAY_UNKNOWN;
+    return sdfgi_rays_at(word + 3u) != SDFGI_RAY_UNKNOWN;
 }
 
 void emitter_sample_forget(uint word)

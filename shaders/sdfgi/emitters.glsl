@@ -44,7 +44,7 @@ uint emitter_word(uint cascade, uint i)
 
 uint emitter_count(uint cascade)
 {
-    return sdfgi_frame.emitter_samples != 0u ? sdfgi_emitters[emitter_count_word(cascade)] : 0u;
+    return sdfgi_frame.emitter_samples != 0u ? sdfgi_emitters_at(emitter_count_word(cascade)) : 0u;
 }
 
 /* Bounds of sub-voxels in the block, both included, 3 bits per axis, and `fill` in 14 bits: the emitters' own
@@ -74,7 +74,7 @@ uint emitter_of_block(uint cascade, uint block)
     uint first = 0u, count = emitter_count(cascade);
     while (count > 1u) {
         const uint half_count = count / 2u;
-        if (sdfgi_emitters[emitter_word(cascade, first + half_count)] <= block)
+        if (sdfgi_emitters_at(emitter_word(cascade, first + half_count)) <= block)
             first += half_count;
         count -= half_count;
     }
@@ -84,7 +84,7 @@ uint emitter_of_block(uint cascade, uint block)
 /* True if a cascade lists all of its emitters, and there are any. */
 bool emitters_are_complete(uint cascade)
 {
-    return emitter_count(cascade) > 0u && sdfgi_emitters[emitter_count_word(cascade) + 1u] != 0u;
+    return emitter_count(cascade) > 0u && sdfgi_emitters_at(emitter_count_word(cascade) + 1u) != 0u;
 }
 
 struct emitter {
@@ -99,21 +99,22 @@ struct emitter {
 
 emitter emitter_load(uint cascade, uint i)
 {
-    const uint word = emitter_word(cascade, i), block = sdfgi_emitters[word],
-               shape = sdfgi_emitters[word + 1u];
+    const uint word = emitter_word(cascade, i), block = sdfgi_emitters_at(word),
+               shape = sdfgi_emitters_at(word + 1u);
     const vec3 corner = vec3(sdfgi_cell_from_texel(cascade, sdfgi_albedo_block_texel(block)));
     emitter e;
     e.low = corner + vec3(uvec3(shape, shape >> 3u, shape >> 6u) & 7u) / float(SDFGI_SUBVOXELS);
     e.high =
         corner + vec3((uvec3(shape >> 9u, shape >> 12u, shape >> 15u) & 7u) + 1u) / float(SDFGI_SUBVOXELS);
-    e.radiance = uvec2(sdfgi_emitters[word + 2u], sdfgi_emitters[word + 7u]);
-    const vec2 x = unpackHalf2x16(sdfgi_emitters[word + 3u]), y = unpackHalf2x16(sdfgi_emitters[word + 4u]),
-               z = unpackHalf2x16(sdfgi_emitters[word + 5u]);
+    e.radiance = uvec2(sdfgi_emitters_at(word + 2u), sdfgi_emitters_at(word + 7u));
+    const vec2 x = unpackHalf2x16(sdfgi_emitters_at(word + 3u)),
+               y = unpackHalf2x16(sdfgi_emitters_at(word + 4u)),
+               z = unpackHalf2x16(sdfgi_emitters_at(word + 5u));
     e.seen = vec3(x.x, y.x, z.x);
     e.net = vec3(x.y, y.y, z.y);
     e.boxy = float(shape >> 18u & 127u) / 127.0;
     e.bent = float(shape >> 25u) / 127.0;
-    e.power = uintBitsToFloat(sdfgi_emitters[word + 6u]);
+    e.power = uintBitsToFloat(sdfgi_emitters_at(word + 6u));
     return e;
 }
 

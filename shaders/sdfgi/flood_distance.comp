@@ -8,7 +8,7 @@
 
 uint encode_distance(ivec3 cell)
 {
-    const uint pointer = sdfgi_scratch[flood_slot(args.source, cell)];
+    const uint pointer = sdfgi_scratch_at(flood_slot(args.source, cell));
     if (pointer == NEAREST_NONE)
         return sdfgi_distance_reach();
     return encode_nearest(nearest_distance2(cell, nearest_unpack(pointer)));

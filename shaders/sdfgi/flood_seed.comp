@@ -2,6 +2,7 @@
  * Points every occupied cell at its own sub-voxel nearest to its centre. One thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
 #include "flood.glsl"
 

@@ -3,6 +3,7 @@
  * thread per cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
 #include "flood.glsl"
 
@@ -10,7 +11,7 @@
 uint neighbour(ivec3 cell, ivec3 offset)
 {
     const ivec3 other = cell + offset * int(args.jump);
-    return sdfgi_cell_is_inside(other) ? sdfgi_scratch[flood_slot(args.source, other)] : NEAREST_NONE;
+    return sdfgi_cell_is_inside(other) ? sdfgi_scratch_at(flood_slot(args.source, other)) : NEAREST_NONE;
 }
 
 /* The nearest of the sub-voxels that the cell and its neighbours point at. */

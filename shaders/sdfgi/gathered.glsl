@@ -86,7 +86,7 @@ const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u, GATHERED_BETWEEN = 25u, GAT
 
 gathered_state gathered_load_state(uint cascade, uint entry)
 {
-    const uint packed = sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)];
+    const uint packed = sdfgi_gathered_at(gathered_word(cascade, GATHERED_STATE, entry));
     return gathered_state(packed & 0x7fu, packed >> 7u & 7u, packed >> 10u & 0xffu, packed >> 18u);
 }
 
@@ -106,12 +106,12 @@ struct gathered_noise {
  * one is `sum` as a half float. */
 float gathered_load_shown_noise(uint cascade, uint entry)
 {
-    return uintBitsToFloat(sdfgi_gathered[gathered_word(cascade, GATHERED_NOISE, entry)] & 0xffff0000u);
+    return uintBitsToFloat(sdfgi_gathered_at(gathered_word(cascade, GATHERED_NOISE, entry)) & 0xffff0000u);
 }
 
 gathered_noise gathered_load_noise(uint cascade, uint entry)
 {
-    const uint packed = sdfgi_gathered[gathered_word(cascade, GATHERED_NOISE, entry)];
+    const uint packed = sdfgi_gathered_at(gathered_word(cascade, GATHERED_NOISE, entry));
     return gathered_noise(unpackHalf2x16(packed).x, uintBitsToFloat(packed & 0xffff0000u));
 }
 
@@ -179,9 +179,10 @@ struct gathered_light {
 gathered_light gathered_load(uint cascade, uint entry, uint axis)
 {
     const uint plane = sdfgi_frame.light_cell_room, word = gathered_word(cascade, 3u * axis, entry);
-    const uint shared_word = sdfgi_gathered[word + plane];
-    return gathered_light(sdfgi_rgb48_decode(uvec2(sdfgi_gathered[word], shared_word & 0xffffu)),
-                          sdfgi_rgb48_decode(uvec2(sdfgi_gathered[word + 2u * plane], shared_word >> 16u)));
+    const uint shared_word = sdfgi_gathered_at(word + plane);
+    return gathered_light(
+        sdfgi_rgb48_decode(uvec2(sdfgi_gathered_at(word), shared_word & 0xffffu)),
+        sdfgi_rgb48_decode(uvec2(sdfgi_gathered_at(word + 2u * plane), shared_word >> 16u)));
 }
 
 void gathered_store(uint cascade, uint entry, uint axis, gathered_light light)

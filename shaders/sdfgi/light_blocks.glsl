@@ -86,7 +86,7 @@ bool light_entry(uint cascade, bool only_dirty, uint first, uint end, uint n, ou
     const uint count = only_dirty ? indirect_number(uint(SDFGI_INDIRECT_MASKS) + cascade) : end - first;
     entry = n;
     if (n < count)
-        entry = only_dirty ? sdfgi_scratch[light_dirty_slot(n)] : first + n;
+        entry = only_dirty ? sdfgi_scratch_at(light_dirty_slot(n)) : first + n;
     return n < count && entry < light_cell_count(cascade);
 }
 

@@ -82,11 +82,11 @@ void main()
     if (!visited)
         return;
     const uint slot = light_cell_slot(cascade, entry);
-    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[slot]);
+    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(slot));
     if (!sdfgi_cell_is_valid(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
-    const uvec2 direct = sdfgi_direct[slot];
+    const uvec2 direct = sdfgi_direct_at(slot);
 
     vec3 axes[6];
     uint arriving[6];

@@ -8,6 +8,7 @@
  * that sums do not depend on which thread traces which ray. Shared memory: 9 KiB. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_DIRECT
 #include "../lib/on_cpu.glsl"
 #include "light_blocks.glsl"
 #include "workgroup.glsl"
@@ -198,7 +199,7 @@ void main()
     bool lit = light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
                            workgroup_index() * CELLS + own, entry);
     const uint slot = light_cell_slot(cascade, lit ? entry : 0u);
-    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells[slot]);
+    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(slot));
     lit = lit && sdfgi_cell_is_valid(cascade, cell);
     if (axis == 0u) {
         cells[own] = cell;

@@ -8,9 +8,13 @@
  * The workgroups of a column, which have the same gl_WorkGroupID.x, share the cells of one row of blocks. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_DIRECT
+#define SDFGI_WRITES_GATHERED
 #define SDFGI_WRITES_INDIRECT
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_LIGHT_BLOCKS
+#define SDFGI_WRITES_LIGHT_CELLS
+#define SDFGI_WRITES_SCRATCH
 #define SDFGI_WRITES_SURFACES
 #include "../lib/on_cpu.glsl"
 #include "gathered.glsl"
@@ -44,7 +48,7 @@ uvec2 part_of_earlier_rows(uint row)
 {
     uvec2 sum = uvec2(0u);
     for (uint r = gl_LocalInvocationIndex; r < row; r += SDFGI_GROUP_LINEAR)
-        sum += uvec2(sdfgi_scratch[light_row_slot(r)], sdfgi_scratch[light_row_slot(r) + 1u]);
+        sum += uvec2(sdfgi_scratch_at(light_row_slot(r)), sdfgi_scratch_at(light_row_slot(r) + 1u));
     return sum;
 }
 
@@ -103,12 +107,12 @@ void take_over(uint entry, uint previous)
 {
     for (uint axis = 0u; axis < 6u; axis++) {
         const uint index = sdfgi_surface_index(args.cascade, entry, axis);
-        sdfgi_light[index] = sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_LIGHT + axis)];
-        sdfgi_surfaces[index] = sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis)];
+        sdfgi_light[index] = sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_LIGHT + axis));
+        sdfgi_surfaces[index] = sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis));
     }
     for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
         sdfgi_gathered[gathered_word(args.cascade, k, entry)] =
-            sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_GATHERED + k)];
+            sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_GATHERED + k));
 }
 
 void begin_dark(uint entry)
@@ -127,7 +131,7 @@ bool faces_as_before(ivec3 cell, uint previous)
 {
     uint before = 0u;
     for (uint axis = 0u; axis < 6u; axis++)
-        if (sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis)] != SDFGI_SURFACE_NONE)
+        if (sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis)) != SDFGI_SURFACE_NONE)
             before |= 1u << axis;
     return before == light_cell_facing(args.cascade, cell);
 }
@@ -138,7 +142,7 @@ bool find_previous(uint block, uvec3 texel, out uint previous)
 {
     const uint slot = light_block_slot(block);
     const uvec4 before =
-        uvec4(sdfgi_scratch[slot + 4u], sdfgi_scratch[slot + 5u], sdfgi_scratch[slot + 3u], 0u);
+        uvec4(sdfgi_scratch_at(slot + 4u), sdfgi_scratch_at(slot + 5u), sdfgi_scratch_at(slot + 3u), 0u);
     const ivec3 cell = sdfgi_cell_from_texel(args.cascade, texel);
     return sdfgi_light_block_entry(before, texel, previous) &&
            all(greaterThanEqual(cell, sdfgi_frame.cascades[args.cascade].kept_low)) &&
@@ -174,8 +178,8 @@ void list_kept_cell(uint entry, uint previous, uvec3 texel)
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     sdfgi_light_cells[slot] = sdfgi_texel_index(texel);
-    sdfgi_direct[slot] = uvec2(sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT)],
-                               sdfgi_scratch[light_previous_slot(previous, LIGHT_KEPT_DIRECT + 1u)]);
+    sdfgi_direct[slot] = uvec2(sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_DIRECT)),
+                               sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_DIRECT + 1u)));
     take_over(entry, previous);
 }
 
@@ -189,11 +193,11 @@ void main()
 {
     const uint i = gl_LocalInvocationIndex, row = gl_WorkGroupID.x;
     const bool is_last_row = row + 1u == light_row_count();
-    if (sdfgi_scratch[light_row_slot(row)] == 0u && !is_last_row)
+    if (sdfgi_scratch_at(light_row_slot(row)) == 0u && !is_last_row)
         return;
     const uint slot = light_block_slot(row * SDFGI_GROUP_LINEAR + i);
-    blocks[i] = uvec4(sdfgi_scratch[slot], sdfgi_scratch[slot + 1u], sdfgi_scratch[slot + 2u],
-                      sdfgi_scratch[slot + 3u]);
+    blocks[i] = uvec4(sdfgi_scratch_at(slot), sdfgi_scratch_at(slot + 1u), sdfgi_scratch_at(slot + 2u),
+                      sdfgi_scratch_at(slot + 3u));
     const uint own = bitCount(blocks[i].x) + bitCount(blocks[i].y);
     prefix_sum(uvec4(own, own * blocks[i].z, part_of_earlier_rows(row)));
     const uvec2 start = sums[SDFGI_GROUP_LINEAR - 1].zw, count = sums[SDFGI_GROUP_LINEAR - 1].xy;

@@ -9,6 +9,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
+#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "light_blocks.glsl"
@@ -36,7 +37,7 @@ bool previous_was_too_short()
 /* The block of an entry of the previous list. */
 uint block_of_entry(uint entry)
 {
-    const uint index = sdfgi_light_cells[light_cell_slot(args.cascade, entry)];
+    const uint index = sdfgi_light_cells_at(light_cell_slot(args.cascade, entry));
     return light_block_from_coords(sdfgi_texel_from_index(index) / SDFGI_GROUP_CELLS);
 }
 
@@ -121,17 +122,17 @@ uint row_slot_of_block(uint block)
 void keep_light(uint entry)
 {
     const uint slot = light_cell_slot(args.cascade, entry);
-    const uvec2 direct = sdfgi_direct[slot];
+    const uvec2 direct = sdfgi_direct_at(slot);
     sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT)] = direct.x;
     sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT + 1u)] = direct.y;
     for (uint axis = 0u; axis < 6u; axis++) {
         const uint index = sdfgi_surface_index(args.cascade, entry, axis);
-        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_LIGHT + axis)] = sdfgi_light[index];
-        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_SURFACES + axis)] = sdfgi_surfaces[index];
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_LIGHT + axis)] = sdfgi_light_at(index);
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_SURFACES + axis)] = sdfgi_surfaces_at(index);
     }
     for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
         sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_GATHERED + k)] =
-            sdfgi_gathered[gathered_word(args.cascade, k, entry)];
+            sdfgi_gathered_at(gathered_word(args.cascade, k, entry));
 }
 
 /* Keeps an entry of the previous list, and marks it again unless its block is dirty. */
@@ -145,7 +146,7 @@ void keep_entry(uint entry)
     if (is_dirty(block))
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
-    const uvec3 inside = sdfgi_texel_from_index(sdfgi_light_cells[slot]) & 3u;
+    const uvec3 inside = sdfgi_texel_from_index(sdfgi_light_cells_at(slot)) & 3u;
     const uint bit = inside.x | inside.y << 2u | inside.z << 4u;
     atomicOr(sdfgi_scratch[light_block_slot(block) + (bit >> 5u)], 1u << (bit & 31u));
 
@@ -179,7 +180,7 @@ bool is_light_cell(ivec3 cell)
 void clear_cell(uint index)
 {
     const uint bits = 0xffu << (8u * (index & 3u));
-    if ((sdfgi_masks[index >> 2u] & bits) != 0u)
+    if ((sdfgi_masks_at(index >> 2u) & bits) != 0u)
         atomicAnd(sdfgi_masks[index >> 2u], ~bits);
 }
 
@@ -188,7 +189,7 @@ void note_previous(uint block)
 {
     const uint slot = light_block_slot(block);
     const uvec4 before =
-        args.rebuild != 0u ? uvec4(0u) : sdfgi_light_blocks[light_block_record(args.cascade, block)];
+        args.rebuild != 0u ? uvec4(0u) : sdfgi_light_blocks_at(light_block_record(args.cascade, block));
     sdfgi_scratch[slot + 3u] = before.z;
     sdfgi_scratch[slot + 4u] = before.x;
     sdfgi_scratch[slot + 5u] = before.y;

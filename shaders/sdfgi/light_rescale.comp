@@ -5,9 +5,13 @@
  * each light cell, and for each axis of one. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_SUMS
+#define SDFGI_WRITES_PREVIOUS
+#define SDFGI_WRITES_DIRECT
+#define SDFGI_WRITES_GATHERED
+#define SDFGI_WRITES_IRRADIANCE
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACES
-#define SDFGI_WRITES_IRRADIANCE
 #include "../lib/on_cpu.glsl"
 #include "gathered.glsl"
 #include "probe_store.glsl"
@@ -29,8 +33,8 @@ uint rescale_surface(uint packed)
 
 void rescale_axis(uint i)
 {
-    sdfgi_light[i] = rescale_rgbe(sdfgi_light[i]);
-    sdfgi_surfaces[i] = rescale_surface(sdfgi_surfaces[i]);
+    sdfgi_light[i] = rescale_rgbe(sdfgi_light_at(i));
+    sdfgi_surfaces[i] = rescale_surface(sdfgi_surfaces_at(i));
 }
 
 void rescale_gathered(uint cascade, uint entry)
@@ -41,8 +45,8 @@ void rescale_gathered(uint cascade, uint entry)
                        gathered_light(light.sum * args.factor, light.mean * args.factor));
         const uint raw = gathered_word(cascade, GATHERED_RAW + axis, entry),
                    between = gathered_word(cascade, GATHERED_BETWEEN + axis, entry);
-        sdfgi_gathered[raw] = rescale_surface(sdfgi_gathered[raw]);
-        sdfgi_gathered[between] = rescale_surface(sdfgi_gathered[between]);
+        sdfgi_gathered[raw] = rescale_surface(sdfgi_gathered_at(raw));
+        sdfgi_gathered[between] = rescale_surface(sdfgi_gathered_at(between));
     }
 }
 
@@ -50,7 +54,7 @@ void rescale_cell(uint i)
 {
     const uint cascade = i / sdfgi_frame.light_cell_room, entry = i % sdfgi_frame.light_cell_room;
     const uint slot = light_cell_slot(cascade, entry);
-    sdfgi_direct[slot].x = rescale_rgbe(sdfgi_direct[slot].x);
+    sdfgi_direct[slot].x = rescale_rgbe(sdfgi_direct_at(slot).x);
     if (gathers())
         rescale_gathered(cascade, entry);
 }

@@ -116,7 +116,7 @@ vec2 filtered_moments(ivec2 coord)
 void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
-    const uint slot = sdfgi_probe_index(args.cascade, probe), state = sdfgi_probes[slot];
+    const uint slot = sdfgi_probe_index(args.cascade, probe), state = sdfgi_probes_at(slot);
     const int near = int(ceil((SDFGI_OCCLUSION_RANGE + RAY_MARGIN) / sdfgi_space_y_scale() + MOST_MOVED));
     if (sdfgi_probe_is_dead(state) || !dirty_near(args.cascade, corner, corner, near))
         return;

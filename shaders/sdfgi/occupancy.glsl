@@ -67,7 +67,7 @@ uint runs_slot(uint bit)
 uint runs_of_row(uint layer, uint position_z)
 {
     const uint bit = runs_bit(layer, position_z);
-    return bitfieldExtract(sdfgi_search[runs_slot(bit)], int(bit & 31u),
+    return bitfieldExtract(sdfgi_search_at(runs_slot(bit)), int(bit & 31u),
                            int(sdfgi_frame.resolution >> RUN_BITS));
 }
 
@@ -91,7 +91,7 @@ uint layers_at(uint y)
     uint four = 0u;
     [[unroll]] for (uint word = 0u; word < 256u / SDFGI_GROUP_COLUMNS; word++)
     {
-        four |= sdfgi_search[layers_slot(y, min(word, layers_words() - 1u))];
+        four |= sdfgi_search_at(layers_slot(y, min(word, layers_words() - 1u)));
     }
     return four;
 }
@@ -108,7 +108,7 @@ uint dirty_blocks_slot(uint block_x, uint block_z)
 uvec2 dirty_blocks(uint block_x, uint block_z)
 {
     const uint slot = dirty_blocks_slot(block_x, block_z);
-    return uvec2(sdfgi_search[slot], sdfgi_search[slot + 1u]);
+    return uvec2(sdfgi_search_at(slot), sdfgi_search_at(slot + 1u));
 }
 
 /* The bits of all blocks of a column from `first` on. */

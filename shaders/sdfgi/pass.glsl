@@ -9,6 +9,7 @@
 #include "../shared/counters.h"
 #include "../shared/scratch.h"
 #include "push.glsl"
+#include "texels.glsl"
 
 /* Several groups of passes use this buffer in turn: see shared/scratch.h. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SCRATCH) buffer sdfgi_scratch_buffer

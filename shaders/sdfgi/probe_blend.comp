@@ -241,7 +241,7 @@ void main()
     const uint cascade = gl_WorkGroupID.y;
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(cascade, probe);
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes_at(slot)) || !sdfgi_probe_is_valid(cascade, probe))
         return;
 
     const probe_history history = probe_history_load(slot);

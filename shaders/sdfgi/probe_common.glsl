@@ -86,7 +86,7 @@ probe_history probe_history_unpack(vec4 packed)
 /* Memory that holds no history of a probe makes the probe NEW. */
 probe_history probe_history_load(uint slot)
 {
-    const vec4 packed = sdfgi_sums[probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT)];
+    const vec4 packed = sdfgi_sums_at(probe_sums(slot) + uint(SDFGI_IRRADIANCE_COUNT));
     const vec4 least = vec4(0.0, 0.0, -PROBE_NEW_CYCLES, 0.0),
                most = vec4(1.0, 1.0, PROBE_STEADY_CYCLES - PROBE_NEW_CYCLES, 1e30);
     return probe_within(packed, least, most) ? probe_history_unpack(packed)
@@ -135,7 +135,7 @@ float probe_cycle_weight()
  * has no upper bound: its mean is cut when it is stored. */
 vec4 probe_load_sum(uint slot, uint texel)
 {
-    const vec4 sum = sdfgi_sums[probe_sums(slot) + texel];
+    const vec4 sum = sdfgi_sums_at(probe_sums(slot) + texel);
     const float most_weight = 2.0 * float(PROBE_NEW_FRAMES) * probe_cycle_weight();
     return probe_within(sum, vec4(0.0), vec4(vec3(3e38), most_weight)) ? sum : vec4(0.0);
 }

@@ -149,7 +149,7 @@ uint place(ivec3 probe, uint i)
     if (!exists(other))
         return SDFGI_PROBE_DEAD;
     if (!needs_placing(corner))
-        return sdfgi_probes[sdfgi_probe_index(args.cascade, other)] & PLACE_BITS;
+        return sdfgi_probes_at(sdfgi_probe_index(args.cascade, other)) & PLACE_BITS;
     return (blocked >> i & 1u) != 0u ? place_with_most_room(corner) : 0u;
 }
 
@@ -178,7 +178,7 @@ void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x), corner = probe * SDFGI_PROBE_SPACING;
     const uint lane = gl_LocalInvocationIndex, slot = sdfgi_probe_index(args.cascade, probe);
-    const uint before = sdfgi_probes[slot] & ~SDFGI_PROBE_NEW;
+    const uint before = sdfgi_probes_at(slot) & ~SDFGI_PROBE_NEW;
     uint state = before;
     if (dirty_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
         find_blocked(probe);

@@ -6,6 +6,8 @@
  * probe. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_SUMS
+#define SDFGI_WRITES_PREVIOUS
 #define SDFGI_WRITES_IRRADIANCE
 #include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
@@ -25,7 +27,7 @@ void find_visible(uint cascade, ivec3 cage, vec3 pos)
     const uint k = gl_LocalInvocationIndex;
     if (k < 8u) {
         const ivec3 probe = cage + sdfgi_cage_corner(int(k));
-        const uint state = sdfgi_probes[sdfgi_probe_index(cascade, probe)];
+        const uint state = sdfgi_probes_at(sdfgi_probe_index(cascade, probe));
         if (!sdfgi_probe_is_dead(state) &&
             sdfgi_trace_visible(cascade, pos, sdfgi_probe_position(probe, state)))
             atomicOr(seen_by, 1u << k);
@@ -69,7 +71,7 @@ void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(args.cascade, probe);
-    const uint state = sdfgi_probes[slot];
+    const uint state = sdfgi_probes_at(slot);
     if (sdfgi_probe_is_dead(state) || (state & SDFGI_PROBE_NEW) == 0u)
         return;
     const uint i = gl_LocalInvocationIndex, coarser = args.cascade + 1u;

@@ -29,7 +29,7 @@ void probe_store_previous(uint slot, uint texel, vec3 mean, float weight)
 /* Mean in rgb, weight in a. */
 vec4 probe_load_previous(uint slot, uint texel)
 {
-    const uvec2 packed = sdfgi_previous[probe_texel(slot, texel)];
+    const uvec2 packed = sdfgi_previous_at(probe_texel(slot, texel));
     return max(sdfgi_half4_decode(packed), vec4(0.0));
 }
 
@@ -47,7 +47,7 @@ void probe_store_irradiance(uint slot, uint texel, vec4 value)
 
 vec4 probe_load_irradiance(uint slot, uint texel)
 {
-    const uvec2 halves = sdfgi_irradiance_texels[probe_texel(slot, texel)];
+    const uvec2 halves = sdfgi_irradiance_texels_at(probe_texel(slot, texel));
     return sdfgi_half4_decode(halves);
 }
 

@@ -2,6 +2,7 @@
  * Traces the rays that ray_list has listed, and caches where they end. One thread per ray. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_RAYS
 #include "../lib/on_cpu.glsl"
 #include "emitter_samples.glsl"
 #include "probe_common.glsl"
@@ -33,7 +34,7 @@ void trace(uint ray)
     const uint slot = ray / emitter_cache_stride(), s = ray % emitter_cache_stride();
     uint cascade;
     const ivec3 probe = probe_from_index(slot, cascade);
-    const vec3 pos = sdfgi_probe_position(probe, sdfgi_probes[slot]);
+    const vec3 pos = sdfgi_probe_position(probe, sdfgi_probes_at(slot));
     if (s >= sdfgi_frame.cycle_samples) {
         const uint number = (s - sdfgi_frame.cycle_samples) / uint(SDFGI_EMITTER_SAMPLE_WORDS);
         trace_to_emitter(ray, number, cascade, probe, pos);
@@ -49,5 +50,5 @@ void main()
 {
     const uint count = ray_queue_count(), threads = gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR;
     for (uint n = gl_GlobalInvocationID.x; n < count; n += threads)
-        trace(sdfgi_scratch[n]);
+        trace(sdfgi_scratch_at(n));
 }

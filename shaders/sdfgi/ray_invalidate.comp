@@ -5,6 +5,7 @@
  * A ray through a dirty box that is only air ends as before. One workgroup per probe and cascade. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_WRITES_RAYS
 #include "../lib/on_cpu.glsl"
 #include "dirty.glsl"
 #include "dirty_bounds.glsl"
@@ -173,7 +174,7 @@ void load_hits(uint cache, uint first, bool all_dirty)
 {
     for (uint k = 0u; k < HITS; k++) {
         const uint s = hit_sample(first, k);
-        hit_codes[k] = s < sdfgi_frame.cycle_samples ? sdfgi_rays[cache + s] : SDFGI_RAY_UNKNOWN;
+        hit_codes[k] = s < sdfgi_frame.cycle_samples ? sdfgi_rays_at(cache + s) : SDFGI_RAY_UNKNOWN;
         hit_dirty[k] = all_dirty;
     }
 }
@@ -214,7 +215,7 @@ void main()
 {
     const ivec3 probe = probe_from_linear(gl_WorkGroupID.x);
     const uint slot = sdfgi_probe_index(own_cascade(), probe);
-    const uint state = sdfgi_probes[slot], cache = slot * emitter_cache_stride();
+    const uint state = sdfgi_probes_at(slot), cache = slot * emitter_cache_stride();
     if (sdfgi_probe_is_dead(state))
         return;
     const vec3 pos = sdfgi_probe_position(probe, state);

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_INDIRECT
+#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
 #include "probe_common.glsl"
 #include "emitter_samples.glsl"
@@ -28,14 +29,14 @@ bool needs_tracing(uint cascade, uint n, out uint ray)
         return false;
     const ivec3 probe = probe_from_linear(i);
     const uint slot = sdfgi_probe_index(cascade, probe);
-    if (sdfgi_probe_is_dead(sdfgi_probes[slot]) || !sdfgi_probe_is_valid(cascade, probe))
+    if (sdfgi_probe_is_dead(sdfgi_probes_at(slot)) || !sdfgi_probe_is_valid(cascade, probe))
         return false;
     if (n % rays >= at_random) {
         ray = emitter_sample_word(slot, emitter_first_of_frame() + n % rays - at_random);
         return !emitter_sample_is_known(ray);
     }
     ray = slot * emitter_cache_stride() + sdfgi_frame.first_sample + n % rays;
-    return !ray_is_cached(sdfgi_rays[ray]);
+    return !ray_is_cached(sdfgi_rays_at(ray));
 }
 
 void main()

@@ -8,6 +8,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
+#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
 #include "accumulators.glsl"
 #include "dirty_bounds.glsl"

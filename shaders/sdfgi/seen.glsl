@@ -25,7 +25,7 @@ uint seen_word(uint cascade, uint entry)
 
 bool seen_holds(uint cascade, uint entry)
 {
-    return (sdfgi_seen[seen_word(cascade, entry)] >> (entry & 31u) & 1u) != 0u;
+    return (sdfgi_seen_at(seen_word(cascade, entry)) >> (entry & 31u) & 1u) != 0u;
 }
 
 /* The cascade of row y of a dispatch. Rows of the ranges come first, and then those of the seen cells. */

@@ -57,7 +57,7 @@ bool surface_class_normal(uint packed, uint axis, out vec3 normal)
  * else that of the triangles which lean towards it most. */
 vec3 surface_normal(uint block, uint axis)
 {
-    const uint packed = sdfgi_normals[block];
+    const uint packed = sdfgi_normals_at(block);
     vec3 normal;
     if (surface_class_normal(packed, axis, normal))
         return normal;
@@ -80,7 +80,7 @@ vec3 surface_normal(uint block, uint axis)
 /* What a block shows on the side that faces `axis`. */
 vec3 surface_albedo(uint block, uint axis)
 {
-    const uvec2 packed = sdfgi_albedo[block];
+    const uvec2 packed = sdfgi_albedo_at(block);
     const uint sides = packed.x >> 30u | packed.y >> 28u << 2u;
     return (sides >> axis & 1u) == 0u
                ? vec3(packed.x & 1023u, packed.x >> 10u & 1023u, packed.x >> 20u & 1023u) / SDFGI_ALBEDO_STEPS
@@ -90,7 +90,7 @@ vec3 surface_albedo(uint block, uint axis)
 /* The kind of metal from which rays go on, 1 to 3; 0 for all else. */
 uint surface_metal(uint block)
 {
-    return sdfgi_frame.has_metal != 0u ? sdfgi_normals[block] >> SURFACE_METAL_SHIFT : 0u;
+    return sdfgi_frame.has_metal != 0u ? sdfgi_normals_at(block) >> SURFACE_METAL_SHIFT : 0u;
 }
 
 /* `sides` has a bit for each side that shows the second colour. */
@@ -112,7 +112,7 @@ uvec2 surface_pack_emission(vec3 radiance, uint sides)
 
 bool surface_is_listed_emitter(uint block)
 {
-    return (sdfgi_emission[block].y & SDFGI_EMISSION_IS_LISTED) != 0u;
+    return (sdfgi_emission_at(block).y & SDFGI_EMISSION_IS_LISTED) != 0u;
 }
 
 #endif

@@ -44,7 +44,7 @@ struct sdfgi_visibility {
 uint visibility_bits_of_cell(uint cascade, ivec3 cell)
 {
     const uint index = sdfgi_cell_index(cascade, cell);
-    return sdfgi_masks[index >> 2u] >> (8u * (index & 3u)) & 0xffu;
+    return sdfgi_masks_at(index >> 2u) >> (8u * (index & 3u)) & 0xffu;
 }
 
 sdfgi_visibility visibility_from_bits(uint bits)
@@ -61,7 +61,7 @@ vec2 visibility_depth_texel(uint probe_index, ivec2 coord)
 {
     const uint stride = uint(SDFGI_OCCLUSION_STRIDE);
     return unpackUnorm2x16(
-        sdfgi_occlusion[probe_index * stride * stride + uint(coord.y + 1) * stride + uint(coord.x + 1)]);
+        sdfgi_occlusion_at(probe_index * stride * stride + uint(coord.y + 1) * stride + uint(coord.x + 1)));
 }
 
 /* How far a receiver is visible. `dir` leads to it from the probe, `range` is its distance in cell widths. */
@@ -82,7 +82,7 @@ float visibility_chebyshev(uint probe_index, vec3 dir, float range)
 float visibility_from_depth(uint cascade, ivec3 probe, vec3 pos)
 {
     const uint index = sdfgi_probe_index(cascade, probe);
-    const vec3 offset = sdfgi_metric_from_cells(pos - sdfgi_probe_position(probe, sdfgi_probes[index]));
+    const vec3 offset = sdfgi_metric_from_cells(pos - sdfgi_probe_position(probe, sdfgi_probes_at(index)));
     const float range = length(offset);
     return range > 1e-4 ? visibility_chebyshev(index, offset / range, range) : 1.0;
 }

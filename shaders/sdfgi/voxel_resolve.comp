@@ -7,6 +7,7 @@
 #define SDFGI_WRITES_SURFACE
 #define SDFGI_WRITES_EMISSION
 #define SDFGI_WRITES_EMITTERS
+#define SDFGI_ASKS_SELDOM
 #include "../lib/on_cpu.glsl"
 #include "accumulators.glsl"
 #include "block_slices.glsl"
@@ -21,7 +22,7 @@ SDFGI_PUSH(sdfgi_region_args);
 
 uint accumulated(uint plane, uint block)
 {
-    return sdfgi_scratch[accumulator(plane, block)];
+    return sdfgi_scratch_at(accumulator(plane, block));
 }
 
 vec3 accumulated3(uint plane, uint block)
@@ -218,7 +219,7 @@ void load_block(ivec3 first)
         [[unroll]] for (int axis = 0; axis < 3; axis++)
         {
             const uint word = emissive_word(voxel_part(args.low, args.high), axis, cell);
-            block_facing[axis][i] = uvec2(sdfgi_scratch[word], sdfgi_scratch[word + 1u]);
+            block_facing[axis][i] = uvec2(sdfgi_scratch_at(word), sdfgi_scratch_at(word + 1u));
             block_emissive[i] |= block_facing[axis][i];
         }
     }

@@ -239,7 +239,7 @@ void accumulate(uint plane, uint block, uint value)
  * other. Their mean is known well enough then. What is left out is counted. */
 bool has_room(uint plane, uint block, uint limit)
 {
-    const bool room = sdfgi_scratch[accumulator(plane, block)] < limit;
+    const bool room = sdfgi_scratch_at(accumulator(plane, block)) < limit;
     if (!room)
         counter_add(SDFGI_COUNTER_SAMPLES_CUT, 1u);
     return room;
@@ -384,9 +384,9 @@ void store_bit(uint cell, uint bit)
 {
     const uint word_bit = 1u << (bit & 31u);
     if (bit < 32u) {
-        if ((sdfgi_bits[cell].x & word_bit) == 0u)
+        if ((sdfgi_bits_at(cell).x & word_bit) == 0u)
             atomicOr(sdfgi_bits[cell].x, word_bit);
-    } else if ((sdfgi_bits[cell].y & word_bit) == 0u) {
+    } else if ((sdfgi_bits_at(cell).y & word_bit) == 0u) {
         atomicOr(sdfgi_bits[cell].y, word_bit);
     }
 }

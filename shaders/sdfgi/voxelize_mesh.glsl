@@ -5,6 +5,7 @@
 
 #define SDFGI_WRITES_BITS
 #define SDFGI_WRITES_LIGHT
+#define SDFGI_WRITES_SCRATCH
 #include "voxelize_instance.glsl"
 #include "../lib/finite.glsl"
 #include "../lib/vertex_fetch.glsl"

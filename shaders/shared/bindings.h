@@ -10,6 +10,9 @@
 #define SDFGI_SET_MATERIAL 3
 #define SDFGI_SET_VIEW     2
 
+/* Added to the binding of a storage buffer: where its texel buffer is bound, on software drivers alone. */
+#define SDFGI_BINDING_TEXELS 32
+
 /* LOOKUP: all that the lookups of sdfgi.glsl read. */
 #define SDFGI_BINDING_FRAME        0
 #define SDFGI_BINDING_BITS         1

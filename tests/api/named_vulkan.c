@@ -39,6 +39,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL name_object(VkDevice device, const VkDebug
 /* X(create macro, name, type): what is made by vkCreate*, one at a time. */
 #define KINDS(X)                                                                                             \
     X(Buffer, BUFFER)                                                                                        \
+    X(BufferView, BUFFER_VIEW)                                                                               \
     X(DescriptorPool, DESCRIPTOR_POOL)                                                                       \
     X(DescriptorSetLayout, DESCRIPTOR_SET_LAYOUT)                                                            \
     X(Framebuffer, FRAMEBUFFER)                                                                              \

@@ -92,6 +92,7 @@ CREATE(PipelineCache)
 CREATE(PipelineLayout)
 CREATE(QueryPool)
 CREATE(RenderPass)
+CREATE(BufferView)
 CREATE(Sampler)
 CREATE(ShaderModule)
 #undef CREATE

@@ -12,6 +12,7 @@
 /* X(kind): objects with a life of their own. */
 #define NULL_DEVICE_KINDS(X)                                                                                 \
     X(Buffer)                                                                                                \
+    X(BufferView)                                                                                            \
     X(CommandPool)                                                                                           \
     X(DescriptorPool)                                                                                        \
     X(DescriptorSetLayout)                                                                                   \

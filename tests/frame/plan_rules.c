@@ -175,7 +175,7 @@ static void require_dispatch(const struct drive *d, const struct work *work)
 {
     if (work->indirect != WORK_DIRECT || sdfgi_pass_row(work->pass)->domain == DOMAIN_INSTANCES)
         return;
-    const struct work_groups groups = sdfgi_work_groups(work, &d->extent, 1);
+    const struct work_groups groups = sdfgi_work_groups(work, &d->extent, false);
     if (groups.x > SDFGI_MAX_GROUPS || groups.y > SDFGI_MAX_GROUPS || groups.z > SDFGI_MAX_GROUPS)
         require_fail(__FILE__, __LINE__, "%s has %u x %u x %u workgroups, and devices may take %d",
                      sdfgi_pass_row(work->pass)->name, groups.x, groups.y, groups.z, SDFGI_MAX_GROUPS);

@@ -6,9 +6,10 @@
 #include "sdfgi_shaders.h"
 
 /* All shaders of a row of the pass table. */
-#define MODULE(id, words)                  { PASS_##id, #words, sdfgi_##words, sizeof sdfgi_##words, NULL },
-#define MODULES_COMPUTE(id, file)          MODULE(id, file##_comp)
-#define MODULES_COMPUTE_TEXTURED(id, file) MODULES_COMPUTE(id, file) MODULE(id, file##_textured_comp)
+#define MODULE(id, words)         { PASS_##id, #words, sdfgi_##words, sizeof sdfgi_##words, NULL },
+#define MODULES_COMPUTE(id, file) MODULE(id, file##_comp) MODULE(id, file##_software_comp)
+#define MODULES_COMPUTE_TEXTURED(id, file)                                                                   \
+    MODULES_COMPUTE(id, file) MODULE(id, file##_textured_comp) MODULE(id, file##_textured_software_comp)
 #define MODULES_RASTER_TEXTURED(id, file)                                                                    \
     MODULE(id, file##_vert) MODULE(id, file##_frag) MODULE(id, file##_textured_frag)
 

@@ -296,12 +296,19 @@ static void shaders_lay_out_every_shared_struct_as_c_does(void **state)
 _Static_assert((int)RESOURCE_SET_LOOKUP == SDFGI_SET_LOOKUP && (int)RESOURCE_SET_WORK == SDFGI_SET_WORK,
                "resources are bound in the sets that their rows name");
 
-/* Block of a buffer of the resource table, sdfgi_<id>_buffer; the table's names are "sdfgi <ID>". */
-static void block_name(int resource, char name[static 64])
+/* Block of a buffer of the resource table, sdfgi_<id>_buffer, or its texels, sdfgi_<id>_view; the table's
+ * names are "sdfgi <ID>". */
+static void block_name(int resource, bool texels, char name[static 64])
 {
-    snprintf(name, 64, "%s_buffer", sdfgi_resource_row((enum resource)resource)->name);
+    snprintf(name, 64, "%s_%s", sdfgi_resource_row((enum resource)resource)->name,
+             texels ? "view" : "buffer");
     for (char *c = name; *c; c++)
         *c = *c == ' ' ? '_' : (char)tolower((unsigned char)*c);
+}
+
+static bool is_texels(const struct module_resource *r)
+{
+    return r->kind == SPVC_RESOURCE_TYPE_SAMPLED_IMAGE;
 }
 
 /* The resource that a block stands for; RESOURCE_COUNT: none. */
@@ -309,7 +316,7 @@ static int resource_of(const struct module_resource *r)
 {
     char name[64];
     for (int i = 0; i < RESOURCE_COUNT; i++) {
-        block_name(i, name);
+        block_name(i, is_texels(r), name);
         if (strcmp(r->block, name) == 0)
             return i;
     }
@@ -325,9 +332,14 @@ static void check_binding(const struct module *module, const struct module_resou
     if (resource == RESOURCE_COUNT)
         require_fail(__FILE__, __LINE__, "%s: %s is not in the resource table", module->name, r->block);
     const struct resource_row *row = sdfgi_resource_row((enum resource)resource);
-    if (r->set != (uint32_t)row->set || r->binding != row->binding)
+    const uint32_t binding = row->binding + (is_texels(r) ? SDFGI_BINDING_TEXELS : 0);
+    if (r->set != (uint32_t)row->set || r->binding != binding)
         require_fail(__FILE__, __LINE__, "%s: %s has set %u, binding %u, in the resource table %u, %u",
-                     module->name, r->block, r->set, r->binding, (unsigned)row->set, row->binding);
+                     module->name, r->block, r->set, r->binding, (unsigned)row->set, binding);
+    if (is_texels(r)) {
+        REQUIRE_CMP(row->texels, !=, VK_FORMAT_UNDEFINED);
+        return;
+    }
     const bool uniform = row->kind == RESOURCE_KIND_UNIFORM;
     REQUIRE_CMP(r->kind, ==, uniform ? SPVC_RESOURCE_TYPE_UNIFORM_BUFFER : SPVC_RESOURCE_TYPE_STORAGE_BUFFER);
     seen[resource]++;

@@ -43,7 +43,8 @@ static int touch_at(uint32_t set, uint32_t binding)
         return RESOURCE_COUNT + (int)binding;
     for (int i = 0; i < RESOURCE_COUNT; i++) {
         const struct resource_row *row = sdfgi_resource_row((enum resource)i);
-        if ((uint32_t)row->set == set && row->binding == binding)
+        if ((uint32_t)row->set == set &&
+            (row->binding == binding || row->binding + SDFGI_BINDING_TEXELS == binding))
             return i;
     }
     require_fail(__FILE__, __LINE__, "set %u, binding %u: no resource is bound there", set, binding);
@@ -127,6 +128,36 @@ static void every_row_names_what_its_shaders_read_and_write(void **state)
         if (!is_vertex(&modules[i]))
             wrong += compare_pipeline(&modules[i]);
     REQUIRE_CMP(wrong, ==, 0);
+}
+
+/* ---- Texels */
+
+/* What a shader reads as texels and writes as a buffer, too: a bit per resource. */
+static uint64_t read_back_as_texels(const struct module *module)
+{
+    struct module_resource resources[MODULE_RESOURCES_MAX];
+    const size_t count = module_active_resources(module, resources);
+    uint8_t *access = access_by_id(module->code, module->size);
+    uint64_t as_texels = 0, written = 0;
+    for (size_t i = 0; i < count; i++)
+        if (resources[i].set <= SDFGI_SET_WORK) {
+            const int id = touch_at(resources[i].set, resources[i].binding);
+            as_texels |= (uint64_t)(resources[i].binding >= SDFGI_BINDING_TEXELS) << id;
+            written |= (uint64_t)((access[resources[i].id] & ACCESS_WRITE) != 0) << id;
+        }
+    free(access);
+    return as_texels & written;
+}
+
+/* Drivers may take texels for constant while a shader runs. Of what is left out, no thread reads a word that
+ * has been written in the same dispatch. */
+static void no_shader_reads_texels_of_what_it_writes(void **state)
+{
+    (void)state;
+    const uint64_t left_out = RESOURCE_BIT(GATHERED) | RESOURCE_BIT(SUMS) | RESOURCE_BIT(PREVIOUS);
+    for (size_t i = 0; i < module_count; i++)
+        if (read_back_as_texels(&modules[i]) & ~left_out)
+            require_fail(__FILE__, __LINE__, "%s: reads texels of a buffer that it writes", modules[i].name);
 }
 
 /* ---- The rest of a row */
@@ -227,6 +258,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_row_names_what_its_shaders_read_and_write),
+        cmocka_unit_test(no_shader_reads_texels_of_what_it_writes),
         cmocka_unit_test(every_pass_has_a_shader_of_its_name),
         cmocka_unit_test(workgroups_have_a_size_and_constants_are_known),
         cmocka_unit_test(push_constants_are_the_arguments_of_the_row_and_fit_everywhere),

@@ -40,7 +40,8 @@ def found(paths):
     counts = {}
     for path in paths:
         for function, count in conversions_of(path).items():
-            key = f"{path.name.split('.')[0].removesuffix('_textured')}: main" if function == "main" else function
+            shader = path.name.split(".")[0].removesuffix("_software").removesuffix("_textured")
+            key = f"{shader}: main" if function == "main" else function
             counts[key] = max(count, counts.get(key, 0))
     return counts
 

@@ -45,6 +45,7 @@ enum fallible_error {
 /* X(name, errors, parameters, arguments): those of a device. */
 #define FALLIBLE_DEVICE_FUNCTIONS(X)                                                                         \
     FALLIBLE_CREATE(X, Buffer)                                                                               \
+    FALLIBLE_CREATE(X, BufferView)                                                                           \
     FALLIBLE_CREATE(X, CommandPool)                                                                          \
     FALLIBLE_CREATE(X, DescriptorPool)                                                                       \
     FALLIBLE_CREATE(X, DescriptorSetLayout)                                                                  \

@@ -17,13 +17,15 @@ struct fake {
     uint32_t allowed;     /* memory types that suit the buffer */
     uint32_t chosen;      /* that it was given */
     uint32_t invalidated; /* times */
+    VkDeviceSize size;    /* of the buffer */
 };
 static struct fake fake;
 
 static VkResult create_buffer(VkDevice device, const VkBufferCreateInfo *info,
                               const VkAllocationCallbacks *callbacks, VkBuffer *buffer)
 {
-    (void)device, (void)info, (void)callbacks;
+    (void)device, (void)callbacks;
+    fake.size = info->size;
     *buffer = VK_NULL_HANDLE;
     return VK_SUCCESS;
 }
@@ -139,6 +141,30 @@ static void memory_that_is_not_coherent_is_invalidated(void **state)
     assert_int_equal(fake.invalidated, 1);
 }
 
+static VkDeviceSize made_for(uint64_t size, VkBufferUsageFlags usage)
+{
+    const struct gpu_device device = device_make(many, 6);
+    struct gpu_buffer buffer;
+    fake = (struct fake){ .allowed = 0x3f };
+    assert_int_equal(gpu_buffer_init(&device, &buffer, size, usage, GPU_DEVICE_LOCAL, 0, "buffer"),
+                     VK_SUCCESS);
+    assert_int_equal(buffer.size, size);
+    return fake.size;
+}
+
+/* A driver that tells these sizes apart compiles every shader again that reads the buffer. */
+static void buffers_of_texels_have_sizes_of_one_kind(void **state)
+{
+    (void)state;
+    static const uint64_t sizes[] = { 4, 96, 256, 4096, 1 << 20, (1 << 20) + 256, 3 << 16, 3 << 20, 12345 };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const VkDeviceSize made = made_for(sizes[i], VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        assert_true(made >= sizes[i] && made <= sizes[i] + 512);
+        assert_true((made & (made - 1)) != 0 && (made >> 8 & 0xff) != 0);
+        assert_int_equal(made_for(sizes[i], VK_BUFFER_USAGE_STORAGE_BUFFER_BIT), sizes[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -146,6 +172,7 @@ int main(void)
         cmocka_unit_test(without_it_the_first_that_will_do_is_taken),
         cmocka_unit_test(without_any_the_buffer_is_refused),
         cmocka_unit_test(memory_that_is_not_coherent_is_invalidated),
+        cmocka_unit_test(buffers_of_texels_have_sizes_of_one_kind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,6 +30,7 @@ struct backend {
     /* Guards what a thread in sdfgi_prepare shares with the other: pipelines.passes, held, the preparation of
      * context.h, and the scene's instance_room. Nothing else is called meanwhile. */
     pthread_mutex_t lock;
+    bool software;            /* passes are those for software drivers: SDFGI_SOFTWARE in shaders */
     struct sdfgi_memory held; /* device bytes of all buffers, retired ones included */
 };
 

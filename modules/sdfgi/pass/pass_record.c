@@ -4,11 +4,6 @@
 #include <assert.h>
 #include <string.h>
 
-/* Blocks whose light cells a workgroup marks. On a CPU looking for the next block in vain takes as long as
- * marking it: with one block for each workgroup, a slab of 64^3 takes 42 ms there instead of 17. */
-#define MARK_BLOCKS     1
-#define MARK_BLOCKS_CPU 16
-
 void sdfgi_pass_recorder_begin(struct pass_recorder *r, const struct backend *backend,
                                struct resources *resources, VkCommandBuffer cmd)
 {
@@ -91,8 +86,7 @@ static void dispatch(struct pass_recorder *r, const struct work *work)
         gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[RESOURCE_INDIRECT], 16 * work->indirect);
         return;
     }
-    const struct work_groups groups = sdfgi_work_groups(
-        work, &r->resources->extent, r->backend->device.is_cpu ? MARK_BLOCKS_CPU : MARK_BLOCKS);
+    const struct work_groups groups = sdfgi_work_groups(work, &r->resources->extent, r->backend->software);
     gpu_use(&r->gpu, GPU_USAGE_COMPUTE, row->reads, row->writes);
     gpu_dispatch(&r->gpu, groups.x, groups.y, groups.z);
 }

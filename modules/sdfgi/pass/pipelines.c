@@ -14,9 +14,10 @@
 _Static_assert(sizeof(union work_args) <= PUSH_BYTES, "arguments fit the push constants");
 _Static_assert(sizeof(struct sdfgi_voxelize_args) <= PUSH_BYTES, "arguments fit the push constants");
 
-/* Of a pass: a compute shader or a vertex and a fragment shader, by variant. */
+/* Of a pass: a compute shader, and the same for software drivers; or a vertex and a fragment shader, by
+ * variant. */
 struct pass_shaders {
-    struct gpu_shader compute[PASS_VARIANTS], vertex, fragment[PASS_VARIANTS];
+    struct gpu_shader compute[PASS_VARIANTS], software[PASS_VARIANTS], vertex, fragment[PASS_VARIANTS];
 };
 
 #define SHADER(name)                                                                                         \
@@ -25,11 +26,14 @@ struct pass_shaders {
     }
 #define SHADERS_COMPUTE(file)                                                                                \
     {                                                                                                        \
-        .compute = { SHADER(sdfgi_##file##_comp) }                                                           \
+        .compute = { SHADER(sdfgi_##file##_comp) }, .software = { SHADER(sdfgi_##file##_software_comp) }     \
     }
 #define SHADERS_COMPUTE_TEXTURED(file)                                                                       \
     {                                                                                                        \
-        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_textured_comp) }                     \
+        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_textured_comp) }, .software = {      \
+            SHADER(sdfgi_##file##_software_comp),                                                            \
+            SHADER(sdfgi_##file##_textured_software_comp)                                                    \
+        }                                                                                                    \
     }
 #define SHADERS_RASTER_TEXTURED(file)                                                                        \
     {                                                                                                        \
@@ -66,12 +70,16 @@ static VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType typ
 
 static VkResult resource_set_layout(struct backend *backend, enum resource_set set)
 {
-    VkDescriptorSetLayoutBinding bindings[RESOURCE_COUNT];
+    VkDescriptorSetLayoutBinding bindings[2 * RESOURCE_COUNT];
     uint32_t count = 0;
     for (int i = 0; i < RESOURCE_COUNT; i++) {
         const struct resource_row *row = sdfgi_resource_row((enum resource)i);
-        if (row->set == set)
-            bindings[count++] = binding(row->binding, sdfgi_resource_descriptor((enum resource)i), NULL);
+        if (row->set != set)
+            continue;
+        bindings[count++] = binding(row->binding, sdfgi_resource_descriptor((enum resource)i), NULL);
+        if (backend->software && row->texels != VK_FORMAT_UNDEFINED)
+            bindings[count++] =
+                binding(SDFGI_BINDING_TEXELS + row->binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, NULL);
     }
     return set_layout(&backend->device, sdfgi_resource_set_name(set), bindings, count,
                       &backend->pipelines.sets[set]);
@@ -182,7 +190,8 @@ VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32
     if (sdfgi_pipelines_has(backend, pass, variant))
         return VK_SUCCESS;
     VkPipeline made = VK_NULL_HANDLE;
-    const VkResult result = gpu_compute_pipeline_create(&backend->device, shaders[pass].compute[variant],
+    const struct gpu_shader *variants = backend->software ? shaders[pass].software : shaders[pass].compute;
+    const VkResult result = gpu_compute_pipeline_create(&backend->device, variants[variant],
                                                         backend->pipelines.layouts[sdfgi_pass_row(pass)->set],
                                                         sdfgi_pass_row(pass)->object_name, &made);
     if (result == VK_SUCCESS)
@@ -222,8 +231,17 @@ static VkResult make_sampler(struct backend *backend)
                      "sdfgi nearest");
 }
 
+/* Software drivers read a texel buffer for all threads of a group at once, and a storage buffer for one after
+ * another. Their limits have to leave room: for all that is bound, and for buffers of any size. */
+static bool is_software(const struct gpu_device *device)
+{
+    return device->is_cpu && device->limits.maxPerStageDescriptorSampledImages >= 2 * RESOURCE_COUNT &&
+           device->limits.maxTexelBufferElements >= device->limits.maxStorageBufferRange / sizeof(uint32_t);
+}
+
 VkResult sdfgi_pipelines_init(struct backend *backend)
 {
+    backend->software = is_software(&backend->device);
     VkResult result = make_sampler(backend);
     if (result == VK_SUCCESS)
         result = make_layouts(backend);

@@ -7,18 +7,28 @@
 
 #include <assert.h>
 
+enum format_texels {
+#define TEXELS(id, bytes, texels) FORMAT_TEXELS_##id = VK_FORMAT_##texels,
+    RESOURCE_FORMATS(TEXELS)
+#undef TEXELS
+};
+
 static const struct resource_row rows[RESOURCE_COUNT] = {
 #define ROW(id, kind_, format, category_, scope_, set_, extent, keep_)                                       \
-    [RESOURCE_##id] = {                                                                                      \
-        "sdfgi " #id,        RESOURCE_KIND_##kind_, SDFGI_MEMORY_##category_, RESOURCE_SCOPE_##scope_,       \
-        RESOURCE_SET_##set_, RESOURCE_KEEP_##keep_, SDFGI_BINDING_##id                                       \
-    },
+    [RESOURCE_##id] = { "sdfgi " #id,                                                                        \
+                        RESOURCE_KIND_##kind_,                                                               \
+                        SDFGI_MEMORY_##category_,                                                            \
+                        RESOURCE_SCOPE_##scope_,                                                             \
+                        RESOURCE_SET_##set_,                                                                 \
+                        RESOURCE_KEEP_##keep_,                                                               \
+                        SDFGI_BINDING_##id,                                                                  \
+                        (VkFormat)FORMAT_TEXELS_##format },
     SDFGI_RESOURCES(ROW)
 #undef ROW
 };
 
 enum format_size {
-#define SIZE(id, bytes) FORMAT_SIZE_##id = bytes,
+#define SIZE(id, bytes, texels) FORMAT_SIZE_##id = bytes,
     RESOURCE_FORMATS(SIZE)
 #undef SIZE
 };

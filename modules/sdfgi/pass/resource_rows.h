@@ -21,6 +21,7 @@ struct resource_row {
     enum resource_set set;
     enum resource_keep keep;
     uint32_t binding; /* in its set */
+    VkFormat texels;  /* VK_FORMAT_UNDEFINED: shaders never read texels of it */
 };
 
 const struct resource_row *sdfgi_resource_row(enum resource resource);

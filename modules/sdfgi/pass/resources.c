@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "resources.h"
 
+#include "shaders/shared/bindings.h"
+
 #include <assert.h>
 #include <string.h>
 
@@ -9,12 +11,26 @@
      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                                   \
      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
 
+static bool has_texels(const struct backend *backend, enum resource resource)
+{
+    return backend->software && sdfgi_resource_row(resource)->texels != VK_FORMAT_UNDEFINED;
+}
+
 static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer, enum resource resource,
                               const struct extent *extent)
 {
-    return sdfgi_backend_buffer_init(backend, buffer, sdfgi_resource_size(resource, extent), BUFFER_USAGE,
-                                     GPU_DEVICE_LOCAL, sdfgi_resource_row(resource)->category,
-                                     sdfgi_resource_row(resource)->name);
+    const struct resource_row *row = sdfgi_resource_row(resource);
+    const bool texels = has_texels(backend, resource);
+    const VkResult result =
+        sdfgi_backend_buffer_init(backend, buffer, sdfgi_resource_size(resource, extent),
+                                  BUFFER_USAGE | (texels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0),
+                                  GPU_DEVICE_LOCAL, row->category, row->name);
+    if (result != VK_SUCCESS || !texels)
+        return result;
+    const VkResult viewed = gpu_buffer_view(&backend->device, buffer, row->texels, row->name);
+    if (viewed != VK_SUCCESS)
+        sdfgi_backend_buffer_finish(backend, buffer, row->category);
+    return viewed;
 }
 
 static VkResult create_readback(struct backend *backend, struct resources *r)
@@ -33,8 +49,9 @@ static VkResult create_pool(const struct backend *backend, const char *name, uin
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
+        { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count },
     };
-    return sdfgi_backend_pool_create(backend, name, sets, sizes, 2, 0, pool);
+    return sdfgi_backend_pool_create(backend, name, sets, sizes, backend->software ? 3 : 2, 0, pool);
 }
 
 static VkResult create_sets(const struct backend *backend, VkDescriptorPool *pool,
@@ -48,25 +65,31 @@ static VkResult create_sets(const struct backend *backend, VkDescriptorPool *poo
 }
 
 static void write_binding(const struct backend *backend, VkDescriptorSet set, enum resource resource,
-                          VkBuffer buffer)
+                          const struct gpu_buffer *buffer)
 {
-    const VkDescriptorBufferInfo info = { buffer, 0, VK_WHOLE_SIZE };
-    backend->device.fn.UpdateDescriptorSets(
-        backend->device.handle, 1,
-        &(VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                 .dstSet = set,
-                                 .dstBinding = sdfgi_resource_row(resource)->binding,
-                                 .descriptorCount = 1,
-                                 .descriptorType = sdfgi_resource_descriptor(resource),
-                                 .pBufferInfo = &info },
-        0, NULL);
+    const VkDescriptorBufferInfo info = { buffer->handle, 0, VK_WHOLE_SIZE };
+    const VkWriteDescriptorSet writes[] = {
+        { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+          .dstSet = set,
+          .dstBinding = sdfgi_resource_row(resource)->binding,
+          .descriptorCount = 1,
+          .descriptorType = sdfgi_resource_descriptor(resource),
+          .pBufferInfo = &info },
+        { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+          .dstSet = set,
+          .dstBinding = SDFGI_BINDING_TEXELS + sdfgi_resource_row(resource)->binding,
+          .descriptorCount = 1,
+          .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
+          .pTexelBufferView = &buffer->texels },
+    };
+    backend->device.fn.UpdateDescriptorSets(backend->device.handle, buffer->texels ? 2 : 1, writes, 0, NULL);
 }
 
 static void write_sets(const struct backend *backend, const struct resources *r)
 {
     for (int i = 0; i < RESOURCE_COUNT; i++)
         write_binding(backend, r->sets[sdfgi_resource_row((enum resource)i)->set], (enum resource)i,
-                      r->buffers[i].handle);
+                      &r->buffers[i]);
 }
 
 /* ---- The raster voxeliser's target */
@@ -374,7 +397,7 @@ VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
         return result;
     for (int i = 0; i < RESOURCE_COUNT; i++)
         if (sdfgi_resource_row((enum resource)i)->set == RESOURCE_SET_LOOKUP)
-            write_binding(backend, blank->set, (enum resource)i, blank->buffer.handle);
+            write_binding(backend, blank->set, (enum resource)i, &blank->buffer);
     return VK_SUCCESS;
 }
 

@@ -62,10 +62,22 @@ static uint64_t stored_light(const struct extent *e)
     return e->cascades * (axes > texels ? axes : texels);
 }
 
-struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e,
-                                     uint32_t blocks_per_group)
+/* Light blocks whose cells a workgroup marks on a CPU. Looking for the next block in vain takes as long there
+ * as marking it: with one block for each workgroup, a slab of 64^3 takes 42 ms instead of 17. */
+#define MARK_BLOCKS_SOFTWARE 16
+
+/* Elements that a workgroup takes. */
+static uint32_t group_of(enum pass pass, bool software)
 {
-    const uint32_t group = sdfgi_pass_row(work->pass)->group, probes = (uint32_t)e->probes,
+    const uint32_t group = sdfgi_pass_row(pass)->group;
+    if (software && pass == PASS_LIGHT_MARK)
+        return MARK_BLOCKS_SOFTWARE * group;
+    return software && pass == PASS_PROBE_SUM ? SDFGI_GROUP_PROBE : group;
+}
+
+struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e, bool software)
+{
+    const uint32_t group = group_of(work->pass, software), probes = (uint32_t)e->probes,
                    cascades = (uint32_t)e->cascades, n = 8 * ((uint32_t)e->probes_per_side - 1);
     switch (sdfgi_pass_row(work->pass)->domain) {
     case DOMAIN_INSTANCES:
@@ -88,11 +100,11 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_PROBES:
         return (struct work_groups){ probes, 1, 1 };
     case DOMAIN_ALL_PROBES:
-        return (struct work_groups){ probes, work->count, 1 };
+        return (struct work_groups){ groups_for(probes, group), work->count, 1 };
     case DOMAIN_ALL_RAYS:
         return (struct work_groups){ groups_for(work->count, group), cascades, 1 };
     case DOMAIN_LIGHT_BLOCKS:
-        return (struct work_groups){ in_rows(groups_for(work->count, group * blocks_per_group)).x, 1, 1 };
+        return (struct work_groups){ in_rows(groups_for(work->count, group)).x, 1, 1 };
     case DOMAIN_LIGHT_ROWS:
         return (struct work_groups){ (uint32_t)(e->cells / 64 / group), LIST_SHARES, 1 };
     case DOMAIN_LIGHT_CELLS: {

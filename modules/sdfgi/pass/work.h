@@ -100,9 +100,8 @@ struct work_groups {
     uint32_t x, y, z;
 };
 
-/* Workgroups of an item that is neither indirect nor of DOMAIN_INSTANCES. `blocks_per_group` is how many
- * light blocks a workgroup marks. */
-struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *extent,
-                                     uint32_t blocks_per_group);
+/* Workgroups of an item that is neither indirect nor of DOMAIN_INSTANCES; `software`: of the shaders for
+ * software drivers. */
+struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *extent, bool software);
 
 #endif
