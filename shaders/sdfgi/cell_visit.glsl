@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT
+ * What a visit of cell_gather does for a surface of a cell: its rays, and what becomes of what they find. Who
+ * includes this keeps the cells that are visited, and calls for rays: cell_visit_shared.glsl and
+ * cell_visit_alone.glsl. */
+#ifndef SDFGI_CELL_VISIT_GLSL
+#define SDFGI_CELL_VISIT_GLSL
+
+#include "emitters.glsl"
+#include "gather_cycle.glsl"
+#include "metal.glsl"
+#include "seen.glsl"
+#include "../include/sdfgi_cells.glsl"
+#include "../include/sdfgi_sky.glsl"
+#include "../include/sdfgi_trace.glsl"
+#include "../lib/irradiance_pack.glsl"
+
+SDFGI_PUSH(sdfgi_cell_gather_args);
+
+const uint RAYS = uint(SDFGI_VISIT_RAYS);
+const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMITTER_RAYS;
+
+/* ---- Cells that are visited: `own` is the number of one */
+
+ivec3 cell_of(uint own);
+uint entry_of(uint own);
+gathered_state state_of(uint own); /* with which the visit begins */
+float importance_of_all(uint own); /* of all emitters, for the cell */
+float change_of(uint own);         /* how far a mean has changed */
+float light_of(uint own);          /* luminance of the brightest mean */
+float noise_of(uint own);          /* gathered_noise of the visit */
+/* Note a value, of which the largest counts. */
+void note_change(uint own, float change);
+void note_light(uint own, float light);
+void note_noise(uint own, float noise);
+/* Chooses an emitter by its importance for a cell: the one in which `place`, of the sum of all, lies. `place`
+ * then tells where in it, 0 to 1. `chance` is the probability of the choice; false if there is nothing to
+ * choose. */
+bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance);
+
+/* ---- A surface */
+
+/* What rays of a surface need to know of it. */
+struct ray_source {
+    uint own;         /* the number of its cell */
+    vec3 pos, normal; /* pos: in the open, within the cell and close to the surface */
+    vec3 surface;     /* where the surface is: on the faces of its sub-voxels, in the mean */
+    uint visits;      /* before this one in the sequence of rays */
+    uint shift;       /* of its random sequences */
+};
+
+/* Cells. So far from all surfaces rays start at least: closer, those of a slanted surface would meet its own
+ * steps. Rays from the cell's centre saw a wall beside it from half a cell away; the indirect light of rooms
+ * was up to 2 % too bright. */
+const float RAY_CLEARANCE = 0.4;
+/* Cells: how far within a light cell a ray goes on from metal, at least. */
+const float INSIDE_CELL = 0.02;
+
+ray_source source_of(uint cascade, uint surface)
+{
+    const uint own = surface / 6u, axis = surface % 6u;
+    const ivec3 cell = cell_of(own);
+    const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
+    const uint shift = sdfgi_random_hash(light_cell_hash(cascade, cell) + 6u * sdfgi_frame.seed + axis);
+    const float distance = sdfgi_cell_distance(cascade, cell),
+                depth = clamp(distance - 0.5 / float(SDFGI_SUBVOXELS), 0.5, 1.0);
+    const vec3 centre = vec3(cell) + 0.5, towards = -vec3(sdfgi_axis_direction(axis));
+    return ray_source(own, centre + towards * clamp(distance - RAY_CLEARANCE, 0.0, 0.49),
+                      surface_normal(block, axis), centre + towards * depth,
+                      gather_cycle_visits_before(state_of(own)), shift);
+}
+
+/* ---- Emitters */
+
+/* How much of an emitter's light rays towards emitters bring; the others bring the rest. The balance
+ * heuristic (Veach and Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering"):
+ * shares follow how densely each kind of ray meets the emitter. */
+float share_of_emitter_rays(emitter e, float chance, vec3 dir, float range, float cosine)
+{
+    const float nearest = max(range, EMITTER_NEAR), shown = emitter_area_towards(e, -dir);
+    const float towards = float(EMITTER_RAYS) * chance * nearest * nearest,
+                at_random = float(RAYS) * max(cosine, 0.0) / 3.14159265 * shown;
+    return towards / max(towards + at_random, 1e-30);
+}
+
+/* Light that a surface gets from the emitters, by one ray. */
+vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
+{
+    vec3 place = sdfgi_random_r3(source.visits * EMITTER_RAYS + ray, source.shift);
+    emitter chosen;
+    float chance;
+    if (!choose_emitter(cascade, source.own, place.x, chosen, chance))
+        return vec4(0.0);
+    const emitter_point point = emitter_point_at(chosen, source.surface, place);
+    const vec3 light = emitter_light(chosen, source.surface, source.normal, point.inside);
+    const emitter_way way = emitter_way_to(source.pos, point.face);
+    /* Rays at random start in the open, too: what they cannot meet does not count here either. */
+    const float cosine = dot(source.normal, way.dir);
+    if (light == vec3(0.0) || cosine <= 0.0 || !emitter_is_seen(cascade, chosen, source.pos, way))
+        return vec4(0.0);
+    const float share = share_of_emitter_rays(chosen, chance, way.dir, way.range, cosine);
+    return vec4(light * (share / chance), 1.0);
+}
+
+/* Emission of what a ray at random has hit. Rays towards emitters bring a share of it if it is listed, but
+ * none by way of metal. */
+vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit, bool by_metal)
+{
+    if (!sdfgi_surfaces_emit())
+        return vec3(0.0);
+    const uint block = sdfgi_block_index(hit.cascade, hit.solid);
+    const vec3 emission = sdfgi_block_emission(block, hit.axis);
+    if (by_metal || emission == vec3(0.0) || hit.cascade != cascade || !surface_is_listed_emitter(block))
+        return emission;
+    const emitter e =
+        emitter_load(cascade, emitter_of_block(cascade, sdfgi_albedo_block_index(cascade, hit.solid)));
+    const float chance =
+        emitter_importance(e, vec3(cell_of(source.own)) + 0.5) / max(importance_of_all(source.own), 1e-30);
+    return emission * (1.0 - share_of_emitter_rays(e, chance, dir, hit.distance, dot(source.normal, dir)));
+}
+
+/* ---- Rays at random */
+
+/* Direction of ray `index` of a cycle: points of one sequence in the unit square, shifted by a hash of the
+ * cell, and mapped to the hemisphere so that their density follows the cosine. */
+vec3 ray_direction(vec3 normal, uint index, uint shift)
+{
+    const vec2 point = sdfgi_random_r2(index, shift);
+    const float radius = sqrt(point.x), turn = 6.2831853 * point.y;
+    const vec3 side =
+        normalize(abs(normal.y) < 0.9 ? vec3(-normal.z, 0.0, normal.x) : vec3(0.0, normal.z, -normal.y));
+    const vec3 up = cross(normal, side);
+    return radius * (cos(turn) * side + sin(turn) * up) + sqrt(max(1.0 - point.x, 0.0)) * normal;
+}
+
+/* Where a ray has hit something, moved into the light cell before it: all of that is on the ray's side of
+ * walls. */
+vec3 place_before(uint cascade, vec3 from, vec3 dir, sdfgi_trace_hit hit)
+{
+    const vec3 at = sdfgi_first_from_cascade(cascade, from + sdfgi_cells_from_metric(dir) * hit.distance);
+    const vec3 low = vec3(hit.cell) + INSIDE_CELL, high = vec3(hit.cell + 1) - INSIDE_CELL;
+    return clamp(sdfgi_cascade_from_first(hit.cascade, at), low, high);
+}
+
+/* Light at the end of a ray, the `index`-th of a cycle: 0 in a if the surface that it hit has no light cell.
+ * One loop, so that drivers compile the ray once. */
+vec4 send_random_ray(uint cascade, ray_source source, uint index)
+{
+    vec3 dir = ray_direction(source.normal, index, source.shift), from = source.pos, share = vec3(1.0),
+         light = vec3(0.0);
+    uint in_cascade = cascade;
+    sdfgi_trace_hit hit;
+    for (uint i = 0u; i < 2u; i++) {
+        hit = sdfgi_trace_ray(in_cascade, sdfgi_frame.cascade_count - 1u, from, dir, 1e9);
+        if (!hit.hit)
+            return vec4(light + share * sdfgi_sky_towards(dir), 1.0);
+        light += share * hit_emission(cascade, source, dir, hit, i > 0u);
+        const uint block = sdfgi_block_index(hit.cascade, hit.solid);
+        if (i > 0u || !hit.has_cell || surface_metal(block) == 0u)
+            break;
+        from = place_before(cascade, from, dir, hit);
+        dir = metal_direction(block, hit.axis, dir, sdfgi_random_r2(index, source.shift + 1u));
+        share = surface_albedo(block, hit.axis);
+        in_cascade = hit.cascade;
+    }
+    uint entry;
+    if (!hit.has_cell || !sdfgi_cell_entry(hit.cascade, hit.cell, entry))
+        return vec4(0.0);
+    const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(hit.cascade, entry, hit.axis)));
+    return vec4(light + share * leaving, 1.0);
+}
+
+/* ---- A visit */
+
+/* Rays of a surface in a visit. */
+uint rays_of_visit(uint cascade)
+{
+    return emitter_count(cascade) > 0u ? MOST_RAYS : RAYS;
+}
+
+/* What is kept of a ray: radiance, and 1 if it is known. */
+uvec2 ray_pack_light(vec4 light)
+{
+    return sdfgi_half4_encode(sdfgi_half4_round(min(light, vec4(65504.0))));
+}
+
+/* Variance of the mean of so many values: from their sum, and from that of their squares. */
+float variance_of_mean(float sum, float squares, float count)
+{
+    const float mean = sum / count;
+    return max(squares / count - mean * mean, 0.0) / count;
+}
+
+/* What rays of a surface have found. */
+struct visit_light {
+    vec4 sum;      /* of those at random, and how many are known */
+    vec3 emitters; /* of those towards emitters */
+    vec2 squares;  /* of luminances, of both kinds */
+};
+
+void visit_add(inout visit_light found, vec4 ray, bool at_random)
+{
+    const float light = sdfgi_light_luminance(ray.rgb);
+    if (at_random)
+        found.sum += vec4(ray.rgb * ray.a, ray.a);
+    else
+        found.emitters += ray.rgb;
+    found.squares += light * light * (at_random ? vec2(ray.a, 0.0) : vec2(0.0, 1.0));
+}
+
+/* The mean of what the rays of a surface have found, and of what those towards emitters have. In a: the
+ * variance of its luminance. */
+vec4 visit_mean(visit_light found)
+{
+    const float count = max(found.sum.a, 1.0);
+    return vec4(
+        found.sum.rgb / count + found.emitters / float(EMITTER_RAYS),
+        variance_of_mean(sdfgi_light_luminance(found.sum.rgb), found.squares.x, count) +
+            variance_of_mean(sdfgi_light_luminance(found.emitters), found.squares.y, float(EMITTER_RAYS)));
+}
+
+/* The state with which a visit begins: under new lights a cycle begins anew. */
+gathered_state state_of_visit(uint cascade, uint entry)
+{
+    const gathered_state state = gathered_load_state(cascade, entry);
+    if (state.epoch == args.epoch)
+        return state;
+    const bool knows = state.mean != GATHERED_NOTHING || state.visits > 0u;
+    return gathered_state(0u, knows ? GATHERED_OUTDATED : GATHERED_NOTHING, args.epoch, state.mark);
+}
+
+/* Sum and mean with which a visit begins. What was gathered under other lights becomes the mean. */
+gathered_light load_light(uint cascade, uint entry, uint axis)
+{
+    const gathered_state stored = gathered_load_state(cascade, entry);
+    gathered_light light = gathered_load(cascade, entry, axis);
+    if (stored.epoch == args.epoch)
+        return light;
+    vec3 shown;
+    if (gathered_irradiance(stored, light, vec4(0.0), shown))
+        light.mean = shown;
+    light.sum = vec3(0.0);
+    return light;
+}
+
+/* The gather cycle of a cell that the workgroup visits. */
+gather_cycle cycle_of(uint cascade, uint own)
+{
+    return gather_cycle_of(cascade, entry_of(own), state_of(own), args.visits[cascade]);
+}
+
+const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half floats */
+
+/* Adds a visit to the sum of a surface. The last visit of a cycle makes the sum the mean. */
+void add_visit(uint cascade, uint surface, vec4 light)
+{
+    const uint own = surface / 6u, axis = surface % 6u, entry = entry_of(own);
+    gathered_light gathered = load_light(cascade, entry, axis);
+    gathered.sum = gathered_add(state_of(own), gathered, light.rgb);
+    const float shown =
+        sdfgi_light_luminance(state_of(own).mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
+        sdfgi_frame.dark;
+    note_noise(own, min(light.a / (shown * shown), MOST_NOISE));
+    const gather_cycle cycle = cycle_of(cascade, own);
+    if (cycle.ends) {
+        const vec3 mean = gathered_mean(state_of(own), gathered.sum, state_of(own).visits + 1u);
+        note_change(own, gather_cycle_change(cycle, state_of(own), mean, gathered.mean));
+        note_light(own, sdfgi_light_luminance(mean));
+        gathered = gathered_light(vec3(0.0), mean);
+    }
+    gathered_store(cascade, entry, axis, gathered);
+}
+
+/* Tells how far the light of a cell has changed since its last mark. Returns the next one. Long cycles end
+ * too seldom to have marks. */
+uint next_mark(uint cascade, uint own)
+{
+    if ((args.marks >> cascade & 1u) == 0u || state_of(own).mean >= GATHERED_GOES_ON)
+        return state_of(own).mark;
+    const uint mark = gathered_mark(light_of(own));
+    atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_DRIFT + cascade)],
+              floatBitsToUint(gathered_mark_change(state_of(own).mark, mark)));
+    return mark;
+}
+
+void end_visit(uint cascade, uint own)
+{
+    gathered_state state = state_of(own);
+    const gather_cycle cycle = cycle_of(cascade, own);
+    const gathered_noise noise = gathered_load_noise(cascade, entry_of(own));
+    gathered_store_noise(cascade, entry_of(own), gathered_add_noise(state, noise, noise_of(own), cycle.ends));
+    state.visits++;
+    if (cycle.ends)
+        state = gathered_state(0u, gather_cycle_mean(cycle, state_of(own), change_of(own)), state.epoch,
+                               next_mark(cascade, own));
+    gathered_store_state(cascade, entry_of(own), state);
+    if (change_of(own) != 0.0)
+        atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_CHANGE + cascade)],
+                  floatBitsToUint(change_of(own)));
+    if (change_of(own) >= SDFGI_SMALL_CHANGE)
+        atomicAdd(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELLS_CHANGING + cascade)], 1u);
+}
+
+/* Seen cells of a word that are visited beside the ranges: a bit for each, from the entry `first` on. None in
+ * the rows of ranges.
+ */
+uint seen_cells(uint cascade, out uint first)
+{
+    first = sdfgi_frame.cascades[cascade].seen_first + 32u * gl_WorkGroupID.x;
+    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count || first >= sdfgi_frame.cascades[cascade].seen_end)
+        return 0u;
+    uint bits = sdfgi_seen_at(seen_word(cascade, first));
+    for (uint rest = bits; rest != 0u; rest &= rest - 1u) {
+        const uint entry = first + uint(findLSB(rest));
+        if (entry >= args.first[cascade] && entry < args.end[cascade])
+            bits &= ~(rest & ~rest + 1u);
+    }
+    return bits;
+}
+
+/* The number of the n-th set bit. */
+uint number_of_bit(uint bits, uint n)
+{
+    for (uint i = 0u; i < n; i++)
+        bits &= bits - 1u;
+    return uint(findLSB(bits));
+}
+
+#endif

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT
+ * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Four share those of 32 in a row that are seen
+ * (seen.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so that
+ * sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
+#ifndef SDFGI_CELL_VISIT_SHARED_GLSL
+#define SDFGI_CELL_VISIT_SHARED_GLSL
+
+#include "cell_visit.glsl"
+
+layout(local_size_x_id = SDFGI_RAY_THREADS_ID) in;
+
+const uint CELLS = uint(SDFGI_VISIT_CELLS), THREADS = gl_WorkGroupSize.x;
+const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
+
+shared ivec3 cells[CELLS];
+shared uint entries[CELLS];
+shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not there */
+shared gathered_state states[CELLS]; /* with which the visits begin */
+shared uint changes[CELLS];          /* float bits: how far a mean has changed */
+shared uint lights[CELLS];           /* float bits: luminance of the brightest mean */
+shared uint noises[CELLS];           /* float bits: gathered_noise of the visit */
+shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus an axis */
+shared uint surface_count;
+shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
+shared float importance[CELLS * PARTS];     /* per cell and part of the list: sums over emitters */
+shared float total_importance[CELLS];
+
+ivec3 cell_of(uint own)
+{
+    return cells[own];
+}
+
+uint entry_of(uint own)
+{
+    return entries[own];
+}
+
+gathered_state state_of(uint own)
+{
+    return states[own];
+}
+
+float importance_of_all(uint own)
+{
+    return total_importance[own];
+}
+
+float change_of(uint own)
+{
+    return uintBitsToFloat(changes[own]);
+}
+
+float light_of(uint own)
+{
+    return uintBitsToFloat(lights[own]);
+}
+
+float noise_of(uint own)
+{
+    return uintBitsToFloat(noises[own]);
+}
+
+void note_change(uint own, float change)
+{
+    atomicMax(changes[own], floatBitsToUint(change));
+}
+
+void note_light(uint own, float light)
+{
+    atomicMax(lights[own], floatBitsToUint(light));
+}
+
+void note_noise(uint own, float noise)
+{
+    atomicMax(noises[own], floatBitsToUint(noise));
+}
+
+/* ---- Emitters */
+
+uint first_of_part(uint part, uint count)
+{
+    return part * count / PARTS;
+}
+
+/* Sums the importance of a part of the cascade's emitters for a cell. */
+float sum_part(uint cascade, uint own, uint part)
+{
+    const uint count = emitter_count(cascade);
+    const vec3 centre = vec3(cells[own]) + 0.5;
+    float sum = 0.0;
+    for (uint i = first_of_part(part, count); i < first_of_part(part + 1u, count); i++)
+        sum += emitter_importance(emitter_load(cascade, i), centre);
+    return sum;
+}
+
+float sum_of_parts(uint own)
+{
+    float sum = 0.0;
+    for (uint part = 0u; part < PARTS; part++)
+        sum += importance[own * PARTS + part];
+    return sum;
+}
+
+bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
+{
+    const float total = total_importance[own];
+    const vec3 centre = vec3(cells[own]) + 0.5;
+    float rest = place * total, of_part = importance[own * PARTS];
+    uint part = 0u;
+    while (part < PARTS - 1u && rest >= of_part) {
+        rest -= of_part;
+        part++;
+        of_part = importance[own * PARTS + part];
+    }
+    const uint end = first_of_part(part + 1u, emitter_count(cascade));
+    float share = 0.0;
+    for (uint i = first_of_part(part, emitter_count(cascade)); i < end; i++) {
+        rest -= share;
+        chosen = emitter_load(cascade, i);
+        share = emitter_importance(chosen, centre);
+        if (rest < share)
+            break;
+    }
+    place = clamp(rest / max(share, 1e-30), 0.0, 1.0);
+    chance = share / max(total, 1e-30);
+    return share > 0.0;
+}
+
+/* ---- A visit */
+
+void keep_ray(uint i, vec4 light)
+{
+    found[i] = ray_pack_light(light);
+}
+
+/* Sends the rays of all surfaces, of which each has `rays`. Those towards emitters have a loop of their own:
+ * software drivers run what is under a condition for all threads in any case, and a loop that begins with its
+ * condition once more than it goes round. */
+void send_rays(uint cascade, uint rays)
+{
+    const uint at_random = surface_count * RAYS, to_emitters = surface_count * (rays - RAYS);
+    uint i = gl_LocalInvocationIndex;
+    do {
+        if (i < at_random) {
+            const uint of_surface = i / RAYS, ray = i % RAYS;
+            const ray_source source = source_of(cascade, surfaces[of_surface]);
+            keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, source.visits * RAYS + ray));
+        }
+        i += THREADS;
+    } while (i < at_random);
+    for (i = gl_LocalInvocationIndex; i < to_emitters; i += THREADS) {
+        const uint of_surface = i / EMITTER_RAYS, ray = i % EMITTER_RAYS;
+        const ray_source source = source_of(cascade, surfaces[of_surface]);
+        keep_ray(of_surface * rays + RAYS + ray, send_emitter_ray(cascade, source, ray));
+    }
+}
+
+vec4 light_of_rays(uint first, uint rays)
+{
+    visit_light light = visit_light(vec4(0.0), vec3(0.0), vec2(0.0));
+    for (uint i = 0u; i < rays; i++)
+        visit_add(light, sdfgi_half4_decode(found[first + i]), i < RAYS);
+    return visit_mean(light);
+}
+
+/* The first of the seen cells of a word that the workgroup visits: workgroups of as many rows share them. */
+uint first_seen_cell()
+{
+    return CELLS * (gl_WorkGroupID.y / sdfgi_frame.cascade_count - 1u);
+}
+
+/* Entry of the own-th cell that the workgroup visits. False if there is none. */
+bool find_entry(uint cascade, uint own, uint seen, uint first_seen, out uint entry)
+{
+    entry = args.first[cascade] + gl_WorkGroupID.x * CELLS + own;
+    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count)
+        return entry < min(args.end[cascade], light_cell_count(cascade));
+    if (first_seen_cell() + own >= uint(bitCount(seen)))
+        return false;
+    entry = first_seen + number_of_bit(seen, first_seen_cell() + own);
+    return entry < light_cell_count(cascade);
+}
+
+/* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */
+void find_surfaces(uint cascade, uint seen, uint first_seen)
+{
+    const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u;
+    uint entry;
+    const bool visited = own < CELLS && find_entry(cascade, own, seen, first_seen, entry);
+    ivec3 cell = ivec3(0);
+    if (visited)
+        cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
+    const bool there = visited && sdfgi_cell_is_valid(cascade, cell);
+    if (axis == 0u && own < CELLS) {
+        cells[own] = cell;
+        entries[own] = entry;
+        facing[own] = changes[own] = lights[own] = noises[own] = 0u;
+        if (there)
+            states[own] = state_of_visit(cascade, entry);
+    }
+    barrier();
+    if (there && axis < 6u && light_cell_faces(cascade, cell, axis))
+        atomicOr(facing[own], 1u << axis);
+    barrier();
+    if (axis > 0u || own >= CELLS)
+        return;
+    uint n = 0u;
+    for (uint i = 0u; i < own; i++)
+        n += uint(bitCount(facing[i]));
+    for (uint rest = facing[own]; rest != 0u; rest &= rest - 1u)
+        surfaces[n++] = 6u * own + uint(findLSB(rest));
+    if (own + 1u == CELLS)
+        surface_count = n;
+}
+
+void visit()
+{
+    const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
+    uint first_seen;
+    const uint seen = seen_cells(cascade, first_seen);
+    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count && uint(bitCount(seen)) <= first_seen_cell())
+        return;
+    const uint rays = rays_of_visit(cascade);
+    find_surfaces(cascade, seen, first_seen);
+    barrier();
+    for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
+        importance[i] = sum_part(cascade, i / PARTS, i % PARTS);
+    barrier();
+    if (rays > RAYS && lane < CELLS)
+        total_importance[lane] = sum_of_parts(lane);
+    barrier();
+    send_rays(cascade, rays);
+    barrier();
+    for (uint i = lane; i < surface_count; i += THREADS)
+        add_visit(cascade, surfaces[i], light_of_rays(i * rays, rays));
+    barrier();
+    if (lane < CELLS && facing[lane] != 0u)
+        end_visit(cascade, lane);
+}
+
+#endif
