@@ -21,21 +21,56 @@ const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMI
 
 /* ---- Cells that are visited: `own` is the number of one */
 
-ivec3 cell_of(uint own);
-uint entry_of(uint own);
-gathered_state state_of(uint own); /* with which the visit begins */
-float importance_of_all(uint own); /* of all emitters, for the cell */
-float change_of(uint own);         /* how far a mean has changed */
-float light_of(uint own);          /* luminance of the brightest mean */
-float noise_of(uint own);          /* gathered_noise of the visit */
-/* Note a value, of which the largest counts. */
-void note_change(uint own, float change);
-void note_light(uint own, float light);
-void note_noise(uint own, float noise);
+struct visited_cell {
+    ivec3 cell;
+    uint entry;
+    gathered_state state; /* with which the visit begins */
+    float importance;     /* of all emitters, for the cell */
+};
+
+/* What a visit has found, of all surfaces of a cell. */
+struct visit_notes {
+    float change; /* how far a mean has changed */
+    float light;  /* luminance of the brightest mean */
+    float noise;  /* gathered_noise of the visit */
+};
+
+visited_cell cell_of(uint own);
+visit_notes notes_of(uint own);
+/* The larger value of each note stays. */
+void note(uint own, visit_notes found);
+
 /* Chooses an emitter by its importance for a cell: the one in which `place`, of the sum of all, lies. `place`
  * then tells where in it, 0 to 1. `chance` is the probability of the choice; false if there is nothing to
  * choose. */
 bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance);
+
+/* Importance of the cascade's emitters [first, end) for a cell. */
+float sum_importance(uint cascade, ivec3 cell, uint first, uint end)
+{
+    float sum = 0.0;
+    for (uint i = first; i < end; i++)
+        sum += emitter_importance(emitter_load(cascade, i), vec3(cell) + 0.5);
+    return sum;
+}
+
+/* Chooses among the emitters [first, end) the one in which `rest` of their importance lies: choose_emitter.
+ */
+bool choose_among(uint cascade, visited_cell own, uint first, uint end, float rest, out float place,
+                  out emitter chosen, out float chance)
+{
+    float share = 0.0;
+    for (uint i = first; i < end; i++) {
+        rest -= share;
+        chosen = emitter_load(cascade, i);
+        share = emitter_importance(chosen, vec3(own.cell) + 0.5);
+        if (rest < share)
+            break;
+    }
+    place = clamp(rest / max(share, 1e-30), 0.0, 1.0);
+    chance = share / max(own.importance, 1e-30);
+    return share > 0.0;
+}
 
 /* ---- A surface */
 
@@ -58,7 +93,7 @@ const float INSIDE_CELL = 0.02;
 ray_source source_of(uint cascade, uint surface)
 {
     const uint own = surface / 6u, axis = surface % 6u;
-    const ivec3 cell = cell_of(own);
+    const ivec3 cell = cell_of(own).cell;
     const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
     const uint shift = sdfgi_random_hash(light_cell_hash(cascade, cell) + 6u * sdfgi_frame.seed + axis);
     const float distance = sdfgi_cell_distance(cascade, cell),
@@ -66,7 +101,7 @@ ray_source source_of(uint cascade, uint surface)
     const vec3 centre = vec3(cell) + 0.5, towards = -vec3(sdfgi_axis_direction(axis));
     return ray_source(own, centre + towards * clamp(distance - RAY_CLEARANCE, 0.0, 0.49),
                       surface_normal(block, axis), centre + towards * depth,
-                      gather_cycle_visits_before(state_of(own)), shift);
+                      gather_cycle_visits_before(cell_of(own).state), shift);
 }
 
 /* ---- Emitters */
@@ -113,8 +148,8 @@ vec3 hit_emission(uint cascade, ray_source source, vec3 dir, sdfgi_trace_hit hit
         return emission;
     const emitter e =
         emitter_load(cascade, emitter_of_block(cascade, sdfgi_albedo_block_index(cascade, hit.solid)));
-    const float chance =
-        emitter_importance(e, vec3(cell_of(source.own)) + 0.5) / max(importance_of_all(source.own), 1e-30);
+    const visited_cell own = cell_of(source.own);
+    const float chance = emitter_importance(e, vec3(own.cell) + 0.5) / max(own.importance, 1e-30);
     return emission * (1.0 - share_of_emitter_rays(e, chance, dir, hit.distance, dot(source.normal, dir)));
 }
 
@@ -242,10 +277,10 @@ gathered_light load_light(uint cascade, uint entry, uint axis)
     return light;
 }
 
-/* The gather cycle of a cell that the workgroup visits. */
-gather_cycle cycle_of(uint cascade, uint own)
+/* The gather cycle of a cell that is visited. */
+gather_cycle cycle_of(uint cascade, visited_cell own)
 {
-    return gather_cycle_of(cascade, entry_of(own), state_of(own), args.visits[cascade]);
+    return gather_cycle_of(cascade, own.entry, own.state, args.visits[cascade]);
 }
 
 const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half floats */
@@ -253,56 +288,59 @@ const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half fl
 /* Adds a visit to the sum of a surface. The last visit of a cycle makes the sum the mean. */
 void add_visit(uint cascade, uint surface, vec4 light)
 {
-    const uint own = surface / 6u, axis = surface % 6u, entry = entry_of(own);
-    gathered_light gathered = load_light(cascade, entry, axis);
-    gathered.sum = gathered_add(state_of(own), gathered, light.rgb);
+    const visited_cell own = cell_of(surface / 6u);
+    const uint axis = surface % 6u;
+    gathered_light gathered = load_light(cascade, own.entry, axis);
+    gathered.sum = gathered_add(own.state, gathered, light.rgb);
     const float shown =
-        sdfgi_light_luminance(state_of(own).mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
+        sdfgi_light_luminance(own.state.mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
         sdfgi_frame.dark;
-    note_noise(own, min(light.a / (shown * shown), MOST_NOISE));
+    visit_notes found = visit_notes(0.0, 0.0, min(light.a / (shown * shown), MOST_NOISE));
     const gather_cycle cycle = cycle_of(cascade, own);
     if (cycle.ends) {
-        const vec3 mean = gathered_mean(state_of(own), gathered.sum, state_of(own).visits + 1u);
-        note_change(own, gather_cycle_change(cycle, state_of(own), mean, gathered.mean));
-        note_light(own, sdfgi_light_luminance(mean));
+        const vec3 mean = gathered_mean(own.state, gathered.sum, own.state.visits + 1u);
+        found.change = gather_cycle_change(cycle, own.state, mean, gathered.mean);
+        found.light = sdfgi_light_luminance(mean);
         gathered = gathered_light(vec3(0.0), mean);
     }
-    gathered_store(cascade, entry, axis, gathered);
+    note(surface / 6u, found);
+    gathered_store(cascade, own.entry, axis, gathered);
 }
 
 /* Tells how far the light of a cell has changed since its last mark. Returns the next one. Long cycles end
  * too seldom to have marks. */
-uint next_mark(uint cascade, uint own)
+uint next_mark(uint cascade, gathered_state state, float light)
 {
-    if ((args.marks >> cascade & 1u) == 0u || state_of(own).mean >= GATHERED_GOES_ON)
-        return state_of(own).mark;
-    const uint mark = gathered_mark(light_of(own));
+    if ((args.marks >> cascade & 1u) == 0u || state.mean >= GATHERED_GOES_ON)
+        return state.mark;
+    const uint mark = gathered_mark(light);
     atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_DRIFT + cascade)],
-              floatBitsToUint(gathered_mark_change(state_of(own).mark, mark)));
+              floatBitsToUint(gathered_mark_change(state.mark, mark)));
     return mark;
 }
 
-void end_visit(uint cascade, uint own)
+void end_visit(uint cascade, uint number)
 {
-    gathered_state state = state_of(own);
+    const visited_cell own = cell_of(number);
+    const visit_notes found = notes_of(number);
+    gathered_state state = own.state;
     const gather_cycle cycle = cycle_of(cascade, own);
-    const gathered_noise noise = gathered_load_noise(cascade, entry_of(own));
-    gathered_store_noise(cascade, entry_of(own), gathered_add_noise(state, noise, noise_of(own), cycle.ends));
+    const gathered_noise noise = gathered_load_noise(cascade, own.entry);
+    gathered_store_noise(cascade, own.entry, gathered_add_noise(state, noise, found.noise, cycle.ends));
     state.visits++;
     if (cycle.ends)
-        state = gathered_state(0u, gather_cycle_mean(cycle, state_of(own), change_of(own)), state.epoch,
-                               next_mark(cascade, own));
-    gathered_store_state(cascade, entry_of(own), state);
-    if (change_of(own) != 0.0)
+        state = gathered_state(0u, gather_cycle_mean(cycle, own.state, found.change), state.epoch,
+                               next_mark(cascade, own.state, found.light));
+    gathered_store_state(cascade, own.entry, state);
+    if (found.change != 0.0)
         atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_CHANGE + cascade)],
-                  floatBitsToUint(change_of(own)));
-    if (change_of(own) >= SDFGI_SMALL_CHANGE)
+                  floatBitsToUint(found.change));
+    if (found.change >= SDFGI_SMALL_CHANGE)
         atomicAdd(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELLS_CHANGING + cascade)], 1u);
 }
 
 /* Seen cells of a word that are visited beside the ranges: a bit for each, from the entry `first` on. None in
- * the rows of ranges.
- */
+ * the rows of ranges. */
 uint seen_cells(uint cascade, out uint first)
 {
     first = sdfgi_frame.cascades[cascade].seen_first + 32u * gl_WorkGroupID.x;

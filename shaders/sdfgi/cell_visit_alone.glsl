@@ -8,82 +8,29 @@
 
 layout(local_size_x = 32) in; /* one for each bit of a word of seen cells */
 
-ivec3 own_cell;
-uint own_entry;
-gathered_state own_state;
-float own_importance, own_change = 0.0, own_light = 0.0, own_noise = 0.0;
+visited_cell visited;
+visit_notes notes = visit_notes(0.0, 0.0, 0.0);
 
-ivec3 cell_of(uint own)
+visited_cell cell_of(uint own)
 {
-    return own_cell;
+    return visited;
 }
 
-uint entry_of(uint own)
+visit_notes notes_of(uint own)
 {
-    return own_entry;
+    return notes;
 }
 
-gathered_state state_of(uint own)
+void note(uint own, visit_notes found)
 {
-    return own_state;
-}
-
-float importance_of_all(uint own)
-{
-    return own_importance;
-}
-
-float change_of(uint own)
-{
-    return own_change;
-}
-
-float light_of(uint own)
-{
-    return own_light;
-}
-
-float noise_of(uint own)
-{
-    return own_noise;
-}
-
-void note_change(uint own, float change)
-{
-    own_change = max(own_change, change);
-}
-
-void note_light(uint own, float light)
-{
-    own_light = max(own_light, light);
-}
-
-void note_noise(uint own, float noise)
-{
-    own_noise = max(own_noise, noise);
-}
-
-float sum_importance(uint cascade)
-{
-    float sum = 0.0;
-    for (uint i = 0u; i < emitter_count(cascade); i++)
-        sum += emitter_importance(emitter_load(cascade, i), vec3(own_cell) + 0.5);
-    return sum;
+    notes = visit_notes(max(notes.change, found.change), max(notes.light, found.light),
+                        max(notes.noise, found.noise));
 }
 
 bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
 {
-    float rest = place * own_importance, share = 0.0;
-    for (uint i = 0u; i < emitter_count(cascade); i++) {
-        rest -= share;
-        chosen = emitter_load(cascade, i);
-        share = emitter_importance(chosen, vec3(own_cell) + 0.5);
-        if (rest < share)
-            break;
-    }
-    place = clamp(rest / max(share, 1e-30), 0.0, 1.0);
-    chance = share / max(own_importance, 1e-30);
-    return share > 0.0;
+    return choose_among(cascade, visited, 0u, emitter_count(cascade), place * visited.importance, place,
+                        chosen, chance);
 }
 
 /* The mean of a surface's rays. */
@@ -119,16 +66,17 @@ bool find_entry(uint cascade, out uint entry)
 void visit()
 {
     const uint cascade = visited_cascade(gl_WorkGroupID.y);
-    if (!find_entry(cascade, own_entry))
+    if (!find_entry(cascade, visited.entry))
         return;
-    own_cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, own_entry)));
-    if (!sdfgi_cell_is_valid(cascade, own_cell))
+    visited.cell =
+        light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, visited.entry)));
+    if (!sdfgi_cell_is_valid(cascade, visited.cell))
         return;
-    const uint facing = light_cell_facing(cascade, own_cell);
+    const uint facing = light_cell_facing(cascade, visited.cell);
     if (facing == 0u)
         return;
-    own_state = state_of_visit(cascade, own_entry);
-    own_importance = sum_importance(cascade);
+    visited.state = state_of_visit(cascade, visited.entry);
+    visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint surface = uint(findLSB(left));
         add_visit(cascade, surface, send_rays(cascade, source_of(cascade, surface)));

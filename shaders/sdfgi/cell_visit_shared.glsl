@@ -12,67 +12,30 @@ layout(local_size_x_id = SDFGI_RAY_THREADS_ID) in;
 const uint CELLS = uint(SDFGI_VISIT_CELLS), THREADS = gl_WorkGroupSize.x;
 const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
 
-shared ivec3 cells[CELLS];
-shared uint entries[CELLS];
-shared uint facing[CELLS];           /* a bit per axis; 0 for a cell that is not there */
-shared gathered_state states[CELLS]; /* with which the visits begin */
-shared uint changes[CELLS];          /* float bits: how far a mean has changed */
-shared uint lights[CELLS];           /* float bits: luminance of the brightest mean */
-shared uint noises[CELLS];           /* float bits: gathered_noise of the visit */
-shared uint surfaces[6u * CELLS];    /* a cell's index in `cells` times 6, plus an axis */
+shared visited_cell cells[CELLS];
+shared uvec3 notes[CELLS];        /* float bits of visit_notes */
+shared uint facing[CELLS];        /* a bit per axis; 0 for a cell that is not there */
+shared uint surfaces[6u * CELLS]; /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
 shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
 shared float importance[CELLS * PARTS];     /* per cell and part of the list: sums over emitters */
-shared float total_importance[CELLS];
 
-ivec3 cell_of(uint own)
+visited_cell cell_of(uint own)
 {
     return cells[own];
 }
 
-uint entry_of(uint own)
+visit_notes notes_of(uint own)
 {
-    return entries[own];
+    return visit_notes(uintBitsToFloat(notes[own].x), uintBitsToFloat(notes[own].y),
+                       uintBitsToFloat(notes[own].z));
 }
 
-gathered_state state_of(uint own)
+void note(uint own, visit_notes found)
 {
-    return states[own];
-}
-
-float importance_of_all(uint own)
-{
-    return total_importance[own];
-}
-
-float change_of(uint own)
-{
-    return uintBitsToFloat(changes[own]);
-}
-
-float light_of(uint own)
-{
-    return uintBitsToFloat(lights[own]);
-}
-
-float noise_of(uint own)
-{
-    return uintBitsToFloat(noises[own]);
-}
-
-void note_change(uint own, float change)
-{
-    atomicMax(changes[own], floatBitsToUint(change));
-}
-
-void note_light(uint own, float light)
-{
-    atomicMax(lights[own], floatBitsToUint(light));
-}
-
-void note_noise(uint own, float noise)
-{
-    atomicMax(noises[own], floatBitsToUint(noise));
+    atomicMax(notes[own].x, floatBitsToUint(found.change));
+    atomicMax(notes[own].y, floatBitsToUint(found.light));
+    atomicMax(notes[own].z, floatBitsToUint(found.noise));
 }
 
 /* ---- Emitters */
@@ -82,15 +45,11 @@ uint first_of_part(uint part, uint count)
     return part * count / PARTS;
 }
 
-/* Sums the importance of a part of the cascade's emitters for a cell. */
 float sum_part(uint cascade, uint own, uint part)
 {
     const uint count = emitter_count(cascade);
-    const vec3 centre = vec3(cells[own]) + 0.5;
-    float sum = 0.0;
-    for (uint i = first_of_part(part, count); i < first_of_part(part + 1u, count); i++)
-        sum += emitter_importance(emitter_load(cascade, i), centre);
-    return sum;
+    return sum_importance(cascade, cells[own].cell, first_of_part(part, count),
+                          first_of_part(part + 1u, count));
 }
 
 float sum_of_parts(uint own)
@@ -103,27 +62,17 @@ float sum_of_parts(uint own)
 
 bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
 {
-    const float total = total_importance[own];
-    const vec3 centre = vec3(cells[own]) + 0.5;
-    float rest = place * total, of_part = importance[own * PARTS];
+    const visited_cell of = cells[own];
+    const uint count = emitter_count(cascade);
+    float rest = place * of.importance, of_part = importance[own * PARTS];
     uint part = 0u;
     while (part < PARTS - 1u && rest >= of_part) {
         rest -= of_part;
         part++;
         of_part = importance[own * PARTS + part];
     }
-    const uint end = first_of_part(part + 1u, emitter_count(cascade));
-    float share = 0.0;
-    for (uint i = first_of_part(part, emitter_count(cascade)); i < end; i++) {
-        rest -= share;
-        chosen = emitter_load(cascade, i);
-        share = emitter_importance(chosen, centre);
-        if (rest < share)
-            break;
-    }
-    place = clamp(rest / max(share, 1e-30), 0.0, 1.0);
-    chance = share / max(total, 1e-30);
-    return share > 0.0;
+    return choose_among(cascade, of, first_of_part(part, count), first_of_part(part + 1u, count), rest, place,
+                        chosen, chance);
 }
 
 /* ---- A visit */
@@ -133,22 +82,16 @@ void keep_ray(uint i, vec4 light)
     found[i] = ray_pack_light(light);
 }
 
-/* Sends the rays of all surfaces, of which each has `rays`. Those towards emitters have a loop of their own:
- * software drivers run what is under a condition for all threads in any case, and a loop that begins with its
- * condition once more than it goes round. */
+/* Sends the rays of all surfaces, of which each has `rays`. */
 void send_rays(uint cascade, uint rays)
 {
     const uint at_random = surface_count * RAYS, to_emitters = surface_count * (rays - RAYS);
-    uint i = gl_LocalInvocationIndex;
-    do {
-        if (i < at_random) {
-            const uint of_surface = i / RAYS, ray = i % RAYS;
-            const ray_source source = source_of(cascade, surfaces[of_surface]);
-            keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, source.visits * RAYS + ray));
-        }
-        i += THREADS;
-    } while (i < at_random);
-    for (i = gl_LocalInvocationIndex; i < to_emitters; i += THREADS) {
+    for (uint i = gl_LocalInvocationIndex; i < at_random; i += THREADS) {
+        const uint of_surface = i / RAYS, ray = i % RAYS;
+        const ray_source source = source_of(cascade, surfaces[of_surface]);
+        keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, source.visits * RAYS + ray));
+    }
+    for (uint i = gl_LocalInvocationIndex; i < to_emitters; i += THREADS) {
         const uint of_surface = i / EMITTER_RAYS, ray = i % EMITTER_RAYS;
         const ray_source source = source_of(cascade, surfaces[of_surface]);
         keep_ray(of_surface * rays + RAYS + ray, send_emitter_ray(cascade, source, ray));
@@ -192,11 +135,12 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
         cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
     const bool there = visited && sdfgi_cell_is_valid(cascade, cell);
     if (axis == 0u && own < CELLS) {
-        cells[own] = cell;
-        entries[own] = entry;
-        facing[own] = changes[own] = lights[own] = noises[own] = 0u;
+        cells[own].cell = cell;
+        cells[own].entry = entry;
+        notes[own] = uvec3(0u);
+        facing[own] = 0u;
         if (there)
-            states[own] = state_of_visit(cascade, entry);
+            cells[own].state = state_of_visit(cascade, entry);
     }
     barrier();
     if (there && axis < 6u && light_cell_faces(cascade, cell, axis))
@@ -227,7 +171,7 @@ void visit()
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);
     barrier();
     if (rays > RAYS && lane < CELLS)
-        total_importance[lane] = sum_of_parts(lane);
+        cells[lane].importance = sum_of_parts(lane);
     barrier();
     send_rays(cascade, rays);
     barrier();

@@ -118,7 +118,7 @@ bool debug_cage_is_bad(uint cascade, ivec3 cage, int count)
     for (int i = 0; i < count * SDFGI_SUMS_STRIDE; i++) {
         const uint word = uint(i % SDFGI_SUMS_STRIDE);
         const uint slot = sdfgi_probe_index(cascade, cage + sdfgi_cage_corner(i / SDFGI_SUMS_STRIDE));
-        bad = bad || debug_float_is_bad(floatBitsToUint(sdfgi_sums[probe_sums(slot) + word]));
+        bad = bad || debug_float_is_bad(floatBitsToUint(sdfgi_sums_at(probe_sums(slot) + word)));
         const uint texel = min(word, uint(SDFGI_IRRADIANCE_COUNT) - 1u);
         bad =
             bad || debug_half_is_bad(sdfgi_irradiance_texels_at(slot * uint(SDFGI_IRRADIANCE_COUNT) + texel));

@@ -73,7 +73,7 @@ void rescale_texel(uint i)
     const vec4 previous = rescale_color(probe_load_previous(slot, texel));
     probe_store_previous(slot, texel, previous.rgb, previous.a);
     const uint sum = probe_sums(slot) + texel;
-    sdfgi_sums[sum] = vec4(sdfgi_sums[sum].rgb * args.factor, sdfgi_sums[sum].a);
+    sdfgi_sums[sum] = vec4(sdfgi_sums_at(sum).rgb * args.factor, sdfgi_sums_at(sum).a);
 }
 
 void main()

@@ -20,8 +20,6 @@ uint emitter_samples_of(uint rays)
     return (rays - 1u) / uint(SDFGI_SAMPLES_PER_EMITTER_SAMPLE) + 1u;
 }
 
-const uint MAX_EMITTER_RAYS = MAX_RAYS / uint(SDFGI_SAMPLES_PER_EMITTER_SAMPLE) + 1u;
-
 /* The probe whose rays are read. */
 struct probe_reader {
     uint cascade, slot;

@@ -18,9 +18,5 @@ void main()
 {
     if (gl_GlobalInvocationID == uvec3(0u))
         sdfgi_counters[SDFGI_COUNTER_RAYS_TRACED] = ray_queue_count();
-#ifdef SDFGI_SOFTWARE
-    sum_probe(gl_WorkGroupID.y, gl_GlobalInvocationID.x);
-#else
-    sum_probe(gl_WorkGroupID.y, gl_WorkGroupID.x);
-#endif
+    sum_probe(gl_WorkGroupID.y);
 }

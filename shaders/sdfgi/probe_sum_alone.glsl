@@ -39,8 +39,9 @@ void add_emitters(probe_reader reader, uint rays, inout vec4 sums[TEXELS])
         sums[k].rgb += light[k] * (sums[k].a / (3.14159265 * max(count, 1.0)));
 }
 
-void sum_probe(uint cascade, uint linear)
+void sum_probe(uint cascade)
 {
+    const uint linear = gl_GlobalInvocationID.x;
     if (linear >= sdfgi_frame.probes_per_side * sdfgi_frame.probes_per_side * sdfgi_frame.probes_per_side)
         return;
     const probe_reader reader = reader_of(cascade, linear);

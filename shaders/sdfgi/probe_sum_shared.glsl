@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * A workgroup sums up the rays of a probe. Its threads share rays and texels. Shared memory: 128 rays of 32
- * bytes. */
+ * bytes, and nine towards emitters. */
 #ifndef SDFGI_PROBE_SUM_SHARED_GLSL
 #define SDFGI_PROBE_SUM_SHARED_GLSL
 
 #include "probe_rays.glsl"
+
+const uint MAX_EMITTER_RAYS = MAX_RAYS / uint(SDFGI_SAMPLES_PER_EMITTER_SAMPLE) + 1u;
 
 shared vec4 ray_dir[MAX_RAYS]; /* as in probe_ray */
 shared vec3 ray_light[MAX_RAYS];
@@ -58,10 +60,10 @@ vec4 sum_of_texel(uint texel)
 }
 
 /* Called by the whole workgroup; the texel of a thread, if it has one, gets its sum. */
-void sum_probe(uint cascade, uint linear)
+void sum_probe(uint cascade)
 {
     const uint lane = gl_LocalInvocationIndex;
-    const probe_reader reader = reader_of(cascade, linear);
+    const probe_reader reader = reader_of(cascade, gl_WorkGroupID.x);
     const uint rays = rays_to_read(reader), to_emitters = emitter_rays_to_read(rays);
     if (rays == 0u)
         return;

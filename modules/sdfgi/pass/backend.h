@@ -7,6 +7,7 @@
 #include "core/hooks.h"
 #include "gpu.h"
 #include "pass_rows.h"
+#include "resource_table.h"
 
 #include <pthread.h>
 
@@ -64,6 +65,8 @@ void sdfgi_backend_image_finish(struct backend *backend, struct gpu_image *image
 /* Sampler and layouts. */
 VkResult sdfgi_pipelines_init(struct backend *backend);
 void sdfgi_pipelines_finish(struct backend *backend);
+/* True if passes read a resource as texels: SDFGI_BINDING_TEXELS. */
+bool sdfgi_pipelines_read_texels(const struct backend *backend, enum resource resource);
 bool sdfgi_pipelines_has(struct backend *backend, enum pass pass, uint32_t variant);
 /* Makes the pipeline of a variant unless it is there. Two threads may ask for the same one. */
 VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32_t variant);

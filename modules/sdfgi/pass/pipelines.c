@@ -68,6 +68,11 @@ static VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType typ
     return (VkDescriptorSetLayoutBinding){ index, type, 1, VK_SHADER_STAGE_ALL, sampler };
 }
 
+bool sdfgi_pipelines_read_texels(const struct backend *backend, enum resource resource)
+{
+    return backend->software && sdfgi_resource_row(resource)->texels != VK_FORMAT_UNDEFINED;
+}
+
 static VkResult resource_set_layout(struct backend *backend, enum resource_set set)
 {
     VkDescriptorSetLayoutBinding bindings[2 * RESOURCE_COUNT];
@@ -77,7 +82,7 @@ static VkResult resource_set_layout(struct backend *backend, enum resource_set s
         if (row->set != set)
             continue;
         bindings[count++] = binding(row->binding, sdfgi_resource_descriptor((enum resource)i), NULL);
-        if (backend->software && row->texels != VK_FORMAT_UNDEFINED)
+        if (sdfgi_pipelines_read_texels(backend, (enum resource)i))
             bindings[count++] =
                 binding(SDFGI_BINDING_TEXELS + row->binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, NULL);
     }

@@ -11,16 +11,11 @@
      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                                   \
      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
 
-static bool has_texels(const struct backend *backend, enum resource resource)
-{
-    return backend->software && sdfgi_resource_row(resource)->texels != VK_FORMAT_UNDEFINED;
-}
-
 static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer, enum resource resource,
                               const struct extent *extent)
 {
     const struct resource_row *row = sdfgi_resource_row(resource);
-    const bool texels = has_texels(backend, resource);
+    const bool texels = sdfgi_pipelines_read_texels(backend, resource);
     const VkResult result =
         sdfgi_backend_buffer_init(backend, buffer, sdfgi_resource_size(resource, extent),
                                   BUFFER_USAGE | (texels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0),
