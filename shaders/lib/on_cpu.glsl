@@ -8,10 +8,6 @@
 
 layout(constant_id = 0) const uint on_cpu = 0u;
 
-/* Specialization constant with the size of a workgroup that shares rays: 128 threads on GPUs. On a CPU 64, as
- * threads that have no ray run along with those that have one. */
-#define SDFGI_RAY_THREADS_ID 1
-
 /* A condition that never holds. Shaders of draws define it before they include this. */
 #ifndef SDFGI_NEVER
 #define SDFGI_NEVER (gl_NumWorkGroups.x == 0u)
