@@ -72,7 +72,8 @@ static uint32_t group_of(enum pass pass, bool software)
     const uint32_t group = sdfgi_pass_row(pass)->group;
     if (software && pass == PASS_LIGHT_MARK)
         return MARK_BLOCKS_SOFTWARE * group;
-    return software && pass == PASS_PROBE_SUM ? SDFGI_GROUP_PROBE : group;
+    const bool alone = software && (pass == PASS_PROBE_SUM || pass == PASS_PROBE_BLEND);
+    return alone ? SDFGI_GROUP_PROBE : group;
 }
 
 struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e, bool software)
