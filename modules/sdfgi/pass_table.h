@@ -26,7 +26,7 @@
 /* clang-format off */
 #define SDFGI_PASSES(X)                                                                                      \
     X(REGION_CLEAR, COMPUTE, region_clear, CELLS, GENERATE, VOXELS, CREATED,                                 \
-      BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, 0, R(BITS) | R(SCRATCH) | R(BOUNDS))                        \
+      BOX, region, 4 * SDFGI_GROUP_LINEAR, NONE, 0, R(BITS) | R(BOUNDS))                                     \
     X(VOXELIZE, COMPUTE_TEXTURED, voxelize, TRIANGLES, VOXELS, VOXELS, CREATED,                              \
       INSTANCES, voxelize, SDFGI_GROUP_TRIANGLE, MESH, R(MATERIALS) | R(INSTANCES), R(BITS) | R(SCRATCH) |   \
       R(COUNTERS))                                                                                           \

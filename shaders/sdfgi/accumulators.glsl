@@ -10,6 +10,13 @@ struct voxel_part {
     ivec3 low, high; /* cells [low, high) */
 };
 
+/* Albedo blocks of the part. */
+uint part_blocks(voxel_part part)
+{
+    const uvec3 size = uvec3(part.high - part.low) >> 1u;
+    return size.x * size.y * size.z;
+}
+
 /* Number of a cell's albedo block in the part. */
 uint part_block(voxel_part part, ivec3 cell)
 {
@@ -18,9 +25,9 @@ uint part_block(voxel_part part, ivec3 cell)
 }
 
 /* The word of a block in a plane, SDFGI_ACCUM_*. */
-uint accumulator(uint plane, uint block)
+uint accumulator(voxel_part part, uint plane, uint block)
 {
-    return plane * (sdfgi_scratch_part_cells(sdfgi_frame.resolution_log2) / 8u) + block;
+    return plane * part_blocks(part) + block;
 }
 
 /* The first plane of what faces a side of a block, in the lower or the upper of its two layers of cells. */
@@ -39,9 +46,8 @@ bool emission_is_kept()
 uint emissive_word(voxel_part part, int axis, ivec3 cell)
 {
     const uvec3 at = uvec3(cell - part.low), size = uvec3(part.high - part.low);
-    const uint bits = sdfgi_frame.resolution_log2;
-    return sdfgi_scratch_emissive_bits(bits) + 2u * uint(axis) * sdfgi_scratch_part_cells(bits) +
-           2u * (at.x + size.x * (at.y + size.y * at.z));
+    const uint first = accumulator(part, uint(SDFGI_ACCUM_PLANES), 0u), cells = 8u * part_blocks(part);
+    return first + 2u * (uint(axis) * cells + at.x + size.x * (at.y + size.y * at.z));
 }
 
 #endif

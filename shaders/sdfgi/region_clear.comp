@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Empties a box of cells before it is voxelised: occupancy bits, the accumulators of its albedo blocks, and,
- * where something emits, emissive bits. Visibility bits stay: light cells read them until the change
+ * Empties a box of cells before it is voxelised. Visibility bits stay: light cells read them until the change
  * completes. Adds the cells that held bits to the dirty bounds. One thread per four cells along y. Threads
  * follow one another along x, because cells are stored side by side along x. The box begins and ends at
  * multiples of 8 cells.
@@ -8,31 +7,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_BITS
-#define SDFGI_WRITES_SCRATCH
 #include "../lib/on_cpu.glsl"
-#include "accumulators.glsl"
 #include "dirty_bounds.glsl"
 #include "workgroup.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_region_args);
-
-/* The four threads at the cells of a block take turns from plane to plane. */
-void clear_accumulators(ivec3 cell)
-{
-    const uint block = part_block(voxel_part(args.low, args.high), cell);
-    const uint planes = emission_is_kept() ? uint(SDFGI_ACCUM_PLANES) : uint(SDFGI_ACCUM_EMISSION);
-    for (uint plane = uint(cell.x & 1 | (cell.z & 1) << 1); plane < planes; plane += 4u)
-        sdfgi_scratch[accumulator(plane, block)] = 0u;
-}
-
-void clear_emissive_bits(ivec3 cell)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        const uint word = emissive_word(voxel_part(args.low, args.high), axis, cell);
-        sdfgi_scratch[word] = sdfgi_scratch[word + 1u] = 0u;
-    }
-}
 
 /* Adds those of four cells that hold bits to the dirty bounds; `held` has a bit per cell. Volumes are
  * toroidal, so before a scroll the bits belonged to other cells: those whose storage the box takes over. */
@@ -59,8 +39,4 @@ void main()
         add_removed(first, held);
     for (int k = 0; k < 4; k++)
         sdfgi_bits[sdfgi_cell_index(args.cascade, first + ivec3(0, k, 0))] = uvec2(0u);
-    for (int k = 0; k < (emission_is_kept() ? 4 : 0); k++)
-        clear_emissive_bits(first + ivec3(0, k, 0));
-    clear_accumulators(first);
-    clear_accumulators(first + ivec3(0, 2, 0));
 }

@@ -20,9 +20,14 @@
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_region_args);
 
+voxel_part resolved_part()
+{
+    return voxel_part(args.low, args.high);
+}
+
 uint accumulated(uint plane, uint block)
 {
-    return sdfgi_scratch_at(accumulator(plane, block));
+    return sdfgi_scratch_at(accumulator(resolved_part(), plane, block));
 }
 
 vec3 accumulated3(uint plane, uint block)
@@ -218,7 +223,7 @@ void load_block(ivec3 first)
         block_emissive[i] = uvec2(0u);
         [[unroll]] for (int axis = 0; axis < 3; axis++)
         {
-            const uint word = emissive_word(voxel_part(args.low, args.high), axis, cell);
+            const uint word = emissive_word(resolved_part(), axis, cell);
             block_facing[axis][i] = uvec2(sdfgi_scratch_at(word), sdfgi_scratch_at(word + 1u));
             block_emissive[i] |= block_facing[axis][i];
         }
@@ -319,7 +324,7 @@ shared uint voxels;
 
 void resolve(ivec3 cell)
 {
-    const uint block = part_block(voxel_part(args.low, args.high), cell);
+    const uint block = part_block(resolved_part(), cell);
     const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
     const uint out_index =

@@ -232,14 +232,14 @@ voxel_part drawn_part()
 void accumulate(uint plane, uint block, uint value)
 {
     if (value != 0u)
-        atomicAdd(sdfgi_scratch[accumulator(plane, block)], value);
+        atomicAdd(sdfgi_scratch[accumulator(drawn_part(), plane, block)], value);
 }
 
 /* False if sums of a block are so large that they might wrap: thousands of surfaces lie in it one on the
  * other. Their mean is known well enough then. What is left out is counted. */
 bool has_room(uint plane, uint block, uint limit)
 {
-    const bool room = sdfgi_scratch_at(accumulator(plane, block)) < limit;
+    const bool room = sdfgi_scratch_at(accumulator(drawn_part(), plane, block)) < limit;
     if (!room)
         counter_add(SDFGI_COUNTER_SAMPLES_CUT, 1u);
     return room;
@@ -256,7 +256,7 @@ void accumulate_front(triangle t, ivec3 sub, uint block, uint side, vec3 albedo)
                 height = (side & 1u) == 0u ? level : 8.0 - level;
     const uvec2 in_block = uvec2(sub[(major + 1u) % 3u], sub[(major + 2u) % 3u]) & 7u;
     const uint plane = SDFGI_ACCUM_FRONT + FRONTS * side + front_of_columns(in_block);
-    atomicMax(sdfgi_scratch[accumulator(plane, block)], front_pack(height, in_block, albedo));
+    atomicMax(sdfgi_scratch[accumulator(drawn_part(), plane, block)], front_pack(height, in_block, albedo));
 }
 
 /* Sums are integers, so that they do not depend on the order of additions. */
@@ -338,7 +338,7 @@ void accumulate_wide(uint plane, uint block, float value)
 {
     const float upper = floor(value / SDFGI_EMISSION_UPPER);
     const uint lower = uint((value - upper * SDFGI_EMISSION_UPPER) / SDFGI_EMISSION_STEP + 0.5);
-    const uint before = lower != 0u ? atomicAdd(sdfgi_scratch[accumulator(plane, block)], lower) : 0u;
+    const uint before = lower != 0u ? atomicAdd(sdfgi_scratch[accumulator(drawn_part(), plane, block)], lower) : 0u;
     accumulate(plane + 1u, block, uint(upper) + uint(before + lower < before));
 }
 

@@ -24,21 +24,12 @@ SDFGI_FUNCTION uint sdfgi_scratch_part_cells(uint bits)
     return cells < least ? cells : part > least ? part : least;
 }
 
-/* Accumulators of albedo blocks (2^3 cells) from word 0, then per axis two words of emissive bits per cell.
- * Where nothing emits, they end with the accumulators of surfaces. */
-SDFGI_FUNCTION uint sdfgi_scratch_emissive_bits(uint bits)
+/* Words that a part needs: accumulators of its albedo blocks (2^3 cells) from word 0, plane after plane, then
+ * per axis two words of emissive bits per cell. Where nothing emits, the accumulators of surfaces are all. */
+SDFGI_FUNCTION uint sdfgi_scratch_part_words(uint part_cells, bool emits)
 {
-    return SDFGI_ACCUM_PLANES * (sdfgi_scratch_part_cells(bits) / 8u);
-}
-
-SDFGI_FUNCTION uint sdfgi_scratch_surfaces_end(uint bits)
-{
-    return SDFGI_ACCUM_EMISSION * (sdfgi_scratch_part_cells(bits) / 8u);
-}
-
-SDFGI_FUNCTION uint sdfgi_scratch_emission_end(uint bits)
-{
-    return sdfgi_scratch_emissive_bits(bits) + 6u * sdfgi_scratch_part_cells(bits);
+    const uint blocks = part_cells / 8u;
+    return emits ? SDFGI_ACCUM_PLANES * blocks + 6u * part_cells : SDFGI_ACCUM_EMISSION * blocks;
 }
 
 /* Distance search: planes from word 0. Two cells share a word, four layers of sub-voxels per cell. */

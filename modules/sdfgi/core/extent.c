@@ -66,7 +66,7 @@ static uint64_t scratch_size(const struct extent *e)
 {
     const uint32_t bits = sdfgi_log2(e->cells) / 3;
     const uint64_t tenants[] = {
-        e->emits ? sdfgi_scratch_emission_end(bits) : sdfgi_scratch_surfaces_end(bits),
+        sdfgi_scratch_part_words(sdfgi_scratch_part_cells(bits), e->emits),
         sdfgi_scratch_distance_end(bits),
         sdfgi_scratch_flood_end(bits),
         sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells),

@@ -38,6 +38,13 @@ static void add_flood(const struct plan_stage *stage, uint32_t c)
 
 /* ---- Pieces */
 
+static void clear_accumulators(const struct plan_stage *stage, const struct cell_box *part)
+{
+    const uint32_t cells = (uint32_t)sdfgi_cell_box_cells(part);
+    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SCRATCH, 0,
+                         4ull * sdfgi_scratch_part_words(cells, stage->input->extent.emits));
+}
+
 /* The accumulators have room for a part of a cascade: a piece is made in parts, cut across its longest side.
  */
 static void add_parts(const struct plan_stage *stage, const struct scroll_piece *piece)
@@ -54,6 +61,7 @@ static void add_parts(const struct plan_stage *stage, const struct scroll_piece 
         part.box.high[axis] = part.box.low[axis] + (left < thickness ? left : thickness);
         part.made = piece->box;
         part.made.high[axis] = part.box.low[axis];
+        clear_accumulators(stage, &part.box);
         sdfgi_stage_add_phase(stage, PHASE_VOXELS, &(struct plan_target){ piece->cascade, &part });
     }
 }
