@@ -5,7 +5,8 @@
  * In a dirty light block all cells are tested, and those that are no light cells lose their light. In
  * every other block the light cells are those of the previous list; their direct light is copied from it,
  * because light_list overwrites the list. The layout of lists and marks is in light_blocks.glsl. The threads
- * share the entries of the previous list. The workgroups share the dirty blocks, with a thread per cell. */
+ * share the entries of the previous list. The workgroups share the dirty blocks, with a thread per cell; on
+ * software drivers each thread tests the cells of a block alone. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_MASKS
@@ -165,23 +166,14 @@ void keep_entry(uint entry)
 
 /* ---- Cells of dirty blocks */
 
-shared uint found[2]; /* a bit per light cell of the workgroup's block */
+/* Beyond this distance no face neighbour of a cell can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2), and the
+ * 0.1 by which a flood's distances may be too large. */
+const float FARTHEST = 1.6;
 
+/* Of a cell that is not beyond FARTHEST. The bits of most cells are not read. */
 bool is_light_cell(ivec3 cell)
 {
-    const float distance = sdfgi_cell_distance(args.cascade, cell);
-    /* Beyond this distance no face neighbour can hold a sub-voxel: sqrt(1.375^2 + 2 * 0.375^2), and
-     * the 0.1 by which a flood's distances may be too large. So the bits of most cells are not read. */
-    return distance < 1.6 && sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) &&
-           light_cell_facing(args.cascade, cell) != 0u;
-}
-
-/* Clears the visibility bits of a cell: those that the list has room for get new ones. */
-void clear_cell(uint index)
-{
-    const uint bits = 0xffu << (8u * (index & 3u));
-    if ((sdfgi_masks_at(index >> 2u) & bits) != 0u)
-        atomicAnd(sdfgi_masks[index >> 2u], ~bits);
+    return sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) && light_cell_facing(args.cascade, cell) != 0u;
 }
 
 /* Notes which light cells a dirty block had in the previous list: they may keep their light. */
@@ -195,42 +187,31 @@ void note_previous(uint block)
     sdfgi_scratch[slot + 5u] = before.y;
 }
 
-/* Finds the light cells of a dirty block. Called by the whole workgroup, a thread per cell. */
-void mark_block(uint block)
+/* Writes the light cells of a dirty block: a bit for each. */
+void store_block(uint block, uvec2 found)
 {
-    const uint bit = gl_LocalInvocationIndex;
-    if (bit < 2u)
-        found[bit] = 0u;
-    barrier();
-    const uvec3 inside = uvec3(bit, bit >> 2u, bit >> 4u) & 3u;
-    const ivec3 cell = sdfgi_cell_from_texel(args.cascade, 4u * light_block_coords(block) + inside);
-    const uint index = sdfgi_cell_index(args.cascade, cell);
-    if (is_light_cell(cell))
-        atomicOr(found[bit >> 5u], 1u << (bit & 31u));
-    clear_cell(index);
-    barrier();
-    const uint count = bitCount(found[0]) + bitCount(found[1]);
-    if (bit > 0u || count == 0u)
+    const uint count = uint(bitCount(found.x) + bitCount(found.y));
+    if (count == 0u)
         return;
     const uint slot = light_block_slot(block);
-    sdfgi_scratch[slot] = found[0];
-    sdfgi_scratch[slot + 1u] = found[1];
+    sdfgi_scratch[slot] = found.x;
+    sdfgi_scratch[slot + 1u] = found.y;
     sdfgi_scratch[slot + 2u] = 1u;
     note_previous(block);
     atomicAdd(sdfgi_scratch[row_slot_of_block(block)], count);
     atomicAdd(sdfgi_scratch[row_slot_of_block(block) + 1u], count);
 }
 
+#ifdef SDFGI_SOFTWARE
+#include "light_mark_alone.glsl"
+#else
+#include "light_mark_shared.glsl"
+#endif
+
 void main()
 {
     for (uint entry = gl_GlobalInvocationID.x; entry < sdfgi_frame.light_cell_room;
          entry += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR)
         keep_entry(entry);
-    bool more = true;
-    for (uint n = gl_WorkGroupID.x; more; n += gl_NumWorkGroups.x) {
-        uint block;
-        if (dirty_block(n, block, more))
-            mark_block(block);
-        barrier();
-    }
+    mark_dirty_blocks();
 }

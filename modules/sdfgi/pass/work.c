@@ -62,16 +62,13 @@ static uint64_t stored_light(const struct extent *e)
     return e->cascades * (axes > texels ? axes : texels);
 }
 
-/* Light blocks whose cells a workgroup marks on a CPU. Looking for the next block in vain takes as long there
- * as marking it: with one block for each workgroup, a slab of 64^3 takes 42 ms instead of 17. */
-#define MARK_BLOCKS_SOFTWARE 16
-
-/* Elements that a workgroup takes. */
+/* Elements that a workgroup takes. On software drivers a thread sums up, or filters, a probe alone, and tests
+ * the 64 cells of a light block. */
 static uint32_t group_of(enum pass pass, bool software)
 {
     const uint32_t group = sdfgi_pass_row(pass)->group;
     if (software && pass == PASS_LIGHT_MARK)
-        return MARK_BLOCKS_SOFTWARE * group;
+        return 64 * group;
     const bool alone = software && (pass == PASS_PROBE_SUM || pass == PASS_PROBE_BLEND);
     return alone ? SDFGI_GROUP_PROBE : group;
 }
