@@ -80,7 +80,7 @@ static void require_same_bytes(void)
 
 static sdfgi_view *create_view(bool reflections)
 {
-    const struct sdfgi_view_desc desc = { .width = 16, .height = 16, .reflections = reflections };
+    const struct sdfgi_view_desc desc = { .width = 18, .height = 18, .reflections = reflections };
     sdfgi_view *view = NULL;
     REQUIRE_CMP((int)sdfgi_view_create(t.gi, &desc, &view), ==, (int)SDFGI_OK);
     return view;
@@ -149,7 +149,7 @@ static enum sdfgi_result live_a_whole_life(void)
 {
     const struct sdfgi_settings on = small_settings(true);
     const struct sdfgi_prepare_desc prepare = { .settings = &on };
-    const struct sdfgi_view_desc view_desc = { .width = 16, .height = 16, .reflections = true };
+    const struct sdfgi_view_desc view_desc = { .width = 18, .height = 18, .reflections = true };
     sdfgi_view *view;
     enum sdfgi_result result = create(false);
     if (result == SDFGI_OK)

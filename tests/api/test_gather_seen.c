@@ -78,7 +78,7 @@ static void add_sunlit_box(struct gi_test *t)
     light_create(t, &sun);
 }
 
-enum { SIDE = 64, PIXELS = SIDE * SIDE };
+enum { SIDE = 68, PIXELS = SIDE * SIDE };
 
 static void look(struct gi_test *t, const struct picture *picture, float light[static PIXELS])
 {

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDE = 16 };
+enum { SIDE = 18 };
 
 /* A context, and pictures for all that it can draw. */
 struct stage {

@@ -202,16 +202,19 @@ static void a_picture_makes_no_pipeline_that_has_been_prepared(void **state)
     add_scene();
     enable(true);
     gi_test_update(&t, 2);
-    const float depth[4] = { 0.5f, 0.5f, 0.5f, 0.5f }, normals[4][4] = { { 0, 1 } };
-    struct gpu_test_image d = gi_test_gather_image(&t, VK_FORMAT_R32_SFLOAT, 4, 2, 2, depth),
-                          n = gi_test_gather_image(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, 2, 2, normals),
-                          o = gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, 2, 2, NULL);
+    float depth[9];
+    const float normals[9][4] = { { 0, 1 } };
+    for (int i = 0; i < 9; i++)
+        depth[i] = 0.5f;
+    struct gpu_test_image d = gi_test_gather_image(&t, VK_FORMAT_R32_SFLOAT, 4, 3, 3, depth),
+                          n = gi_test_gather_image(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, 3, 3, normals),
+                          o = gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, 3, 3, NULL);
     const struct counting_vulkan before = counting_vulkan_get();
     struct sdfgi_gather_desc desc = { .depth = d.view,
                                       .normal = n.view,
                                       .output = o.view,
-                                      .width = 2,
-                                      .height = 2,
+                                      .width = 3,
+                                      .height = 3,
                                       .inverse_view_projection = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,
                                                                    0, 1 } };
     gi_test_gather(&t, &desc);

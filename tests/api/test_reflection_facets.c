@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 64, HEIGHT = 48, STEPS = 48 };
+enum { WIDTH = 66, HEIGHT = 48, STEPS = 48 };
 
 /* The camera looks down at the floor, through a long lens: neighbours, whose rays the filter shares, see it
  * at the same angle. */

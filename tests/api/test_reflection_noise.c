@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 96, HEIGHT = 64, FLOOR = 0, SQUARE = 4 };
+enum { WIDTH = 96, HEIGHT = 68, FLOOR = 0, SQUARE = 4 };
 
 /* A dark floor that mirrors a lamp 8 m away. `tan_x` is of half the picture's width. */
 static struct picture draw_scene(struct gi_test *t, struct picture_scene *scene, double tan_x)

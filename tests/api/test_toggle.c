@@ -17,7 +17,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { FRAMES_MOST = 1000, WARM = 40, BOXES = 8, SIDE = 4, PIXELS = SIDE * SIDE };
+enum { FRAMES_MOST = 1000, WARM = 40, BOXES = 8, SIDE = 5, PIXELS = SIDE * SIDE };
 
 static struct gi_test t;
 static VkQueryPool queries;

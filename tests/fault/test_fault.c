@@ -282,7 +282,7 @@ static void set_arguments(const char *const *arguments, size_t count)
 static int render(void **state)
 {
     (void)state;
-    SET_ARGUMENTS("render", command.scene, "--size", "8x8", "--frames", "3", SMALL, "--set",
+    SET_ARGUMENTS("render", command.scene, "--size", "9x9", "--frames", "3", SMALL, "--set",
                   "voxelizer=raster", "--out", "a.png", "--aov", "normal=n.exr", "--aov", "albedo=a.hdr",
                   "--report", "r.json");
     return 0;
@@ -291,7 +291,7 @@ static int render(void **state)
 static int walk(void **state)
 {
     (void)state;
-    SET_ARGUMENTS("walk", command.scene, "--path", command.path, "--size", "8x8", "--frames", "2", "--hold",
+    SET_ARGUMENTS("walk", command.scene, "--path", command.path, "--size", "9x9", "--frames", "2", "--hold",
                   "0", SMALL, "--sample", "0,1,0,0,1,0", "--every", "1", "--debug", "albedo", "--out", "w");
     return 0;
 }

@@ -3,6 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_SET 0
+#define SDFGI_ZERO uint(gl_NumWorkGroups.x == 0u) /* see lib/on_cpu.glsl */
 #include "sdfgi_reflection.glsl"
 
 layout(local_size_x = 64) in;
@@ -22,7 +23,7 @@ void main()
         return;
     const vec3 position = points[row].xyz, normal = points[row + 1u].xyz, to_eye = points[row + 2u].xyz;
     const sdfgi_surface_light mirrored = sdfgi_lighting(position, normal, to_eye, 0.1);
-    points[row].xyz = sdfgi_irradiance(position, normal, to_eye);
+    points[row].xyz = mirrored.irradiance;
     points[row + 1u].xyz = sdfgi_irradiance_air(position, normal);
     points[row + 2u] = vec4(mirrored.reflection, mirrored.distance_m);
 }

@@ -19,7 +19,7 @@ void main(uint3 id : SV_DispatchThreadID)
     const float3 position = asfloat(points.Load3(row)), normal = asfloat(points.Load3(row + 16u)),
                  to_eye = asfloat(points.Load3(row + 32u));
     const sdfgi_surface_light mirrored = sdfgi_lighting(position, normal, to_eye, 0.1);
-    points.Store3(row, asuint(sdfgi_irradiance(position, normal, to_eye)));
+    points.Store3(row, asuint(mirrored.irradiance));
     points.Store3(row + 16u, asuint(sdfgi_irradiance_air(position, normal)));
     points.Store4(row + 32u, asuint(float4(mirrored.reflection, mirrored.distance_m)));
 }

@@ -83,7 +83,7 @@ static void mirror_read(struct mirror *m, uint16_t (*texels)[4])
 
 /* ---- Cascades */
 
-enum { SIDE = 8, PIXELS = SIDE * SIDE, STEPS = 61 };
+enum { SIDE = 9, PIXELS = SIDE * SIDE, STEPS = 61 };
 
 #define WALL_M        5.1
 #define COARSE_CELL_M 1.0
@@ -207,7 +207,7 @@ static void metal_shows_in_a_mirror_what_it_reflects(void **state)
 
 /* ---- What calls for rays */
 
-enum { TILE = SDFGI_GROUP_PIXELS, SURFACE_SIDE = 4 * TILE };
+enum { TILE = SDFGI_GROUP_PIXELS, SURFACE_SIDE = 5 * TILE };
 
 struct tile_work {
     uint32_t rays[3], unused, tiles[3];
