@@ -338,7 +338,8 @@ void accumulate_wide(uint plane, uint block, float value)
 {
     const float upper = floor(value / SDFGI_EMISSION_UPPER);
     const uint lower = uint((value - upper * SDFGI_EMISSION_UPPER) / SDFGI_EMISSION_STEP + 0.5);
-    const uint before = lower != 0u ? atomicAdd(sdfgi_scratch[accumulator(drawn_part(), plane, block)], lower) : 0u;
+    const uint word = accumulator(drawn_part(), plane, block),
+               before = lower != 0u ? atomicAdd(sdfgi_scratch[word], lower) : 0u;
     accumulate(plane + 1u, block, uint(upper) + uint(before + lower < before));
 }
 

@@ -202,10 +202,7 @@ static void a_picture_makes_no_pipeline_that_has_been_prepared(void **state)
     add_scene();
     enable(true);
     gi_test_update(&t, 2);
-    float depth[9];
-    const float normals[9][4] = { { 0, 1 } };
-    for (int i = 0; i < 9; i++)
-        depth[i] = 0.5f;
+    const float depth[9] = { 0.5f }, normals[9][4] = { { 0, 1 } };
     struct gpu_test_image d = gi_test_gather_image(&t, VK_FORMAT_R32_SFLOAT, 4, 3, 3, depth),
                           n = gi_test_gather_image(&t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, 3, 3, normals),
                           o = gi_test_gather_image(&t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, 3, 3, NULL);

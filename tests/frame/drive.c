@@ -167,7 +167,8 @@ void drive_begin_frame(struct drive *d)
     d->frames++;
     read_back(d);
     d->emitters_added = d->emitters_added || (d->scene.emissive > 0 && !d->extent.emits);
-    d->extent.emits = d->extent.emits || d->emitters_added;
+    if (d->emitters_added)
+        sdfgi_extent_set_emits(&d->extent);
 }
 
 void drive_frame(struct drive *d)
