@@ -46,7 +46,7 @@ uint slice_count(uvec2 slice)
 uint slices_seen(uvec2 cells[8], int axis)
 {
     uvec2 seen = uvec2(0u);
-    [[unroll]] for (int depth = 0; depth < 8; depth++)
+    [[unroll]] for (int depth = int(SDFGI_ZERO); depth < 8; depth++)
     {
         seen |= slice_of_block(cells, axis, depth);
     }
@@ -57,7 +57,7 @@ uint slices_seen(uvec2 cells[8], int axis)
 uvec2 slices_bounds(uvec2 cells[8], int axis)
 {
     uint depths = 0u;
-    [[unroll]] for (int depth = 0; depth < 8; depth++)
+    [[unroll]] for (int depth = int(SDFGI_ZERO); depth < 8; depth++)
     {
         depths |= uint(slice_of_block(cells, axis, depth) != uvec2(0u)) << depth;
     }

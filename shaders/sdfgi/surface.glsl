@@ -34,6 +34,8 @@ layout(std430, set = SDFGI_SET_WORK,
 };
 
 const uint SURFACE_NO_NORMAL = 31u;
+/* Of a block without surfaces. */
+const uint SURFACE_NO_NORMALS = SURFACE_NO_NORMAL * 0x100401u;
 const uint SURFACE_METAL_SHIFT = 30u; /* beside the normals */
 const vec3 SURFACE_SECOND_STEPS = vec3(511.0, 1023.0, 511.0);
 

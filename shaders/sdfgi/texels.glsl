@@ -2,11 +2,11 @@
  * How passes read the buffers of the WORK set: as ../include/sdfgi_texels.glsl does those of LOOKUP. A pass
  * may write words of GATHERED, SUMS and PREVIOUS, and still read texels of them, as long as no thread reads a
  * word that has been written in the same dispatch. A texel is read for all threads of a group, even if few of
- * them ask: a pass in which few read SCRATCH defines SDFGI_ASKS_SELDOM. */
+ * them ask: what few need is read in a loop of one round at most, which is left out where none asks. */
 #ifndef SDFGI_WORK_TEXELS_GLSL
 #define SDFGI_WORK_TEXELS_GLSL
 
-#if defined(SDFGI_SOFTWARE) && !defined(SDFGI_WRITES_SCRATCH) && !defined(SDFGI_ASKS_SELDOM)
+#if defined(SDFGI_SOFTWARE) && !defined(SDFGI_WRITES_SCRATCH)
 layout(set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_SCRATCH) uniform usamplerBuffer sdfgi_scratch_view;
 #define sdfgi_scratch_at(i) texelFetch(sdfgi_scratch_view, int(i)).x

@@ -7,7 +7,6 @@
 #define SDFGI_WRITES_SURFACE
 #define SDFGI_WRITES_EMISSION
 #define SDFGI_WRITES_EMITTERS
-#define SDFGI_ASKS_SELDOM
 #include "../lib/on_cpu.glsl"
 #include "accumulators.glsl"
 #include "block_slices.glsl"
@@ -84,7 +83,7 @@ color_sum without_hidden(uint side, uint block, color_sum all, float samples)
 {
     vec3 sum = vec3(0.0);
     float fronts = 0.0;
-    for (uint i = 0u; i < FRONTS; i++) {
+    for (uint i = SDFGI_ZERO; i < FRONTS; i++) {
         const uint packed = accumulated(SDFGI_ACCUM_FRONT + FRONTS * side + i, block);
         sum += front_color(packed);
         fronts += float(packed != 0u);
@@ -112,7 +111,7 @@ color_sum albedo_from(uint side, uint block)
 uvec2 resolve_albedo(uint block)
 {
     color_sum seen[6], most = color_sum(vec3(0.0), 0.0), all = most;
-    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
         seen[side] = albedo_from(side, block);
         all = color_sum(all.sum + seen[side].sum, all.count + seen[side].count);
@@ -121,7 +120,7 @@ uvec2 resolve_albedo(uint block)
     }
     const vec3 first = mean_albedo(most);
     vec3 other = first;
-    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
         const vec3 mean = mean_albedo(seen[side]);
         if (seen[side].count > 0.0 && contrast(mean, first) > contrast(other, first))
@@ -131,7 +130,7 @@ uvec2 resolve_albedo(uint block)
         return surface_pack_albedo(mean_albedo(all), vec3(0.0), 0u);
     uint sides = 0u;
     color_sum second = color_sum(vec3(0.0), 0.0);
-    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
         const vec3 mean = mean_albedo(seen[side]);
         if (seen[side].count > 0.0 && contrast(mean, other) < contrast(mean, first)) {
@@ -157,7 +156,7 @@ uint resolve_metal(uint block, uint samples)
 uint resolve_normals(uint block, uint samples)
 {
     uint packed = resolve_metal(block, samples) << SURFACE_METAL_SHIFT;
-    for (uint major = 0u; major < 3u; major++) {
+    for (uint major = SDFGI_ZERO; major < 3u; major++) {
         const uint plane = SDFGI_ACCUM_NORMAL + 3u * major;
         const uint count = accumulated(plane, block);
         uint slopes = SURFACE_NO_NORMAL;
@@ -195,7 +194,7 @@ side_view view_from(uint side)
     const int axis = int(side >> 1u);
     uvec2 hidden = uvec2(0u), facing = uvec2(0u), walls = uvec2(0u);
     uint emits = 0u, depths = 0u;
-    [[unroll]] for (int i = 0; i < 8; i++)
+    [[unroll]] for (int i = int(SDFGI_ZERO); i < 8; i++)
     {
         const int depth = (side & 1u) == 0u ? 7 - i : i;
         const uvec2 first = slice_of_block(block_bits, axis, depth) & ~hidden,
@@ -216,12 +215,12 @@ side_view view_from(uint side)
 /* Loads the bits of the block that begins at a cell. */
 void load_block(ivec3 first)
 {
-    [[unroll]] for (uint i = 0u; i < 8u; i++)
+    [[unroll]] for (uint i = SDFGI_ZERO; i < 8u; i++)
     {
         const ivec3 cell = first + ivec3(i & 1u, i >> 1u & 1u, i >> 2u);
         block_bits[i] = sdfgi_cell_bits(args.cascade, cell);
         block_emissive[i] = uvec2(0u);
-        [[unroll]] for (int axis = 0; axis < 3; axis++)
+        [[unroll]] for (int axis = int(SDFGI_ZERO); axis < 3; axis++)
         {
             const uint word = emissive_word(resolved_part(), axis, cell);
             block_facing[axis][i] = uvec2(sdfgi_scratch_at(word), sdfgi_scratch_at(word + 1u));
@@ -259,7 +258,7 @@ float share_that_emits(float area, side_view shown)
 bool is_hollow(emitter_view view, uvec3 low, uvec3 high)
 {
     bool hollow = false;
-    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
         const uint axis = side >> 1u, face = (side & 1u) == 0u ? 7u - high[axis] : low[axis];
         const float behind = view.depths[side] - float(face),
@@ -275,7 +274,7 @@ void store_emitter_shape(uint block, ivec3 first, emitter_view view)
     if (sdfgi_frame.emitter_samples == 0u)
         return;
     uvec3 low, high;
-    [[unroll]] for (int axis = 0; axis < 3; axis++)
+    [[unroll]] for (int axis = int(SDFGI_ZERO); axis < 3; axis++)
     {
         const uvec2 bounds = slices_bounds(block_emissive, axis);
         low[axis] = bounds.x;
@@ -290,13 +289,11 @@ void store_emitter_shape(uint block, ivec3 first, emitter_view view)
 /* Emission of the brightest side, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, ivec3 first)
 {
-    if (!emission_is_kept() || accumulated(SDFGI_ACCUM_EMISSION_AREA, block) == 0u)
-        return uvec2(0u);
     load_block(first);
     emitter_view view;
     view.largest = view.projected = 0.0;
     float fractions[6], largest = 0.0, all_sides = 0.0;
-    [[unroll]] for (uint side = 0u; side < 6u; side++)
+    [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
         const side_view shown = view_from(side);
         const float facing = facing_area(block, side);
@@ -329,9 +326,20 @@ void resolve(ivec3 cell)
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
     const uint out_index =
         sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
-    sdfgi_albedo[out_index] = count > 0u ? resolve_albedo(block) : uvec2(0u);
-    sdfgi_emission[out_index] = resolve_emission(block, cell);
-    sdfgi_normals[out_index] = resolve_normals(block, count);
+    /* Loops of one round at most, because software drivers run what is under a condition in any case. */
+    const uint surfaces = count > 0u ? 1u : 0u,
+               emitters = emission_is_kept() && accumulated(SDFGI_ACCUM_EMISSION_AREA, block) > 0u ? 1u : 0u;
+    uvec2 albedo = uvec2(0u), emission = uvec2(0u);
+    uint normals = SURFACE_NO_NORMALS;
+    for (uint i = 0u; i < surfaces; i++) {
+        albedo = resolve_albedo(block);
+        normals = resolve_normals(block, count);
+    }
+    for (uint i = 0u; i < emitters; i++)
+        emission = resolve_emission(block, cell);
+    sdfgi_albedo[out_index] = albedo;
+    sdfgi_emission[out_index] = emission;
+    sdfgi_normals[out_index] = normals;
     if (count == 0u)
         return;
     atomicAdd(voxels, count);
