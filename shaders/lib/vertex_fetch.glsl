@@ -31,7 +31,7 @@ vec4 sdfgi_fetch_packed(uvec3 words, uint byte, uint fetch)
     const uint shift = 8u * (byte & 3u), bits = SDFGI_FETCH_GET_BITS(fetch);
     const uvec2 element = words.xy >> shift | (words.yz << 1u) << (31u - shift);
     vec4 v;
-    for (uint c = 0u; c < 4u; c++) {
+    for (uint c = SDFGI_ZERO; c < 4u; c++) {
         const uint at = c * bits, first = at & 31u;
         v[c] = sdfgi_fetch_component(at < 32u ? element.x : element.y, first, min(bits, 32u - first), fetch);
     }

@@ -76,9 +76,9 @@ vec3 mesh_position(uint vertex)
 bool triangle_fetch(uint t, out vec3 v[3], out uint index[3])
 {
     bool valid = true;
-    for (int i = 0; i < 3; i++)
+    for (int i = int(SDFGI_ZERO); i < 3; i++)
         index[i] = mesh_index(3u * t + uint(i));
-    for (int i = 0; i < 3; i++) {
+    for (int i = int(SDFGI_ZERO); i < 3; i++) {
         v[i] = mesh_position(min(index[i], args.vertex_count - 1u));
         valid = valid && index[i] < args.vertex_count &&
                 max(abs(v[i].x), max(abs(v[i].y), abs(v[i].z))) < MAX_COORDINATE;
@@ -109,12 +109,13 @@ bool triangle_leaves_bounds(vec3 v[3])
 /* Counts a triangle that is skipped, or that the host's bounds miss. */
 void triangle_count_faults(bool valid, vec3 v[3])
 {
-    if (drawn.checked)
-        return;
-    if (!valid)
-        counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
-    else if (triangle_leaves_bounds(v))
-        counter_add(SDFGI_COUNTER_OUT_OF_BOUNDS, 1u);
+    /* A loop of one round at most, because software drivers run what is under a condition in any case. */
+    const uint checks = drawn.checked ? 0u : 1u;
+    for (uint i = 0u; i < checks; i++)
+        if (!valid)
+            counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
+        else if (triangle_leaves_bounds(v))
+            counter_add(SDFGI_COUNTER_OUT_OF_BOUNDS, 1u);
 }
 
 /* Of the corners; 0 where the mesh has none. */

@@ -2,6 +2,7 @@
  * One fragment per column of a triangle. It makes the same test and the same stores as voxelize.comp. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_ZERO 0u /* see lib/on_cpu.glsl */
 #include "voxelize_common.glsl"
 
 layout(location = 0) flat in uint in_triangle;

@@ -3,6 +3,7 @@
  * widened, so that each column in which it may set a sub-voxel gets a fragment. There the test is made. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_ZERO 0u /* see lib/on_cpu.glsl */
 #include "voxelize_common.glsl"
 
 layout(location = 0) flat out uint out_triangle;

@@ -2,6 +2,7 @@
  * Per element: how to read an attribute, five words that hold it, a word of nothing, and what was read. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SDFGI_ZERO 0u /* see lib/on_cpu.glsl */
 #include "../../shaders/lib/vertex_fetch.glsl"
 
 layout(local_size_x = 64) in;
