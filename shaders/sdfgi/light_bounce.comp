@@ -42,8 +42,7 @@ surface_light light_from_probes(uint cascade, ivec3 cell, vec3 normal)
     return surface_light(light.weight > 0.0, light.estimate, light.displayed);
 }
 
-/* What the cell has gathered itself, or what probes tell as long as that is little or nothing. A loop asks
- * probes, because software drivers run what is under a condition in any case. */
+/* What the cell has gathered itself, or what probes tell as long as that is little or nothing. */
 surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, vec3 normal)
 {
     gathered_state state = gathered_state(0u, GATHERED_NOTHING, 0u, 0u);
@@ -53,7 +52,7 @@ surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, ve
         gathered = gathered_load(cascade, entry, axis);
     }
     surface_light probes = surface_light(false, vec3(0.0), vec3(0.0));
-    for (uint asked = 0u; asked < uint(state.mean == GATHERED_NOTHING); asked++)
+    if (state.mean == GATHERED_NOTHING)
         probes = light_from_probes(cascade, cell, normal);
     if (!gathers())
         return probes;
@@ -95,8 +94,12 @@ void main()
         arriving[a] = SDFGI_SURFACE_NONE;
     }
     /* Axes that surfaces face, one after another, and not all six under a condition: threads of a group look
-     * at as many as one of them has, and software drivers run what is under a condition in any case. */
-    for (uint left = facing; left != 0u; left &= left - 1u) {
+     * at as many as one of them has, and software drivers run what is under a condition in any case. Most have
+     * one: a loop that asked at its beginning would go round once more there, for nothing. */
+    uint left = facing;
+    do {
+        if (left == 0u)
+            break;
         const uint axis = uint(findLSB(left));
         const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
         const surface_light light = light_arriving(cascade, entry, cell, axis, surface_normal(block, axis));
@@ -108,7 +111,8 @@ void main()
             axes[a] = a == axis ? leaving : axes[a];
             arriving[a] = a == axis ? packed_light(light) : arriving[a];
         }
-    }
+        left &= left - 1u;
+    } while (left != 0u);
     for (uint a = 0u; a < 6u; a++) {
         if (gathers())
             sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + a, entry)] = arriving[a];

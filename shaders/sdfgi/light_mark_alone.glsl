@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * A thread finds the light cells of a dirty block alone, for software drivers: where threads wait for one
- * another, these drivers keep all variables in memory. They also run what is under a condition in any case,
- * so what few threads need is a loop. Included by light_mark. */
+ * another, these drivers keep all variables in memory. Included by light_mark. */
 
 /* A bit if a cell is a light cell. */
 uint light_cell_bit(ivec3 cell)
 {
-    const uint tests = sdfgi_cell_distance(args.cascade, cell) < FARTHEST ? 1u : 0u;
-    bool is_one = false;
-    for (uint i = 0u; i < tests; i++)
-        is_one = is_light_cell(cell);
-    return uint(is_one);
+    return uint(sdfgi_cell_distance(args.cascade, cell) < FARTHEST && is_light_cell(cell));
 }
 
 /* Tests the cells of a block, row by row, and clears their visibility bits, which are a word for each row. */
@@ -35,8 +30,7 @@ void mark_dirty_blocks()
     bool more = true;
     for (uint n = gl_GlobalInvocationID.x; more; n += gl_NumWorkGroups.x * SDFGI_GROUP_LINEAR) {
         uint block;
-        const uint times = dirty_block(n, block, more) ? 1u : 0u;
-        for (uint i = 0u; i < times; i++)
+        if (dirty_block(n, block, more))
             mark_block(block);
     }
 }

@@ -2,7 +2,7 @@
  * How passes read the buffers of the WORK set: as ../include/sdfgi_texels.glsl does those of LOOKUP. A pass
  * may write words of GATHERED, SUMS and PREVIOUS, and still read texels of them, as long as no thread reads a
  * word that has been written in the same dispatch. A texel is read for all threads of a group, even if few of
- * them ask: what few need is read in a loop of one round at most, which is left out where none asks. */
+ * them ask. */
 #ifndef SDFGI_WORK_TEXELS_GLSL
 #define SDFGI_WORK_TEXELS_GLSL
 

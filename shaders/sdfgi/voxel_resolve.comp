@@ -326,16 +326,13 @@ void resolve(ivec3 cell)
                        accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
     const uint out_index =
         sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
-    /* Loops of one round at most, because software drivers run what is under a condition in any case. */
-    const uint surfaces = count > 0u ? 1u : 0u,
-               emitters = emission_is_kept() && accumulated(SDFGI_ACCUM_EMISSION_AREA, block) > 0u ? 1u : 0u;
     uvec2 albedo = uvec2(0u), emission = uvec2(0u);
     uint normals = SURFACE_NO_NORMALS;
-    for (uint i = 0u; i < surfaces; i++) {
+    if (count > 0u) {
         albedo = resolve_albedo(block);
         normals = resolve_normals(block, count);
     }
-    for (uint i = 0u; i < emitters; i++)
+    if (emission_is_kept() && accumulated(SDFGI_ACCUM_EMISSION_AREA, block) > 0u)
         emission = resolve_emission(block, cell);
     sdfgi_albedo[out_index] = albedo;
     sdfgi_emission[out_index] = emission;

@@ -109,13 +109,12 @@ bool triangle_leaves_bounds(vec3 v[3])
 /* Counts a triangle that is skipped, or that the host's bounds miss. */
 void triangle_count_faults(bool valid, vec3 v[3])
 {
-    /* A loop of one round at most, because software drivers run what is under a condition in any case. */
-    const uint checks = drawn.checked ? 0u : 1u;
-    for (uint i = 0u; i < checks; i++)
-        if (!valid)
-            counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
-        else if (triangle_leaves_bounds(v))
-            counter_add(SDFGI_COUNTER_OUT_OF_BOUNDS, 1u);
+    if (drawn.checked)
+        return;
+    if (!valid)
+        counter_add(SDFGI_COUNTER_TRIANGLES_SKIPPED, 1u);
+    else if (triangle_leaves_bounds(v))
+        counter_add(SDFGI_COUNTER_OUT_OF_BOUNDS, 1u);
 }
 
 /* Of the corners; 0 where the mesh has none. */
