@@ -94,8 +94,8 @@ void main()
         arriving[a] = SDFGI_SURFACE_NONE;
     }
     /* Axes that surfaces face, one after another, and not all six under a condition: threads of a group look
-     * at as many as one of them has, and software drivers run what is under a condition in any case. Most have
-     * one: a loop that asked at its beginning would go round once more there, for nothing. */
+     * at as many as one of them has, and software drivers run what is under a condition in any case. Most
+     * have one: a loop that asks at its beginning goes round once more there, for nothing. */
     uint left = facing;
     do {
         if (left == 0u)

@@ -142,8 +142,8 @@ static struct difference compare_with(float (*full)[3], const struct picture *p,
 
 /* ---- Rooms */
 
-/* Multiples of no tile, smaller than a tile, and several tiles. In suite `full` a pixel, too: another shape for
- * which software drivers compile. */
+/* Multiples of no tile, smaller than a tile, and several tiles. In suite `full` a pixel, too, for which
+ * software drivers compile once more. */
 static void half_and_quarter_equal_full_in_a_room_of_any_size(void **state)
 {
     (void)state;
