@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Attributes of vertices and indices, in whatever format a host has them, from buffers of words. */
+ * Attributes of vertices and indices, in whatever format a host has them, from buffers of words. Needs
+ * SDFGI_ZERO (on_cpu.glsl). */
 #ifndef SDFGI_VERTEX_FETCH_GLSL
 #define SDFGI_VERTEX_FETCH_GLSL
 

@@ -2,7 +2,7 @@
  * An albedo block is a cube of 8x8x8 sub-voxels. Along an axis it has eight slices of 8x8 sub-voxels, one for
  * each depth, and a slice fits the 64 bits of a uvec2. The slices of an axis are equal arrangements of bits,
  * so that bitwise operations compare sub-voxels that lie behind one another. Needs
- * GL_EXT_control_flow_attributes. */
+ * GL_EXT_control_flow_attributes, and SDFGI_ZERO (on_cpu.glsl). */
 #ifndef SDFGI_BLOCK_SLICES_GLSL
 #define SDFGI_BLOCK_SLICES_GLSL
 

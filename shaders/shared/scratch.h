@@ -2,7 +2,7 @@
  * The scratch buffer. Its tenants use it in turn within a frame. Each begins at word 0, and none keeps
  * anything for a later one. Offsets are in words (4 bytes); `bits` is the logarithm of the resolution N.
  *
- * - Accumulators (region_clear, voxelize, voxel_resolve): words per albedo block of the part that is
+ * - Accumulators (voxelize, voxel_resolve; a fill empties them): words per albedo block of the part that is
  *   voxelised, and, if something emits, the emissive bits of each of its cells: see accumulators.glsl.
  * - Distance search (distance_plane, _exact): planes, see occupancy.glsl.
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.

@@ -62,15 +62,17 @@ static uint64_t stored_light(const struct extent *e)
     return e->cascades * (axes > texels ? axes : texels);
 }
 
-/* Elements that a workgroup takes. On software drivers a thread sums up, or filters, a probe alone, and tests
- * the 64 cells of a light block. */
+/* Elements that a workgroup takes on software drivers, where each of its threads does alone what a workgroup
+ * shares elsewhere; 0: as many as elsewhere. */
+static const uint32_t software_groups[PASS_COUNT] = {
+    [PASS_LIGHT_MARK] = SDFGI_GROUP_LINEAR * 64, /* a light block, of 64 cells, for each thread */
+    [PASS_PROBE_SUM] = SDFGI_GROUP_PROBE,
+    [PASS_PROBE_BLEND] = SDFGI_GROUP_PROBE,
+};
+
 static uint32_t group_of(enum pass pass, bool software)
 {
-    const uint32_t group = sdfgi_pass_row(pass)->group;
-    if (software && pass == PASS_LIGHT_MARK)
-        return 64 * group;
-    const bool alone = software && (pass == PASS_PROBE_SUM || pass == PASS_PROBE_BLEND);
-    return alone ? SDFGI_GROUP_PROBE : group;
+    return software && software_groups[pass] ? software_groups[pass] : sdfgi_pass_row(pass)->group;
 }
 
 struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e, bool software)
