@@ -305,3 +305,8 @@ VkDescriptorSet sdfgi_get_descriptor_set(const sdfgi *gi)
 {
     return sdfgi_is_active(gi) ? gi->volume.resources->sets[RESOURCE_SET_LOOKUP] : gi->blank.set;
 }
+
+bool sdfgi_is_software(const sdfgi *gi)
+{
+    return gi->backend.software;
+}

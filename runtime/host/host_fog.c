@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host_fog_air_comp.h"
+#include "host_fog_air_software_comp.h"
 #include "host_fog_integrate_comp.h"
 #include "host_fog_scatter_comp.h"
 #include "host_fog_tiles_comp.h"
@@ -241,9 +242,12 @@ static bool is_lit_by_gi(const struct host_renderer *renderer)
 bool host_fog_prepare(struct host_renderer *renderer)
 {
     struct host_fog_passes *f = &renderer->fog;
-    return !host_fog_exists(renderer->scene) || !is_lit_by_gi(renderer) || f->air ||
-           host_pipeline_compute_create(renderer->device, host_fog_air_comp, sizeof(host_fog_air_comp),
-                                        f->air_layout, &f->air);
+    if (!host_fog_exists(renderer->scene) || !is_lit_by_gi(renderer) || f->air)
+        return true;
+    const bool software = host_gi_is_software(renderer->gi);
+    return host_pipeline_compute_create(
+        renderer->device, software ? host_fog_air_software_comp : host_fog_air_comp,
+        software ? sizeof(host_fog_air_software_comp) : sizeof(host_fog_air_comp), f->air_layout, &f->air);
 }
 
 void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data *out)

@@ -226,6 +226,11 @@ VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi)
     return sdfgi_get_descriptor_set_layout(gi->context);
 }
 
+bool host_gi_is_software(const struct host_gi *gi)
+{
+    return sdfgi_is_software(gi->context);
+}
+
 VkDescriptorSet host_gi_set(const struct host_gi *gi)
 {
     return sdfgi_is_active(gi->context) ? sdfgi_get_descriptor_set(gi->context) : VK_NULL_HANDLE;

@@ -191,6 +191,8 @@ struct host_gi *host_gi_create(struct host_device *device, const struct host_sce
 void host_gi_destroy(struct host_gi *gi);
 sdfgi *host_gi_context(const struct host_gi *gi);
 VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
+/* Shaders that look light up are those for software drivers. */
+bool host_gi_is_software(const struct host_gi *gi);
 /* VK_NULL_HANDLE while lookups give nothing. */
 VkDescriptorSet host_gi_set(const struct host_gi *gi);
 bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Pipelines and their layouts. The forward shader exists four times: see enum host_forward, and with lookups
- * for materials that are rough everywhere once more, without rays. Rays take most of its time. */
+ * for materials that are rough everywhere once more, without rays. Rays take most of its time. Lookups have
+ * shaders of their own for software drivers. */
 #include "host_internal.h"
 
 #include "host_exposure_comp.h"
@@ -10,8 +11,12 @@
 #include "host_forward_gathered_fog_frag.h"
 #include "host_forward_gi_frag.h"
 #include "host_forward_gi_fog_frag.h"
+#include "host_forward_gi_fog_software_frag.h"
 #include "host_forward_gi_rays_frag.h"
 #include "host_forward_gi_rays_fog_frag.h"
+#include "host_forward_gi_rays_fog_software_frag.h"
+#include "host_forward_gi_rays_software_frag.h"
+#include "host_forward_gi_software_frag.h"
 #include "host_prepass_frag.h"
 #include "host_screen_vert.h"
 #include "host_shadow_frag.h"
@@ -275,17 +280,30 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
     return true;
 }
 
-static struct shader_code forward_code(enum host_forward kind, bool rays, bool fog)
+/* Of the shader with lookups. */
+static struct shader_code lookup_code(bool software, bool rays, bool fog)
 {
-    const struct shader_code with_rays[2] = { SHADER(host_forward_gi_rays_frag),
-                                              SHADER(host_forward_gi_rays_fog_frag) };
-    const struct shader_code codes[HOST_FORWARD_COUNT][2] = {
-        [HOST_FORWARD_PLAIN] = { SHADER(host_forward_frag), SHADER(host_forward_fog_frag) },
-        [HOST_FORWARD_GI] = { SHADER(host_forward_gi_frag), SHADER(host_forward_gi_fog_frag) },
-        [HOST_FORWARD_GATHERED] = { SHADER(host_forward_gathered_frag),
-                                    SHADER(host_forward_gathered_fog_frag) },
+    const struct shader_code codes[2][2][2] = {
+        { { SHADER(host_forward_gi_frag), SHADER(host_forward_gi_fog_frag) },
+          { SHADER(host_forward_gi_rays_frag), SHADER(host_forward_gi_rays_fog_frag) } },
+        { { SHADER(host_forward_gi_software_frag), SHADER(host_forward_gi_fog_software_frag) },
+          { SHADER(host_forward_gi_rays_software_frag), SHADER(host_forward_gi_rays_fog_software_frag) } },
     };
-    return rays ? with_rays[fog] : codes[kind][fog];
+    return codes[software][rays][fog];
+}
+
+static struct shader_code forward_code(const struct host_renderer *renderer, enum host_forward kind,
+                                       bool rays)
+{
+    const bool fog = host_fog_exists(renderer->scene);
+    switch (kind) {
+    case HOST_FORWARD_GI:
+        return lookup_code(host_gi_is_software(renderer->gi), rays, fog);
+    case HOST_FORWARD_GATHERED:
+        return fog ? SHADER(host_forward_gathered_fog_frag) : SHADER(host_forward_gathered_frag);
+    default:
+        return fog ? SHADER(host_forward_fog_frag) : SHADER(host_forward_frag);
+    }
 }
 
 static bool forward_create(struct host_renderer *renderer, enum host_forward kind, enum host_cull cull,
@@ -293,7 +311,7 @@ static bool forward_create(struct host_renderer *renderer, enum host_forward kin
 {
     const struct pipeline_desc desc = {
         .vertex = SHADER(host_surface_vert),
-        .fragment = forward_code(kind, rays, host_fog_exists(renderer->scene)),
+        .fragment = forward_code(renderer, kind, rays),
         .layout = renderer->pipelines.layouts[kind],
         .pass = renderer->passes.forward,
         .vertices = true,

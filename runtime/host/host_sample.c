@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host_sample_comp.h"
+#include "host_sample_software_comp.h"
 
 /* How far off the surface its viewer is assumed: within the first cell of common settings. */
 static const float eye_m = 0.2f;
@@ -73,11 +74,14 @@ static bool sampler_init(struct host_renderer *renderer)
     if (s->ready)
         return true;
     host_sampler_finish(renderer);
-    s->ready = host_buffer_create(renderer->device, sizeof(float[HOST_MAX_SAMPLES][4]),
-                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &s->results) &&
-               layouts_create(renderer) && set_create(renderer) &&
-               host_pipeline_compute_create(renderer->device, host_sample_comp, sizeof(host_sample_comp),
-                                            s->layout, &s->pipeline);
+    const bool software = host_gi_is_software(renderer->gi);
+    s->ready =
+        host_buffer_create(renderer->device, sizeof(float[HOST_MAX_SAMPLES][4]),
+                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &s->results) &&
+        layouts_create(renderer) && set_create(renderer) &&
+        host_pipeline_compute_create(
+            renderer->device, software ? host_sample_software_comp : host_sample_comp,
+            software ? sizeof(host_sample_software_comp) : sizeof(host_sample_comp), s->layout, &s->pipeline);
     return s->ready;
 }
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * How the buffers of the LOOKUP set are read: sdfgi_<name>_at(i) is element i. Software drivers read a
  * storage buffer for one thread after another, and wait each time; they read a texel buffer for all at once.
- * In the library's passes for them (SDFGI_SOFTWARE) each buffer is read as the texel buffer that shows the
- * same memory. A pass that writes a buffer defines SDFGI_WRITES_<NAME>, and reads it as what it is. Hosts
- * define neither. */
+ * In shaders for them (SDFGI_SOFTWARE) each buffer is read as the texel buffer that shows the same memory. A
+ * pass that writes a buffer defines SDFGI_WRITES_<NAME>, and reads it as what it is. */
 #ifndef SDFGI_TEXELS_GLSL
 #define SDFGI_TEXELS_GLSL
 

@@ -7,6 +7,7 @@
 
 #include "forward_pass.frag.h"
 #include "forward_pass.vert.h"
+#include "forward_pass_software.frag.h"
 
 static void create_render_pass(struct forward_pass *forward, struct gpu_test *gpu)
 {
@@ -57,11 +58,18 @@ static VkPipelineShaderStageCreateInfo create_stage(struct gpu_test *gpu, VkShad
     return out;
 }
 
-static void create_pipeline(struct forward_pass *forward, struct gpu_test *gpu)
+static VkPipelineShaderStageCreateInfo create_lookup_stage(struct gpu_test *gpu, bool software)
+{
+    return create_stage(gpu, VK_SHADER_STAGE_FRAGMENT_BIT,
+                        software ? forward_pass_software_frag : forward_pass_frag,
+                        software ? sizeof forward_pass_software_frag : sizeof forward_pass_frag);
+}
+
+static void create_pipeline(struct forward_pass *forward, struct gpu_test *gpu, bool software)
 {
     const VkPipelineShaderStageCreateInfo stages[2] = {
         create_stage(gpu, VK_SHADER_STAGE_VERTEX_BIT, forward_pass_vert, sizeof forward_pass_vert),
-        create_stage(gpu, VK_SHADER_STAGE_FRAGMENT_BIT, forward_pass_frag, sizeof forward_pass_frag),
+        create_lookup_stage(gpu, software),
     };
     const VkPipelineVertexInputStateCreateInfo input = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO
@@ -110,8 +118,9 @@ static void create_pipeline(struct forward_pass *forward, struct gpu_test *gpu)
     vkDestroyShaderModule(gpu->device, stages[1].module, NULL);
 }
 
-void forward_pass_open(struct forward_pass *forward, struct gpu_test *gpu, VkDescriptorSetLayout lookup)
+void forward_pass_open(struct forward_pass *forward, struct gpu_test *gpu, const sdfgi *gi)
 {
+    const VkDescriptorSetLayout lookup = sdfgi_get_descriptor_set_layout(gi);
     forward->image = gpu_test_image_create(
         gpu, &(struct gpu_test_image_desc){ .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                                             .extent = { FORWARD_SIDE, FORWARD_SIDE, 1 },
@@ -123,7 +132,7 @@ void forward_pass_open(struct forward_pass *forward, struct gpu_test *gpu, VkDes
                                               .setLayoutCount = 1,
                                               .pSetLayouts = &lookup };
     REQUIRE_CMP((int)vkCreatePipelineLayout(gpu->device, &info, NULL, &forward->layout), ==, (int)VK_SUCCESS);
-    create_pipeline(forward, gpu);
+    create_pipeline(forward, gpu, sdfgi_is_software(gi));
 }
 
 void forward_pass_close(struct forward_pass *forward, struct gpu_test *gpu)

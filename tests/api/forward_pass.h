@@ -5,6 +5,8 @@
 
 #include "gpu_test.h"
 
+#include "sdfgi/sdfgi.h"
+
 enum { FORWARD_SIDE = 8 };
 
 struct forward_pass {
@@ -15,7 +17,7 @@ struct forward_pass {
     VkPipeline pipeline;
 };
 
-void forward_pass_open(struct forward_pass *forward, struct gpu_test *gpu, VkDescriptorSetLayout lookup);
+void forward_pass_open(struct forward_pass *forward, struct gpu_test *gpu, const sdfgi *gi);
 void forward_pass_close(struct forward_pass *forward, struct gpu_test *gpu);
 
 /* Draws with a set of the library's: GI in rgb, 0.25 in alpha. */

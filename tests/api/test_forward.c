@@ -33,7 +33,7 @@ static int open_host(void **state)
     struct sdfgi_desc desc = gi_test_desc(&t, &off);
     desc.pipelines_later = true;
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
-    forward_pass_open(&forward, &t.gpu, sdfgi_get_descriptor_set_layout(t.gi));
+    forward_pass_open(&forward, &t.gpu, t.gi);
     return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "test_memory.h"
 
 #include "wild_lookup.comp.h"
+#include "wild_lookup_software.comp.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -110,9 +111,7 @@ static void lookups_of_anything_give_finite_light(void **state)
     struct wild_lookup *lookups = test_array_alloc(LOOKUPS, sizeof *lookups);
     for (uint32_t i = 0; i < LOOKUPS; i++)
         fill(&lookups[i], i);
-    const struct gpu_test_shader shader = { wild_lookup_comp, sizeof wild_lookup_comp,
-                                            sdfgi_get_descriptor_set_layout(t.gi),
-                                            sdfgi_get_descriptor_set(t.gi) };
+    const struct gpu_test_shader shader = GI_TEST_SHADER(t.gi, sdfgi_get_descriptor_set(t.gi), wild_lookup);
     gpu_test_compute(&t.gpu, &shader, LOOKUPS, lookups, LOOKUPS * sizeof *lookups);
     uint32_t bad = 0;
     for (uint32_t i = 0; i < LOOKUPS; i++)

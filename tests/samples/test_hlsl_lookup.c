@@ -4,8 +4,9 @@
 #include "gpu_test_compute.h"
 #include "require.h"
 
-#include "lookup_glsl.h"
+#include "lookup.comp.h"
 #include "lookup_hlsl.h"
+#include "lookup_software.comp.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,12 +41,10 @@ static void place(float rows[POINTS][ROW])
     }
 }
 
-static void look_up(struct gi_test *t, const uint32_t *code, size_t bytes, float rows[POINTS][ROW])
+static void look_up(struct gi_test *t, const struct gpu_test_shader *shader, float rows[POINTS][ROW])
 {
-    const struct gpu_test_shader shader = { code, bytes, sdfgi_get_descriptor_set_layout(t->gi),
-                                            sdfgi_get_descriptor_set(t->gi) };
     place(rows);
-    gpu_test_compute(&t->gpu, &shader, POINTS, rows, sizeof(float[POINTS][ROW]));
+    gpu_test_compute(&t->gpu, shader, POINTS, rows, sizeof(float[POINTS][ROW]));
 }
 
 /* Compilers fuse operations differently: 1e-4 is a hundred times what that does to a value. */
@@ -55,8 +54,11 @@ static void hlsl_answers_as_glsl_does(void **state)
     static struct gi_test t;
     static float glsl[POINTS][ROW], hlsl[POINTS][ROW];
     open_scene(&t);
-    look_up(&t, lookup_glsl, sizeof lookup_glsl, glsl);
-    look_up(&t, lookup_hlsl, sizeof lookup_hlsl, hlsl);
+    struct gpu_test_shader shader = GI_TEST_SHADER(t.gi, sdfgi_get_descriptor_set(t.gi), lookup);
+    look_up(&t, &shader, glsl);
+    shader.code = lookup_hlsl;
+    shader.code_size = sizeof lookup_hlsl;
+    look_up(&t, &shader, hlsl);
     int lit = 0, apart = 0;
     for (int i = 0; i < POINTS; i++)
         for (int k = 0; k < 12; k++) {

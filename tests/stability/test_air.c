@@ -6,6 +6,7 @@
 #include "test_group.h"
 
 #include "air_light.comp.h"
+#include "air_light_software.comp.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,9 +23,7 @@ enum { DIRECTIONS = 128 };
 
 static void look_up(struct gi_test *t, struct sample *samples, uint32_t count)
 {
-    const struct gpu_test_shader shader = { air_light_comp, sizeof air_light_comp,
-                                            sdfgi_get_descriptor_set_layout(t->gi),
-                                            sdfgi_get_descriptor_set(t->gi) };
+    const struct gpu_test_shader shader = GI_TEST_SHADER(t->gi, sdfgi_get_descriptor_set(t->gi), air_light);
     gpu_test_compute(&t->gpu, &shader, count, samples, count * sizeof *samples);
 }
 

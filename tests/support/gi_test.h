@@ -88,6 +88,13 @@ void gi_test_irradiance_from(struct gi_test *t, const float *viewer, const struc
 void gi_test_lookup(struct gi_test *t, VkDescriptorSet set, const float *viewer,
                     const struct gi_test_point *points, uint32_t count, float (*irradiance)[3]);
 
+/* A test's shader that looks light up with `lookups`, a set of the library's: the one for software drivers
+ * where the context is for these. */
+#define GI_TEST_SHADER(gi, lookups, name)                                                                    \
+    ((struct gpu_test_shader){ sdfgi_is_software(gi) ? name##_software_comp : name##_comp,                   \
+                               sdfgi_is_software(gi) ? sizeof name##_software_comp : sizeof name##_comp,     \
+                               sdfgi_get_descriptor_set_layout(gi), lookups })
+
 /* Records a gather that must succeed, and waits for it. */
 void gi_test_gather(struct gi_test *t, const struct sdfgi_gather_desc *desc);
 /* The same of a view's resolve. */

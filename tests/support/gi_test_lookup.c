@@ -8,6 +8,7 @@
 #include "test_memory.h"
 
 #include "gi_lookup.comp.h"
+#include "gi_lookup_software.comp.h"
 
 #include <stdlib.h>
 
@@ -26,8 +27,7 @@ void gi_test_lookup(struct gi_test *t, VkDescriptorSet set, const float *viewer,
         /* What a shader that does not write would leave behind must not look like light. */
         rows[i][8] = rows[i][9] = rows[i][10] = NAN;
     }
-    const struct gpu_test_shader shader = { gi_lookup_comp, sizeof gi_lookup_comp,
-                                            sdfgi_get_descriptor_set_layout(t->gi), set };
+    const struct gpu_test_shader shader = GI_TEST_SHADER(t->gi, set, gi_lookup);
     gpu_test_compute(&t->gpu, &shader, count, rows, count * sizeof *rows);
     for (uint32_t i = 0; i < count; i++)
         memcpy(irradiance[i], &rows[i][8], sizeof irradiance[i]);

@@ -374,11 +374,27 @@ bool sdfgi_resources_grow_instances(struct backend *backend, struct resources *r
 
 /* ---- The blank set */
 
+/* Its texels have the format that they have when there is light: drivers compile a shader for formats. */
+static VkResult fill_blank(const struct backend *backend, struct blank_set *blank, enum resource resource)
+{
+    const struct resource_row *row = sdfgi_resource_row(resource);
+    struct gpu_buffer shown = blank->buffer;
+    VkResult result = VK_SUCCESS;
+    if (sdfgi_pipelines_read_texels(backend, resource))
+        result = gpu_buffer_view(&backend->device, &shown, row->texels, "sdfgi blank");
+    blank->views[resource] = shown.texels;
+    if (result == VK_SUCCESS)
+        write_binding(backend, blank->set, resource, &shown);
+    return result;
+}
+
 VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
 {
     const struct extent none = { 0 };
     const uint64_t bytes = sdfgi_resource_size(RESOURCE_FRAME, &none);
-    VkResult result = gpu_buffer_init(&backend->device, &blank->buffer, bytes, BUFFER_USAGE, GPU_HOST_READ,
+    const VkBufferUsageFlags usage =
+        BUFFER_USAGE | (backend->software ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0);
+    VkResult result = gpu_buffer_init(&backend->device, &blank->buffer, bytes, usage, GPU_HOST_READ,
                                       SDFGI_MEMORY_CATEGORY_COUNT, "sdfgi blank");
     if (result == VK_SUCCESS)
         result = gpu_buffer_zero(&backend->device, &blank->buffer);
@@ -388,17 +404,17 @@ VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
     if (result == VK_SUCCESS)
         result = sdfgi_backend_set_allocate(backend, "sdfgi blank", blank->pool,
                                             backend->pipelines.sets[RESOURCE_SET_LOOKUP], &blank->set);
-    if (result != VK_SUCCESS)
-        return result;
-    for (int i = 0; i < RESOURCE_COUNT; i++)
+    for (int i = 0; i < RESOURCE_COUNT && result == VK_SUCCESS; i++)
         if (sdfgi_resource_row((enum resource)i)->set == RESOURCE_SET_LOOKUP)
-            write_binding(backend, blank->set, (enum resource)i, &blank->buffer);
-    return VK_SUCCESS;
+            result = fill_blank(backend, blank, (enum resource)i);
+    return result;
 }
 
 void sdfgi_blank_set_finish(struct backend *backend, struct blank_set *blank)
 {
     const struct gpu_device *d = &backend->device;
     d->fn.DestroyDescriptorPool(d->handle, blank->pool, d->callbacks);
+    for (int i = 0; i < RESOURCE_COUNT; i++)
+        d->fn.DestroyBufferView(d->handle, blank->views[i], d->callbacks);
     gpu_buffer_finish(d, &blank->buffer);
 }

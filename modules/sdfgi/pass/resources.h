@@ -68,6 +68,7 @@ bool sdfgi_resources_grow_instances(struct backend *backend, struct resources *r
  * command. */
 struct blank_set {
     struct gpu_buffer buffer;
+    VkBufferView views[RESOURCE_COUNT]; /* of resources that are read as texels */
     VkDescriptorPool pool;
     VkDescriptorSet set;
 };

@@ -411,6 +411,11 @@ SDFGI_API bool sdfgi_is_active(const sdfgi *gi);
 SDFGI_API VkDescriptorSetLayout sdfgi_get_descriptor_set_layout(const sdfgi *gi);
 SDFGI_API VkDescriptorSet sdfgi_get_descriptor_set(const sdfgi *gi);
 
+/* True where the device is a CPU. A host's shader that defines SDFGI_SOFTWARE before it includes sdfgi.glsl
+ * works with the sets of such a context alone. Its lookups take half as long there. Constant for a context's
+ * life. */
+SDFGI_API bool sdfgi_is_software(const sdfgi *gi);
+
 /* Which pixels of a picture sdfgi_gather looks up: all, or every second or fourth one along each axis. The
  * others interpolate those around them that lie in their plane and face as they do. Where none fit, at things
  * and edges narrower than the gap, and where those that fit differ by more than a quarter, they are looked up
