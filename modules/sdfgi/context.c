@@ -100,8 +100,9 @@ static enum sdfgi_result init(struct sdfgi *gi, const struct sdfgi_desc *desc)
     if (result == SDFGI_OK)
         result = sdfgi_message_vulkan(hooks, sdfgi_pipelines_init(&gi->backend), "sdfgi_create: layouts");
     if (result == SDFGI_OK && !desc->pipelines_later)
-        result =
-            sdfgi_message_vulkan(hooks, sdfgi_pipelines_require_all(&gi->backend), "sdfgi_create: pipelines");
+        result = sdfgi_message_vulkan(
+            hooks, sdfgi_pipelines_require_all(&gi->backend, desc->settings ? desc->settings : &gi->settings),
+            "sdfgi_create: pipelines");
     if (result == SDFGI_OK)
         result = sdfgi_message_vulkan(hooks, sdfgi_blank_set_init(&gi->backend, &gi->blank),
                                       "sdfgi_create: the blank set");
@@ -219,7 +220,7 @@ static void log_switched(const struct sdfgi *gi, const struct sdfgi_settings *se
 static enum sdfgi_result replace_volumes(struct sdfgi *gi, const struct sdfgi_settings *settings)
 {
     enum sdfgi_result result = sdfgi_message_vulkan(
-        &gi->backend.hooks, sdfgi_pipelines_require_all(&gi->backend), "switching on: pipelines");
+        &gi->backend.hooks, sdfgi_pipelines_require_all(&gi->backend, settings), "switching on: pipelines");
     if (result != SDFGI_OK)
         return result;
     struct resources *volumes = sdfgi_preparation_take(gi, settings);

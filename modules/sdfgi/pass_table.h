@@ -10,7 +10,8 @@
  *   need    the condition of the scene that calls for it: frame/frame_needs.c
  *   phase   where in a frame it runs, in the order of the rows: enum pass_phase in pass/pass_rows.h. A row is
  *           all that a pass needs to be planned; OWN: a function in frame/stage_*.c plans it
- *   made    when its pipeline is made: CREATED with the context, on DEMAND, or with the RASTER target
+ *   made    when its pipeline is made: CREATED with the context or with the settings that call for it, on
+ *           DEMAND, or with the RASTER target
  *   domain  what it runs over, from which the size of a dispatch follows: enum domain in pass/work.h
  *   args    its push constants: struct sdfgi_<args>_args of shaders/shared/args.h, or none
  *   group   elements of the domain that a workgroup takes, such as SDFGI_GROUP_* of shared/constants.h

@@ -39,7 +39,8 @@ static bool wants_pipeline(const struct job *job, enum pass pass, uint32_t varia
         return false;
     if (variant == 1)
         return row->kind == PASS_KIND_COMPUTE_TEXTURED && (job->parts & SDFGI_PREPARE_TEXTURES);
-    return row->made == PASS_MADE_CREATED || (job->parts & part_of(row->need));
+    return row->made == PASS_MADE_CREATED ? sdfgi_pass_fits(pass, &job->settings)
+                                          : (job->parts & part_of(row->need)) != 0;
 }
 
 static struct sdfgi_progress pipeline_progress(struct backend *backend, const struct job *job)

@@ -111,6 +111,35 @@ static void no_cascade_is_read_before_the_blend(void **state)
     REQUIRE_CMP(memcmp(before[2], after[2], sizeof before[2]), !=, 0);
 }
 
+static bool has_pipeline(struct gi_test *t, enum pass pass)
+{
+    return t->gi->backend.pipelines.passes[pass][0] != VK_NULL_HANDLE;
+}
+
+/* A pipeline takes a driver up to a second: none is made that no frame with the settings can run. */
+static void settings_call_for_their_pipelines(void **state)
+{
+    (void)state;
+    static const enum pass first[] = { PASS_DISTANCE_EXACT, PASS_CELL_MASK, PASS_VOXELIZE },
+                           then[] = { PASS_FLOOD_STEP, PASS_OCCLUSION_TRACE, PASS_CELL_GATHER,
+                                      PASS_CELL_FILTER };
+    struct gi_test t = { 0 };
+    struct sdfgi_settings settings = light_settings(32, 0.25f);
+    settings.surface_light = SDFGI_SURFACE_LIGHT_PROBES;
+    gi_test_open(&t, &settings);
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        REQUIRE_TRUE(has_pipeline(&t, first[i]));
+    for (size_t i = 0; i < sizeof then / sizeof *then; i++)
+        REQUIRE_TRUE(!has_pipeline(&t, then[i]));
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.sdf_method = SDFGI_SDF_FLOOD;
+    settings.visibility = SDFGI_VISIBILITY_PROBE_DEPTH;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
+    for (size_t i = 0; i < sizeof then / sizeof *then; i++)
+        REQUIRE_TRUE(has_pipeline(&t, then[i]));
+    gi_test_close(&t);
+}
+
 TEST_GROUP(called_for)
 {
     if (!gpu_test_available())
@@ -119,6 +148,7 @@ TEST_GROUP(called_for)
         cmocka_unit_test(a_sealed_room_calls_for_no_sky),
         cmocka_unit_test(no_feedback_calls_for_no_bounces),
         cmocka_unit_test(no_cascade_is_read_before_the_blend),
+        cmocka_unit_test(settings_call_for_their_pipelines),
     };
     return cmocka_run_group_tests(tests, light_open, light_close);
 }

@@ -70,8 +70,8 @@ bool sdfgi_pipelines_read_texels(const struct backend *backend, enum resource re
 bool sdfgi_pipelines_has(struct backend *backend, enum pass pass, uint32_t variant);
 /* Makes the pipeline of a variant unless it is there. Two threads may ask for the same one. */
 VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32_t variant);
-/* Those that every frame needs. */
-VkResult sdfgi_pipelines_require_all(struct backend *backend);
+/* Those that frames with these settings may need at any time. */
+VkResult sdfgi_pipelines_require_all(struct backend *backend, const struct sdfgi_settings *settings);
 /* Makes a variant of a raster pass for its render pass, which draws into `extent` pixels a side. */
 VkResult sdfgi_pipelines_raster(struct backend *backend, enum pass pass, uint32_t variant,
                                 VkRenderPass render_pass, uint32_t extent, VkPipeline *pipeline);

@@ -63,3 +63,25 @@ const struct pass_row *sdfgi_pass_row(enum pass pass)
 {
     return &rows[pass];
 }
+
+bool sdfgi_pass_fits(enum pass pass, const struct sdfgi_settings *settings)
+{
+    const bool depths = settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH;
+    switch (rows[pass].need) {
+    case NEED_VOXELS:
+        return settings->voxelizer == SDFGI_VOXELIZER_COMPUTE;
+    case NEED_EXACT:
+        return settings->sdf_method == SDFGI_SDF_EXACT;
+    case NEED_FLOOD:
+        return settings->sdf_method == SDFGI_SDF_FLOOD;
+    case NEED_OCCLUSION:
+        return settings->use_occlusion && depths;
+    case NEED_MASKS:
+        return settings->use_occlusion && !depths;
+    case NEED_CELLS:
+    case NEED_FILTER:
+        return settings->surface_light == SDFGI_SURFACE_LIGHT_CELLS;
+    default:
+        return true;
+    }
+}

@@ -110,6 +110,8 @@ struct pass_row {
 };
 
 const struct pass_row *sdfgi_pass_row(enum pass pass);
+/* False: no frame with these settings runs the pass, whatever the scene. */
+bool sdfgi_pass_fits(enum pass pass, const struct sdfgi_settings *settings);
 /* "light cells" */
 const char *sdfgi_pass_unit_name(enum pass_unit unit);
 

@@ -204,11 +204,12 @@ VkResult sdfgi_pipelines_require(struct backend *backend, enum pass pass, uint32
     return result;
 }
 
-VkResult sdfgi_pipelines_require_all(struct backend *backend)
+VkResult sdfgi_pipelines_require_all(struct backend *backend, const struct sdfgi_settings *settings)
 {
     VkResult result = VK_SUCCESS;
     for (int i = 0; i < PASS_COUNT && result == VK_SUCCESS; i++)
-        if (sdfgi_pass_row((enum pass)i)->made == PASS_MADE_CREATED)
+        if (sdfgi_pass_row((enum pass)i)->made == PASS_MADE_CREATED &&
+            sdfgi_pass_fits((enum pass)i, settings))
             result = sdfgi_pipelines_require(backend, (enum pass)i, 0);
     return result;
 }

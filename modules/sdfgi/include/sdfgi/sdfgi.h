@@ -143,8 +143,9 @@ struct sdfgi_desc {
      * no other thread may use the cache at all meanwhile. */
     VkPipelineCache pipeline_cache;
     bool log_info; /* whether `log` receives SDFGI_LOG_INFO, too: what goes as it should */
-    /* False: sdfgi_create makes the pipelines that every frame needs. True: it makes none, and is over at
-     * once; sdfgi_prepare makes them, or else the sdfgi_set_settings that switches on. */
+    /* False: sdfgi_create makes the pipelines that frames with `settings` may need; sdfgi_set_settings makes
+     * those that other settings call for. True: sdfgi_create makes none, and is over at once; sdfgi_prepare
+     * makes them, or else the sdfgi_set_settings that switches on. */
     bool pipelines_later;
     enum sdfgi_up_axis up_axis; /* 0: +Y */
     /* Whether the world's X, Y and Z are those of a left hand, as in Direct3D and Unreal. Only
