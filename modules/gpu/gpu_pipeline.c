@@ -32,16 +32,10 @@ VkResult gpu_compute_pipeline_create(const struct gpu_device *device, struct gpu
     VkResult result = shader_module(device, shader, name, &module);
     if (result != VK_SUCCESS)
         return result;
-    /* That of shaders/lib/on_cpu.glsl. */
-    const uint32_t on_cpu = device->is_cpu;
-    const VkSpecializationMapEntry entry = { 0, 0, sizeof on_cpu };
-    const VkSpecializationInfo constants = { 1, &entry, sizeof on_cpu, &on_cpu };
-    VkPipelineShaderStageCreateInfo stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module);
-    stage.pSpecializationInfo = &constants;
     result = device->fn.CreateComputePipelines(device->handle, device->pipeline_cache, 1,
                                                &(VkComputePipelineCreateInfo){
                                                    .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                                   .stage = stage,
+                                                   .stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module),
                                                    .layout = layout,
                                                },
                                                device->callbacks, pipeline);

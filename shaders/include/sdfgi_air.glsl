@@ -39,7 +39,7 @@ uvec2 sdfgi_air_axis_texel(uint axis)
 vec4 sdfgi_air_mean_of_probe(uint probe_index)
 {
     vec4 sum = vec4(0.0);
-    for (uint axis = 0u; axis < 6u; axis++) {
+    for (uint axis = SDFGI_FIRST; axis < 6u; axis++) {
         const uvec2 at = sdfgi_air_axis_texel(axis);
         const uint index =
             probe_index * uint(SDFGI_IRRADIANCE_COUNT) + at.x + uint(SDFGI_IRRADIANCE_TEXELS) * at.y;
@@ -74,7 +74,7 @@ sdfgi_air_sums sdfgi_air_cascade(uint cascade, vec3 pos, vec3 direction)
     const ivec3 cage = sdfgi_cage_of(cascade, pos);
     const uint around = sdfgi_probes_around(cascade, cage, sdfgi_air_find_room(cascade, pos));
     sdfgi_air_sums sums = sdfgi_air_sums(vec4(0.0), vec4(0.0));
-    for (int k = 0; k < 8; k++) {
+    for (int k = int(SDFGI_FIRST); k < 8; k++) {
         if ((around >> k & 1u) == 0u)
             continue;
         const ivec3 probe = cage + sdfgi_cage_corner(k);

@@ -87,7 +87,7 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
 vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
 {
     vec4 sum = vec4(0.0);
-    for (uint axis = 0u; axis < 6u; axis++) {
+    for (uint axis = SDFGI_FIRST; axis < 6u; axis++) {
         const float along = sdfgi_trace_component(normal, int(axis >> 1u)) * ((axis & 1u) == 0u ? 1.0 : -1.0);
         sum += max(along + 0.5, 0.0) * sdfgi_cell_surface(cascade, entry, axis, what);
     }

@@ -74,7 +74,7 @@ uint sdfgi_probes_connected(uint reached, uint links)
 uint sdfgi_probes_seen(uint cascade, ivec3 cage, vec3 pos, float free)
 {
     uint seen = 0u;
-    for (int k = 0; k < 8; k++) {
+    for (int k = int(SDFGI_FIRST); k < 8; k++) {
         const ivec3 probe = cage + sdfgi_cage_corner(k);
         const uint state = sdfgi_probes_at(sdfgi_probe_index(cascade, probe));
         const vec3 at = sdfgi_probe_position(probe, state);
@@ -97,7 +97,7 @@ vec3 sdfgi_probes_step_out(uint cascade, vec3 pos, inout float free)
     vec3 best = pos;
     float most = free;
     const bool by_cells = free < 1.0 && sdfgi_is_in_empty_cell(cascade, pos);
-    for (int side = 0; side < 6; side++) {
+    for (int side = int(SDFGI_FIRST); side < 6; side++) {
         const vec3 unit =
             vec3(side >> 1 == 0, side >> 1 == 1, side >> 1 == 2) * ((side & 1) == 0 ? 1.0 : -1.0);
         const vec3 next = floor(pos) + unit + 0.5;
@@ -118,7 +118,7 @@ uint sdfgi_probes_around(uint cascade, ivec3 cage, vec3 pos)
 {
     float free = sdfgi_free_radius(cascade, pos);
     uint links = 0u, seen = 0u;
-    for (int k = 0; k < 8; k++) {
+    for (int k = int(SDFGI_FIRST); k < 8; k++) {
         const uint state = sdfgi_probes_at(sdfgi_probe_index(cascade, cage + sdfgi_cage_corner(k)));
         for (int axis = 0; axis < 3; axis++)
             if ((k >> axis & 1) == 0 && !sdfgi_probe_is_dead(state) && sdfgi_probe_is_linked(state, axis))
@@ -145,7 +145,7 @@ vec4 sdfgi_probes_lookup(uint cascade, vec3 surface, vec3 normal, vec3 eye)
     const ivec3 cage = sdfgi_cage_of(cascade, pos);
     const uint around = sdfgi_probes_around(cascade, cage, pos);
     vec4 sum = vec4(0.0);
-    for (int k = 0; k < 8; k++) {
+    for (int k = int(SDFGI_FIRST); k < 8; k++) {
         if ((around >> k & 1u) == 0u)
             continue;
         const float weight = sdfgi_probe_weight_at(cascade, cage, k, pos, normal);

@@ -67,6 +67,14 @@ layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_fra
 };
 #endif
 
+/* Where loops start whose rounds are long: software drivers do not copy the rounds one after another then,
+ * which takes longer to compile than it saves. */
+#ifdef SDFGI_ZERO
+#define SDFGI_FIRST SDFGI_ZERO
+#else
+#define SDFGI_FIRST 0u
+#endif
+
 /* Occupancy bits: 64 per cell, bit x + 4 y + 16 z per sub-voxel; .x holds z = 0, 1 and .y holds z = 2, 3. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_BITS) SDFGI_ACCESS_BITS buffer sdfgi_bits_buffer
 {

@@ -272,7 +272,7 @@ bool sdfgi_trace_open_neighbour(uint cascade, sdfgi_trace_path path, ivec3 cell,
 {
     const ivec3 subvoxel = clamp(ivec3(floor(entry * 4.0)) - cell * SDFGI_SUBVOXELS, ivec3(0), ivec3(3));
     const uvec2 bits = sdfgi_cell_bits(cascade, cell + path.base);
-    for (int i = 0; i < 3; i++) {
+    for (int i = int(SDFGI_FIRST); i < 3; i++) {
         const int k = (first_axis + i) % 3;
         const bool forward = path.inv_dir[k] > 0.0;
         ivec3 low = subvoxel, high = subvoxel;

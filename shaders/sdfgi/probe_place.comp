@@ -153,16 +153,25 @@ uint place(ivec3 probe, uint i)
     return (blocked >> i & 1u) != 0u ? place_with_most_room(corner) : 0u;
 }
 
-/* Which of the next probes a probe that stands at `state` sees, as bits of its state. The first three threads
- * trace a ray each. Called by the whole workgroup. */
-uint find_links(ivec3 probe, uint state)
+/* Where this probe stands, and the next one along the axis of each of the first three threads, as PLACE_BITS.
+ * Called by the whole workgroup. */
+uint place_all(ivec3 probe, out uint next)
 {
-    uint next = SDFGI_PROBE_DEAD;
-    [[dont_unroll]] for (uint i = 1u; i < 4u; i++)
+    uint state = SDFGI_PROBE_DEAD;
+    next = SDFGI_PROBE_DEAD;
+    [[dont_unroll]] for (uint i = SDFGI_FIRST; i < 4u; i++)
     {
-        const uint other = place(probe, i);
-        next = gl_LocalInvocationIndex + 1u == i ? other : next;
+        const uint placed = place(probe, i);
+        state = i == 0u ? placed : state;
+        next = gl_LocalInvocationIndex + 1u == i ? placed : next;
     }
+    return state;
+}
+
+/* Which of the next probes a probe that stands at `state` sees, as bits of its state. The first three threads
+ * trace a ray each to where their next probe stands. Called by the whole workgroup. */
+uint find_links(ivec3 probe, uint state, uint next)
+{
     const ivec3 to_next = next_probe(ivec3(0), gl_LocalInvocationIndex + 1u),
                 base = probe * SDFGI_PROBE_SPACING;
     const vec3 last = vec3(sdfgi_space_resolution() - base) - INSIDE;
@@ -182,8 +191,9 @@ void main()
     uint state = before;
     if (dirty_near(args.cascade, corner, corner + SDFGI_PROBE_SPACING, NEAR_LINK)) {
         find_blocked(probe);
-        state = place(probe, 0u);
-        const uint seen_next = find_links(probe, state);
+        uint next;
+        state = place_all(probe, next);
+        const uint seen_next = find_links(probe, state, next);
         const bool is_new = has_entered(corner) || ((state ^ before) & PLACE_BITS) != 0u;
         state |= seen_next | (is_new ? SDFGI_PROBE_NEW : 0u);
     }
