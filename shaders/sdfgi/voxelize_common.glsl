@@ -208,9 +208,10 @@ column_levels triangle_levels(triangle t, ivec2 column)
     column_levels levels = column_levels(level, level);
     if (!((t.tiny && all(equal(column, tiny_column(t)))) || triangle_contains(t, centre)))
         levels = column_levels(0x7fffffff, -0x7fffffff);
-    if (max(abs(t.slope.x), abs(t.slope.y)) > FLAT_SLOPE)
-        for (int axis = int(SDFGI_FIRST); axis < 2; axis++)
-            levels_add_crossed(t, centre, axis, levels);
+    if (max(abs(t.slope.x), abs(t.slope.y)) > FLAT_SLOPE) {
+        levels_add_crossed(t, centre, 0, levels);
+        levels_add_crossed(t, centre, 1, levels);
+    }
     return levels;
 }
 
