@@ -196,6 +196,59 @@ const uint SDFGI_TRACE_MISS = 0u;
 const uint SDFGI_TRACE_HIT = 1u;    /* in a set sub-voxel of ray.cell */
 const uint SDFGI_TRACE_CAPPED = 2u; /* it ran out of steps */
 
+#ifdef SDFGI_SOFTWARE
+
+/* One step within a cascade: a leap, or a walk through a cell. True if that ends at a set sub-voxel. */
+bool sdfgi_trace_step(sdfgi_trace_query query, ivec3 signs, inout sdfgi_trace_state ray)
+{
+    const uint index = sdfgi_trace_cell_index(ray.volume, ray.cell);
+    const float distance = sdfgi_stored_distance(index);
+    const float step_length = min(sdfgi_trace_free_length(ray, distance), query.longest_step);
+    bool hit = false;
+    if (step_length > SDFGI_TRACE_MIN_STEP) {
+        sdfgi_trace_leap(step_length, ray);
+    } else {
+        hit = sdfgi_trace_cross_cell(index, distance, ray);
+        if (!hit)
+            ray.cell += sdfgi_trace_offset(signs, ray.axis);
+    }
+    return hit;
+}
+
+/* Software drivers run what is under a condition for every thread, and the way into the next cascade would be
+ * a third of each step. Threads wait for one another here, and take that way together. Steps and results are
+ * those of the loop for GPUs, which take 3 % longer in this form. */
+uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
+{
+    const ivec3 signs = sdfgi_trace_signs(ray.dir);
+    uint end = SDFGI_TRACE_CAPPED;
+    bool goes_on;
+    do {
+        goes_on = false;
+        while (ray.steps < SDFGI_TRACE_STEP_CAP) {
+            if (sdfgi_trace_length(ray) >= query.range) {
+                end = SDFGI_TRACE_MISS;
+                break;
+            }
+            ray.steps++;
+            if (ray.at_border || !sdfgi_trace_is_valid(ray.volume, ray.cell)) {
+                goes_on = ray.cascade < query.last_cascade;
+                end = goes_on ? end : SDFGI_TRACE_MISS;
+                break;
+            }
+            if (sdfgi_trace_step(query, signs, ray)) {
+                end = sdfgi_trace_length(ray) >= query.range ? SDFGI_TRACE_MISS : SDFGI_TRACE_HIT;
+                break;
+            }
+        }
+        if (goes_on)
+            sdfgi_trace_enter_coarser(query, ray);
+    } while (goes_on);
+    return end;
+}
+
+#else
+
 uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
     const ivec3 signs = sdfgi_trace_signs(ray.dir);
@@ -222,6 +275,8 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
     }
     return SDFGI_TRACE_CAPPED;
 }
+
+#endif
 
 /* The cell of a hit counts from ray.base. */
 sdfgi_trace_hit sdfgi_trace_result(sdfgi_trace_query query, sdfgi_trace_state ray, uint end)
