@@ -66,6 +66,7 @@ static uint64_t stored_light(const struct extent *e)
  * shares elsewhere; 0: as many as elsewhere. */
 static const uint32_t software_groups[PASS_COUNT] = {
     [PASS_LIGHT_MARK] = SDFGI_GROUP_LINEAR * 64, /* a light block, of 64 cells, for each thread */
+    [PASS_PROBE_PLACE] = SDFGI_GROUP_PROBE,
     [PASS_PROBE_SUM] = SDFGI_GROUP_PROBE,
     [PASS_PROBE_BLEND] = SDFGI_GROUP_PROBE,
 };
@@ -98,7 +99,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_DISTANCE_COLUMNS:
         return (struct work_groups){ 4 * n / group, work->count, 1 };
     case DOMAIN_PROBES:
-        return (struct work_groups){ probes, 1, 1 };
+        return (struct work_groups){ groups_for(probes, group), 1, 1 };
     case DOMAIN_ALL_PROBES:
         return (struct work_groups){ groups_for(probes, group), work->count, 1 };
     case DOMAIN_ALL_RAYS:
