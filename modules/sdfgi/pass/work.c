@@ -65,6 +65,7 @@ static uint64_t stored_light(const struct extent *e)
 /* Elements that a workgroup takes on software drivers, where each of its threads does alone what a workgroup
  * shares elsewhere; 0: as many as elsewhere. */
 static const uint32_t software_groups[PASS_COUNT] = {
+    [PASS_DISTANCE_PLANE] = 2 * SDFGI_LINES, /* two lines for each thread */
     [PASS_DISTANCE_EXACT] = 2 * SDFGI_LINES,
     [PASS_LIGHT_MARK] = SDFGI_GROUP_LINEAR * 64, /* a light block, of 64 cells, for each thread */
     [PASS_PROBE_PLACE] = SDFGI_GROUP_PROBE,
