@@ -62,7 +62,8 @@ static VkResult create_sets(const struct backend *backend, VkDescriptorPool *poo
 static void write_binding(const struct backend *backend, VkDescriptorSet set, enum resource resource,
                           const struct gpu_buffer *buffer)
 {
-    const VkDescriptorBufferInfo info = { buffer->handle, 0, VK_WHOLE_SIZE };
+    /* Not the whole: a buffer of texels may be a little longer than its elements, and than storage may be. */
+    const VkDescriptorBufferInfo info = { buffer->handle, 0, buffer->size };
     const VkWriteDescriptorSet writes[] = {
         { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
           .dstSet = set,
