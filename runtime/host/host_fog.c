@@ -110,12 +110,12 @@ static bool sampler_create(struct host_renderer *renderer)
 static bool pipelines_create(struct host_renderer *renderer)
 {
     struct host_fog_passes *f = &renderer->fog;
-    return host_pipeline_compute_create(renderer->device, host_fog_tiles_comp, sizeof(host_fog_tiles_comp),
-                                        f->layout, &f->tiles) &&
-           host_pipeline_compute_create(renderer->device, host_fog_scatter_comp,
-                                        sizeof(host_fog_scatter_comp), f->layout, &f->scatter) &&
-           host_pipeline_compute_create(renderer->device, host_fog_integrate_comp,
-                                        sizeof(host_fog_integrate_comp), f->layout, &f->integrate);
+    return host_pipeline_compute_create(renderer->device, HOST_CODE(host_fog_tiles_comp), f->layout,
+                                        &f->tiles) &&
+           host_pipeline_compute_create(renderer->device, HOST_CODE(host_fog_scatter_comp), f->layout,
+                                        &f->scatter) &&
+           host_pipeline_compute_create(renderer->device, HOST_CODE(host_fog_integrate_comp), f->layout,
+                                        &f->integrate);
 }
 
 bool host_fog_init(struct host_renderer *renderer)
@@ -244,10 +244,8 @@ bool host_fog_prepare(struct host_renderer *renderer)
     struct host_fog_passes *f = &renderer->fog;
     if (!host_fog_exists(renderer->scene) || !is_lit_by_gi(renderer) || f->air)
         return true;
-    const bool software = host_gi_is_software(renderer->gi);
-    return host_pipeline_compute_create(
-        renderer->device, software ? host_fog_air_software_comp : host_fog_air_comp,
-        software ? sizeof(host_fog_air_software_comp) : sizeof(host_fog_air_comp), f->air_layout, &f->air);
+    return host_pipeline_compute_create(renderer->device, HOST_LOOKUP_CODE(renderer->gi, host_fog_air, comp),
+                                        f->air_layout, &f->air);
 }
 
 void host_fog_fill(const struct host_renderer *renderer, struct host_frame_data *out)

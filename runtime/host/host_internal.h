@@ -7,6 +7,7 @@
 #include <vulkan/vulkan.h>
 
 #include "host.h"
+#include "host_code.h"
 #include "modules/gltf/gltf_scene.h"
 #include "shaders/host/host_shared.h"
 
@@ -191,8 +192,6 @@ struct host_gi *host_gi_create(struct host_device *device, const struct host_sce
 void host_gi_destroy(struct host_gi *gi);
 sdfgi *host_gi_context(const struct host_gi *gi);
 VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
-/* Shaders that look light up are those for software drivers. */
-bool host_gi_is_software(const struct host_gi *gi);
 /* VK_NULL_HANDLE while lookups give nothing. */
 VkDescriptorSet host_gi_set(const struct host_gi *gi);
 bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame);
@@ -255,8 +254,8 @@ bool host_set_layout_create(struct host_device *device, const VkDescriptorType *
 /* A push constant range of size 0 is none. */
 bool host_pipeline_layout_create(struct host_device *device, const VkDescriptorSetLayout *sets,
                                  uint32_t set_count, VkPushConstantRange push, VkPipelineLayout *out);
-bool host_pipeline_compute_create(struct host_device *device, const uint32_t *words, size_t bytes,
-                                  VkPipelineLayout layout, VkPipeline *out);
+bool host_pipeline_compute_create(struct host_device *device, struct host_code code, VkPipelineLayout layout,
+                                  VkPipeline *out);
 bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
                                   VkRenderPass pass, VkPipeline *out);
 

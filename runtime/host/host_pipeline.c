@@ -30,20 +30,13 @@
 
 #include <string.h>
 
-struct shader_code {
-    const uint32_t *words;
-    size_t bytes;
-};
-
-#define SHADER(name) ((struct shader_code){ name, sizeof(name) })
-
 static const VkCullModeFlags cull_modes[HOST_CULL_COUNT] = { [HOST_CULL_NONE] = VK_CULL_MODE_NONE,
                                                              [HOST_CULL_BACK] = VK_CULL_MODE_BACK_BIT,
                                                              [HOST_CULL_FRONT] = VK_CULL_MODE_FRONT_BIT };
 
 /* What tells one graphics pipeline from another. */
 struct pipeline_desc {
-    struct shader_code vertex, fragment; /* no fragment words: depth alone */
+    struct host_code vertex, fragment; /* no fragment words: depth alone */
     VkPipelineLayout layout;
     VkRenderPass pass;
     bool vertices; /* geometry, as opposed to one triangle over the screen */
@@ -52,7 +45,7 @@ struct pipeline_desc {
     VkCullModeFlags cull;
 };
 
-static bool module_create(struct host_device *device, struct shader_code code, VkShaderModule *out)
+static bool module_create(struct host_device *device, struct host_code code, VkShaderModule *out)
 {
     const VkShaderModuleCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                             .codeSize = code.bytes,
@@ -264,8 +257,8 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
                            struct host_pipelines *p)
 {
     for (int cull = 0; cull < HOST_CULL_COUNT; cull++) {
-        const struct pipeline_desc desc = { .vertex = SHADER(host_surface_vert),
-                                            .fragment = SHADER(host_prepass_frag),
+        const struct pipeline_desc desc = { .vertex = HOST_CODE(host_surface_vert),
+                                            .fragment = HOST_CODE(host_prepass_frag),
                                             .layout = p->layouts[HOST_FORWARD_PLAIN],
                                             .pass = passes->prepass,
                                             .vertices = true,
@@ -281,28 +274,26 @@ static bool prepass_create(struct host_device *device, const struct host_passes 
 }
 
 /* Of the shader with lookups. */
-static struct shader_code lookup_code(bool software, bool rays, bool fog)
+static struct host_code lookup_code(const struct host_gi *gi, bool rays, bool fog)
 {
-    const struct shader_code codes[2][2][2] = {
-        { { SHADER(host_forward_gi_frag), SHADER(host_forward_gi_fog_frag) },
-          { SHADER(host_forward_gi_rays_frag), SHADER(host_forward_gi_rays_fog_frag) } },
-        { { SHADER(host_forward_gi_software_frag), SHADER(host_forward_gi_fog_software_frag) },
-          { SHADER(host_forward_gi_rays_software_frag), SHADER(host_forward_gi_rays_fog_software_frag) } },
+    const struct host_code codes[2][2] = {
+        { HOST_LOOKUP_CODE(gi, host_forward_gi, frag), HOST_LOOKUP_CODE(gi, host_forward_gi_fog, frag) },
+        { HOST_LOOKUP_CODE(gi, host_forward_gi_rays, frag),
+          HOST_LOOKUP_CODE(gi, host_forward_gi_rays_fog, frag) },
     };
-    return codes[software][rays][fog];
+    return codes[rays][fog];
 }
 
-static struct shader_code forward_code(const struct host_renderer *renderer, enum host_forward kind,
-                                       bool rays)
+static struct host_code forward_code(const struct host_renderer *renderer, enum host_forward kind, bool rays)
 {
     const bool fog = host_fog_exists(renderer->scene);
     switch (kind) {
     case HOST_FORWARD_GI:
-        return lookup_code(host_gi_is_software(renderer->gi), rays, fog);
+        return lookup_code(renderer->gi, rays, fog);
     case HOST_FORWARD_GATHERED:
-        return fog ? SHADER(host_forward_gathered_fog_frag) : SHADER(host_forward_gathered_frag);
+        return fog ? HOST_CODE(host_forward_gathered_fog_frag) : HOST_CODE(host_forward_gathered_frag);
     default:
-        return fog ? SHADER(host_forward_fog_frag) : SHADER(host_forward_frag);
+        return fog ? HOST_CODE(host_forward_fog_frag) : HOST_CODE(host_forward_frag);
     }
 }
 
@@ -310,7 +301,7 @@ static bool forward_create(struct host_renderer *renderer, enum host_forward kin
                            bool blend, bool rays, VkPipeline *out)
 {
     const struct pipeline_desc desc = {
-        .vertex = SHADER(host_surface_vert),
+        .vertex = HOST_CODE(host_surface_vert),
         .fragment = forward_code(renderer, kind, rays),
         .layout = renderer->pipelines.layouts[kind],
         .pass = renderer->passes.forward,
@@ -384,7 +375,7 @@ bool host_forward_prepare(struct host_renderer *renderer)
 static bool shadow_create(struct host_device *device, const struct host_passes *passes,
                           struct host_pipelines *p)
 {
-    struct pipeline_desc desc = { .vertex = SHADER(host_shadow_vert),
+    struct pipeline_desc desc = { .vertex = HOST_CODE(host_shadow_vert),
                                   .layout = p->layouts[HOST_FORWARD_PLAIN],
                                   .pass = passes->shadow,
                                   .vertices = true,
@@ -393,7 +384,7 @@ static bool shadow_create(struct host_device *device, const struct host_passes *
                                   .compare = VK_COMPARE_OP_GREATER };
     if (!pipeline_create(device, &desc, &p->shadow_solid))
         return false;
-    desc.fragment = SHADER(host_shadow_frag);
+    desc.fragment = HOST_CODE(host_shadow_frag);
     return pipeline_create(device, &desc, &p->shadow_tested);
 }
 
@@ -405,11 +396,11 @@ enum host_forward host_sky_kind(const struct host_scene *scene)
 static bool sky_create(const struct host_scene *scene, const struct host_passes *passes, bool fog,
                        struct host_pipelines *p)
 {
-    const struct shader_code codes[2][2] = {
-        { SHADER(host_sky_frag), SHADER(host_sky_fog_frag) },
-        { SHADER(host_sky_environment_frag), SHADER(host_sky_environment_fog_frag) },
+    const struct host_code codes[2][2] = {
+        { HOST_CODE(host_sky_frag), HOST_CODE(host_sky_fog_frag) },
+        { HOST_CODE(host_sky_environment_frag), HOST_CODE(host_sky_environment_fog_frag) },
     };
-    const struct pipeline_desc desc = { .vertex = SHADER(host_screen_vert),
+    const struct pipeline_desc desc = { .vertex = HOST_CODE(host_screen_vert),
                                         .fragment = codes[scene->environment.exists][fog],
                                         .layout = p->layouts[host_sky_kind(scene)],
                                         .pass = passes->forward,
@@ -422,21 +413,21 @@ static bool sky_create(const struct host_scene *scene, const struct host_passes 
 bool host_pipeline_tonemap_create(struct host_device *device, const struct host_pipelines *pipelines,
                                   VkRenderPass pass, VkPipeline *out)
 {
-    const struct pipeline_desc desc = { .vertex = SHADER(host_screen_vert),
-                                        .fragment = SHADER(host_tonemap_frag),
+    const struct pipeline_desc desc = { .vertex = HOST_CODE(host_screen_vert),
+                                        .fragment = HOST_CODE(host_tonemap_frag),
                                         .layout = pipelines->post_pipeline_layout,
                                         .pass = pass,
                                         .has_color = true };
     return pipeline_create(device, &desc, out);
 }
 
-bool host_pipeline_compute_create(struct host_device *device, const uint32_t *words, size_t bytes,
-                                  VkPipelineLayout layout, VkPipeline *out)
+bool host_pipeline_compute_create(struct host_device *device, struct host_code code, VkPipelineLayout layout,
+                                  VkPipeline *out)
 {
     const VkBool32 on_cpu = device->info.is_cpu;
     const VkSpecializationInfo constants = constants_of(&on_cpu);
     VkShaderModule module = VK_NULL_HANDLE;
-    if (!module_create(device, (struct shader_code){ words, bytes }, &module))
+    if (!module_create(device, code, &module))
         return false;
     const VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
@@ -461,7 +452,7 @@ bool host_pipelines_init(const struct host_scene *scene, const struct host_passe
     return layouts_create(device, scene->material_layout, gi_layout, fog, pipelines) &&
            prepass_create(device, passes, pipelines) && shadow_create(device, passes, pipelines) &&
            sky_create(scene, passes, fog, pipelines) &&
-           host_pipeline_compute_create(device, host_exposure_comp, sizeof(host_exposure_comp),
+           host_pipeline_compute_create(device, HOST_CODE(host_exposure_comp),
                                         pipelines->post_pipeline_layout, &pipelines->exposure) &&
            host_pipeline_tonemap_create(device, pipelines, passes->picture, &pipelines->tonemap);
 }

@@ -74,14 +74,12 @@ static bool sampler_init(struct host_renderer *renderer)
     if (s->ready)
         return true;
     host_sampler_finish(renderer);
-    const bool software = host_gi_is_software(renderer->gi);
     s->ready =
         host_buffer_create(renderer->device, sizeof(float[HOST_MAX_SAMPLES][4]),
                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, true, &s->results) &&
         layouts_create(renderer) && set_create(renderer) &&
-        host_pipeline_compute_create(
-            renderer->device, software ? host_sample_software_comp : host_sample_comp,
-            software ? sizeof(host_sample_software_comp) : sizeof(host_sample_comp), s->layout, &s->pipeline);
+        host_pipeline_compute_create(renderer->device, HOST_LOOKUP_CODE(renderer->gi, host_sample, comp),
+                                     s->layout, &s->pipeline);
     return s->ready;
 }
 

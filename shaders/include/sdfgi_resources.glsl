@@ -67,8 +67,8 @@ layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_fra
 };
 #endif
 
-/* Where loops start whose rounds are long: software drivers do not copy the rounds one after another then,
- * which takes longer to compile than it saves. */
+/* Where loops of lookups start whose rounds are long: software drivers do not copy the rounds one after
+ * another then, which takes longer to compile than it saves. In passes, which have it, SDFGI_ZERO does. */
 #ifdef SDFGI_ZERO
 #define SDFGI_FIRST SDFGI_ZERO
 #else

@@ -78,7 +78,7 @@ uint place_all(ivec3 probe, out uint next)
 {
     uint state = SDFGI_PROBE_DEAD;
     next = SDFGI_PROBE_DEAD;
-    [[dont_unroll]] for (uint i = SDFGI_FIRST; i < 4u; i++)
+    [[dont_unroll]] for (uint i = SDFGI_ZERO; i < 4u; i++)
     {
         const uint placed = place(probe, i);
         state = i == 0u ? placed : state;

@@ -66,7 +66,7 @@ vec3 surface_normal(uint block, uint axis)
     const vec3 towards = vec3(sdfgi_axis_direction(axis));
     vec3 best = towards;
     float best_height = 0.2;
-    for (uint other = SDFGI_FIRST; other < 6u; other += 2u) {
+    for (uint other = SDFGI_ZERO; other < 6u; other += 2u) {
         vec3 candidate;
         if (!surface_class_normal(packed, other, candidate))
             continue;

@@ -273,7 +273,7 @@ void accumulate_surface(triangle t, ivec3 sub, uint block, surface_sample s)
     const vec3 color = sdfgi_finite_color(s.albedo.rgb, 1.0);
     const uvec3 albedo = uvec3(color * SDFGI_ALBEDO_STEPS + 0.5);
     accumulate_front(t, sub, block, facing, color);
-    for (uint i = SDFGI_FIRST; i < 3u; i++)
+    for (uint i = SDFGI_ZERO; i < 3u; i++)
         accumulate(plane + i, block, albedo[i]);
     accumulate(plane + 3u, block, 1u);
     const float side = negative ? -1.0 : 1.0;
@@ -281,7 +281,7 @@ void accumulate_surface(triangle t, ivec3 sub, uint block, surface_sample s)
     const uint metal = s.flags >> SDFGI_MATERIAL_METAL_SHIFT & 3u;
     accumulate(SDFGI_ACCUM_METAL, block, min(metal, 1u));
     accumulate(SDFGI_ACCUM_METAL + 1u, block, metal);
-    for (uint i = 1u + SDFGI_FIRST; i <= 2u; i++) {
+    for (uint i = 1u + SDFGI_ZERO; i <= 2u; i++) {
         const float slope = sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
         accumulate(SDFGI_ACCUM_NORMAL + 3u * major + i, block, uint(int(round(slope * SDFGI_SLOPE_STEPS))));
     }
@@ -327,7 +327,7 @@ covered_part triangle_covers(triangle t, ivec2 column)
         return covered_part(all(equal(column, tiny_column(t))) ? 0.5 * t.area2 : 0.0, middle);
     vec2 from = t.v[0].xy - vec2(column), to = t.v[1].xy - vec2(column), next = t.v[2].xy - vec2(column);
     vec3 sums = vec3(0.0);
-    for (uint i = SDFGI_FIRST; i < 3u; i++) {
+    for (uint i = SDFGI_ZERO; i < 3u; i++) {
         sums += edge_integrals(from, to);
         const vec2 last = from;
         from = to;
@@ -361,11 +361,11 @@ void accumulate_emission(triangle t, float covered, uint block, surface_sample s
     if (all(lessThan(emission, vec3(SDFGI_EMISSION_STEP))) ||
         !has_room(SDFGI_ACCUM_EMISSION_AREA, block, SDFGI_ACCUM_MOST_AREA))
         return;
-    for (uint i = SDFGI_FIRST; i < 3u; i++)
+    for (uint i = SDFGI_ZERO; i < 3u; i++)
         accumulate_wide(SDFGI_ACCUM_EMISSION + 2u * i, block, emission[i]);
     const float area = sides * covered * column / max(abs(t.normal[t.axis]), 0.1);
     accumulate(SDFGI_ACCUM_EMISSION_AREA, block, uint(area * SDFGI_AREA_STEPS + 0.5));
-    for (int n = int(SDFGI_FIRST); n < 3; n++) {
+    for (int n = int(SDFGI_ZERO); n < 3; n++) {
         const int axis = (t.axis + n) % 3;
         const uint front = 2u * uint(axis) + (t.normal[axis] < 0.0 ? 1u : 0u),
                    steps = uint(seen[n] * SDFGI_AREA_STEPS + 0.5);
@@ -378,7 +378,7 @@ void accumulate_emission(triangle t, float covered, uint block, surface_sample s
 /* Notes that a sub-voxel emits, and along which axes. */
 void store_emitter(triangle t, ivec3 cell, uint bit)
 {
-    for (int n = int(SDFGI_FIRST); n < 3; n++) {
+    for (int n = int(SDFGI_ZERO); n < 3; n++) {
         const int axis = (t.axis + n) % 3;
         const uint word = emissive_word(drawn_part(), axis, cell) + (bit >> 5u);
         if (n == 0 || abs(t.slope[max(n, 1) - 1]) > LEAST_SLOPE)

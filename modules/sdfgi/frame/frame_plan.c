@@ -172,11 +172,10 @@ static bool geometry_is_due(const struct frame *frame, const struct scene *scene
 
 static void plan_methods(struct situation *s, const struct sdfgi_settings *settings)
 {
-    const bool depth = settings->visibility == SDFGI_VISIBILITY_PROBE_DEPTH;
-    s->raster = settings->voxelizer == SDFGI_VOXELIZER_RASTER;
-    s->flood = settings->sdf_method == SDFGI_SDF_FLOOD;
-    s->occlusion = settings->use_occlusion && depth;
-    s->masks = settings->use_occlusion && !depth;
+    s->raster = sdfgi_pass_fits(PASS_VOXELIZE_RASTER, settings);
+    s->flood = sdfgi_pass_fits(PASS_FLOOD_STEP, settings);
+    s->occlusion = sdfgi_pass_fits(PASS_OCCLUSION_TRACE, settings);
+    s->masks = sdfgi_pass_fits(PASS_CELL_MASK, settings);
 }
 
 /* Compares the parameters with those that were uploaded last. */

@@ -70,6 +70,8 @@ bool sdfgi_pass_fits(enum pass pass, const struct sdfgi_settings *settings)
     switch (rows[pass].need) {
     case NEED_VOXELS:
         return settings->voxelizer == SDFGI_VOXELIZER_COMPUTE;
+    case NEED_VOXELS_RASTER:
+        return settings->voxelizer == SDFGI_VOXELIZER_RASTER;
     case NEED_EXACT:
         return settings->sdf_method == SDFGI_SDF_EXACT;
     case NEED_FLOOD:
