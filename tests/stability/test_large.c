@@ -180,9 +180,26 @@ static void sky_over_eight_cascades_is_exact(void **state)
     require_sky_is_exact(128, 8);
 }
 
+/* The validation layer tells whether what is bound is within the device's limits, before anything runs. */
+static void the_largest_volumes_are_within_limits(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[][2] = { { 256, 1 }, { 128, 8 } };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        static struct gi_test t;
+        struct sdfgi_settings settings = light_settings(sizes[i][0], 0.125f);
+        settings.cascades = sizes[i][1];
+        gi_test_open(&t, &settings);
+        gi_test_close(&t);
+    }
+}
+
 TEST_GROUP(large)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(parts_of_128_cells_do_not_show) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_of_128_cells_do_not_show),
+        cmocka_unit_test(the_largest_volumes_are_within_limits),
+    };
     const struct CMUnitTest full[] = {
         cmocka_unit_test(parts_of_256_cells_do_not_show),
         cmocka_unit_test(distances_of_256_cells_are_exact),
