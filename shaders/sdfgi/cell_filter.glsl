@@ -4,7 +4,7 @@
  * loses, so the filter keeps the sum. Cells whose irradiance differs more than their noise explains, at the
  * edge of a shadow, exchange little. cell_filter goes over neighbours, and then cell_filter_far over what it
  * has left, with neighbours two cells away (a trous: Dammertz et al. 2010, "Edge-avoiding A-Trous wavelet
- * transform for fast global illumination filtering"). A thread per light cell of the rows that seen.glsl
+ * transform for fast global illumination filtering"). A thread per light cell that visits.glsl
  * tells.
  *
  * Before it includes this file a shader defines
@@ -17,11 +17,11 @@
 #define SDFGI_CELL_FILTER_GLSL
 
 #include "gathered.glsl"
-#include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cell_filter_args);
+#include "visits.glsl"
 
 void filter_store(uint cascade, uint axis, uint entry, uint word);
 
@@ -88,13 +88,8 @@ vec4 gain_from_row(uint cascade, row r, uint axis, vec3 own)
     return gained;
 }
 
-void main()
+void filter_cell(uint cascade, uint entry)
 {
-    const uint cascade = visited_cascade(gl_WorkGroupID.y);
-    uint entry;
-    if (!visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, args.first[cascade], args.end[cascade],
-                       light_cell_count(cascade), entry))
-        return;
     const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
     if (!sdfgi_cell_is_valid(cascade, cell))
         return;
@@ -121,6 +116,19 @@ void main()
         }
         filter_store(cascade, axis, entry, result);
     }
+}
+
+void main()
+{
+    uint entry;
+#ifdef SDFGI_SOFTWARE
+    uint cascade, step = 0u;
+    while (visit_next(step, cascade, entry))
+        filter_cell(cascade, entry);
+#else
+    if (visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, entry))
+        filter_cell(visited_cascade(gl_WorkGroupID.y), entry);
+#endif
 }
 
 #endif

@@ -8,13 +8,13 @@
 #include "emitters.glsl"
 #include "gather_cycle.glsl"
 #include "metal.glsl"
-#include "seen.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../include/sdfgi_sky.glsl"
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/irradiance_pack.glsl"
 
 SDFGI_PUSH(sdfgi_cell_gather_args);
+#include "visits.glsl"
 
 const uint RAYS = uint(SDFGI_VISIT_RAYS);
 const uint EMITTER_RAYS = uint(SDFGI_VISIT_EMITTER_RAYS), MOST_RAYS = RAYS + EMITTER_RAYS;
@@ -337,30 +337,6 @@ void end_visit(uint cascade, uint number)
                   floatBitsToUint(found.change));
     if (found.change >= SDFGI_SMALL_CHANGE)
         atomicAdd(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELLS_CHANGING + cascade)], 1u);
-}
-
-/* Seen cells of a word that are visited beside the ranges: a bit for each, from the entry `first` on. None in
- * the rows of ranges. */
-uint seen_cells(uint cascade, out uint first)
-{
-    first = sdfgi_frame.cascades[cascade].seen_first + 32u * gl_WorkGroupID.x;
-    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count || first >= sdfgi_frame.cascades[cascade].seen_end)
-        return 0u;
-    uint bits = sdfgi_seen_at(seen_word(cascade, first));
-    for (uint rest = bits; rest != 0u; rest &= rest - 1u) {
-        const uint entry = first + uint(findLSB(rest));
-        if (entry >= args.first[cascade] && entry < args.end[cascade])
-            bits &= ~(rest & ~rest + 1u);
-    }
-    return bits;
-}
-
-/* The number of the n-th set bit. */
-uint number_of_bit(uint bits, uint n)
-{
-    for (uint i = 0u; i < n; i++)
-        bits &= bits - 1u;
-    return uint(findLSB(bits));
 }
 
 #endif

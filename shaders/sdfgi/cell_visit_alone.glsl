@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT
- * A thread visits a cell alone, for software drivers: where threads wait for one another, these drivers keep
- * all variables in memory, and they read shared memory for one thread after another. */
+ * A thread visits cells alone, one after another, for software drivers: where threads wait for one another,
+ * these drivers keep all variables in memory, and they read shared memory for one thread after another. */
 #ifndef SDFGI_CELL_VISIT_ALONE_GLSL
 #define SDFGI_CELL_VISIT_ALONE_GLSL
 
+#include "pass.glsl"
+
+/* Before the includes that ask for it. */
+layout(local_size_x = SDFGI_SEEN_BITS) in;
+
 #include "cell_visit.glsl"
 
-layout(local_size_x = 32) in; /* one for each bit of a word of seen cells */
-
 visited_cell visited;
-visit_notes notes = visit_notes(0.0, 0.0, 0.0);
+visit_notes notes;
 
 visited_cell cell_of(uint own)
 {
@@ -48,26 +51,8 @@ vec4 send_rays(uint cascade, ray_source source)
     return visit_mean(light);
 }
 
-/* Entry of the cell that the thread visits. False if there is none. */
-bool find_entry(uint cascade, out uint entry)
+void visit_cell(uint cascade)
 {
-    entry = args.first[cascade] + gl_GlobalInvocationID.x;
-    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count)
-        return entry < min(args.end[cascade], light_cell_count(cascade));
-    uint first;
-    const uint seen = seen_cells(cascade, first);
-    /* Elsewhere workgroups of several rows share a word. */
-    if (gl_WorkGroupID.y >= 2u * sdfgi_frame.cascade_count || gl_LocalInvocationIndex >= uint(bitCount(seen)))
-        return false;
-    entry = first + number_of_bit(seen, gl_LocalInvocationIndex);
-    return entry < light_cell_count(cascade);
-}
-
-void visit()
-{
-    const uint cascade = visited_cascade(gl_WorkGroupID.y);
-    if (!find_entry(cascade, visited.entry))
-        return;
     visited.cell =
         light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, visited.entry)));
     if (!sdfgi_cell_is_valid(cascade, visited.cell))
@@ -75,6 +60,7 @@ void visit()
     const uint facing = light_cell_facing(cascade, visited.cell);
     if (facing == 0u)
         return;
+    notes = visit_notes(0.0, 0.0, 0.0);
     visited.state = state_of_visit(cascade, visited.entry);
     visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
     for (uint left = facing; left != 0u; left &= left - 1u) {
@@ -82,6 +68,13 @@ void visit()
         add_visit(cascade, surface, send_rays(cascade, source_of(cascade, surface)));
     }
     end_visit(cascade, 0u);
+}
+
+void visit()
+{
+    uint cascade, step = 0u;
+    while (visit_next(step, cascade, visited.entry))
+        visit_cell(cascade);
 }
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Four share those of 32 in a row that are seen
- * (seen.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so that
+ * (visits.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so that
  * sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
 #ifndef SDFGI_CELL_VISIT_SHARED_GLSL
 #define SDFGI_CELL_VISIT_SHARED_GLSL
@@ -120,7 +120,7 @@ bool find_entry(uint cascade, uint own, uint seen, uint first_seen, out uint ent
         return entry < min(args.end[cascade], light_cell_count(cascade));
     if (first_seen_cell() + own >= uint(bitCount(seen)))
         return false;
-    entry = first_seen + number_of_bit(seen, first_seen_cell() + own);
+    entry = first_seen + sdfgi_nth_bit(seen, first_seen_cell() + own);
     return entry < light_cell_count(cascade);
 }
 
@@ -160,10 +160,12 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
 void visit()
 {
     const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
-    uint first_seen;
-    const uint seen = seen_cells(cascade, first_seen);
-    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count && uint(bitCount(seen)) <= first_seen_cell())
-        return;
+    uint first_seen = 0u, seen = 0u;
+    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count) {
+        seen = visited_seen(cascade, gl_WorkGroupID.x, first_seen);
+        if (uint(bitCount(seen)) <= first_seen_cell())
+            return;
+    }
     const uint rays = rays_of_visit(cascade);
     find_surfaces(cascade, seen, first_seen);
     barrier();

@@ -2,7 +2,7 @@
  * Per light cell, and per axis along which a surface faces: the irradiance that arrives, which lookups read;
  * and outgoing radiance, that is, direct light, and the irradiance times bounce gain. Emission is not part of
  * it: whoever reads outgoing light adds that of the surface which a ray hits.
- * A thread per light cell of the rows that seen.glsl tells, from args.cascade on, or per dirty light cell. */
+ * A thread per light cell that visits.glsl tells, or per dirty light cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_LIGHT
@@ -10,12 +10,13 @@
 #include "../lib/on_cpu.glsl"
 #include "light_blocks.glsl"
 #include "gathered.glsl"
-#include "seen.glsl"
 #include "bounce.glsl"
 #include "../include/sdfgi_cells.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_light_bounce_args);
+#define VISIT_BLOCKS uint(SDFGI_BOUNCE_BLOCKS)
+#include "visits.glsl"
 
 /* Albedo times feedback, capped below 1 so that light in a closed white room stays finite. */
 vec3 bounce_gain(vec3 albedo)
@@ -35,15 +36,20 @@ struct surface_light {
 
 surface_light light_from_probes(uint cascade, ivec3 cell, vec3 normal)
 {
-    if (args.without_probes != 0u)
-        return surface_light(false, vec3(0.0), vec3(0.0));
     const bounce_light light =
         bounce_light_cell(cascade, cell, normal, visibility_bits_of_cell(cascade, cell));
     return surface_light(light.weight > 0.0, light.estimate, light.displayed);
 }
 
-/* What the cell has gathered itself, or what probes tell as long as that is little or nothing. */
-surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, vec3 normal)
+/* True if what probes tell matters: as long as the cell has gathered little or nothing itself. */
+bool asks_probes(uint cascade, uint entry)
+{
+    return args.without_probes == 0u &&
+           (!gathers() || gathered_load_state(cascade, entry).mean == GATHERED_NOTHING);
+}
+
+/* What the cell has gathered itself, or what probes tell if it asks them. */
+surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, vec3 normal, bool asks)
 {
     gathered_state state = gathered_state(0u, GATHERED_NOTHING, 0u, 0u);
     gathered_light gathered = gathered_light(vec3(0.0), vec3(0.0));
@@ -52,7 +58,7 @@ surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, ve
         gathered = gathered_load(cascade, entry, axis);
     }
     surface_light probes = surface_light(false, vec3(0.0), vec3(0.0));
-    if (state.mean == GATHERED_NOTHING)
+    if (asks)
         probes = light_from_probes(cascade, cell, normal);
     if (!gathers())
         return probes;
@@ -70,16 +76,8 @@ uint packed_light(surface_light light)
                        : SDFGI_SURFACE_UNKNOWN;
 }
 
-void main()
+void bounce(uint cascade, uint entry, bool asks)
 {
-    const uint row = args.cascade + gl_WorkGroupID.y, cascade = visited_cascade(row);
-    uint entry;
-    const bool visited = args.only_dirty != 0u
-                             ? light_entry(cascade, true, 0u, 0u, gl_GlobalInvocationID.x, entry)
-                             : visited_entry(row, gl_GlobalInvocationID.x, args.first[cascade],
-                                             args.end[cascade], light_cell_count(cascade), entry);
-    if (!visited)
-        return;
     const uint slot = light_cell_slot(cascade, entry);
     const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(slot));
     if (!sdfgi_cell_is_valid(cascade, cell))
@@ -102,7 +100,8 @@ void main()
             break;
         const uint axis = uint(findLSB(left));
         const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
-        const surface_light light = light_arriving(cascade, entry, cell, axis, surface_normal(block, axis));
+        const surface_light light =
+            light_arriving(cascade, entry, cell, axis, surface_normal(block, axis), asks);
         const vec3 leaving =
             sdfgi_light_unpack_axis(direct, axis) + bounce_gain(surface_albedo(block, axis)) * light.estimate;
         if (any(greaterThan(leaving, vec3(SDFGI_RGBE_MAX))))
@@ -124,3 +123,49 @@ void main()
     for (uint a = 0u; a < 6u; a++)
         sdfgi_light[sdfgi_surface_index(cascade, entry, a)] = sdfgi_rgbe_encode_rounded(axes[a], rounding);
 }
+
+/* Entry of the dirty light cell of this thread. False if there is none. */
+bool dirty_entry(out uint entry)
+{
+    return light_entry(args.cascade, true, 0u, 0u, gl_GlobalInvocationID.x, entry);
+}
+
+#ifdef SDFGI_SOFTWARE
+/* As visit_next. A thread has one dirty cell at most. */
+bool next_cell(inout uint step, out uint cascade, out uint entry)
+{
+    if (args.only_dirty == 0u)
+        return visit_next(step, cascade, entry);
+    cascade = args.cascade;
+    return step++ == 0u && dirty_entry(entry);
+}
+
+/* Goes on to the next cell that asks probes, or to the next one that does not. */
+bool next_that_asks(bool asks, inout uint step, out uint cascade, out uint entry)
+{
+    bool found;
+    do
+        found = next_cell(step, cascade, entry);
+    while (found && asks_probes(cascade, entry) != asks);
+    return found;
+}
+
+/* First those that do not, so that the others alone take the time that reading probes takes. */
+void main()
+{
+    uint cascade, entry, step = 0u;
+    while (next_that_asks(false, step, cascade, entry))
+        bounce(cascade, entry, false);
+    step = 0u;
+    while (next_that_asks(true, step, cascade, entry))
+        bounce(cascade, entry, true);
+}
+#else
+void main()
+{
+    const uint row = args.cascade + gl_WorkGroupID.y, cascade = visited_cascade(row);
+    uint entry;
+    if (args.only_dirty != 0u ? dirty_entry(entry) : visited_entry(row, gl_GlobalInvocationID.x, entry))
+        bounce(cascade, entry, asks_probes(cascade, entry));
+}
+#endif

@@ -20,6 +20,7 @@
 #include "gathered.glsl"
 #include "light_blocks.glsl"
 #include "../include/sdfgi_cells.glsl"
+#include "../lib/nth_bit.glsl"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cascade_args);
@@ -90,15 +91,7 @@ uint find_bit(uvec2 bits, uint n)
 {
     const uint low = bitCount(bits.x);
     const bool high = n >= low;
-    const uint word = high ? bits.y : bits.x;
-    uint rest = high ? n - low : n, bit = 0u;
-    for (uint width = 16u; width > 0u; width /= 2u) {
-        const uint count = bitCount(bitfieldExtract(word, int(bit), int(width)));
-        if (rest >= count) {
-            rest -= count;
-            bit += width;
-        }
-    }
+    const uint bit = sdfgi_nth_bit(high ? bits.y : bits.x, high ? n - low : n);
     return high ? bit + 32u : bit;
 }
 

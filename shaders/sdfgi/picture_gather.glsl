@@ -23,7 +23,7 @@ bool picture_mark_in(uint cascade, vec3 pos, vec3 normal)
         const ivec3 cell = ivec3(floor(at));
         found = sdfgi_cell_is_valid(cascade, cell) && sdfgi_cell_entry(cascade, cell, entry);
     }
-    const uint bit = 1u << (entry & 31u);
+    const uint bit = 1u << entry % uint(SDFGI_SEEN_BITS);
     if (found && (atomicOr(sdfgi_seen[seen_word(cascade, entry)], bit) & bit) == 0u)
         counter_add(SDFGI_COUNTER_CELLS_SEEN + cascade, 1u);
     return found;

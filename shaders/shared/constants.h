@@ -71,6 +71,10 @@
 #define SDFGI_ROUGH_VISITS 8
 #define SDFGI_VISIT_RAYS   16
 #define SDFGI_VISIT_CELLS  8
+/* Entries whose bits of seen cells share a word. */
+#define SDFGI_SEEN_BITS    32
+/* Words of seen cells that are visited together on software drivers. */
+#define SDFGI_SEEN_WORDS   4
 
 /* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)
@@ -97,6 +101,7 @@
 #define SDFGI_GROUP_CELLS       4  /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR      64 /* one thread per element of a list */
 #define SDFGI_CELLS_OF_SURFACES 16 /* light cells that a workgroup lights directly */
+#define SDFGI_BOUNCE_BLOCKS     4  /* light cells of a thread of light_bounce on software drivers, about */
 #define SDFGI_GROUP_SURFACES    (6 * SDFGI_CELLS_OF_SURFACES) /* one thread per axis of a light cell */
 #define SDFGI_GROUP_LINES       128 /* threads that share SDFGI_LINES lines of cells, or a layer */
 #define SDFGI_LINES             8   /* lines of cells per workgroup */

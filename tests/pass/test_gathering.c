@@ -173,6 +173,8 @@ static void seen_cells_count_by_how_near_they_are(void **state)
     take(&s, 600);
     REQUIRE_CMP(s.ranges[0].seen_count, ==, 200u);
     REQUIRE_CMP(s.ranges[1].seen_count, ==, 100u);
+    /* Those of a cascade that has settled get none. */
+    REQUIRE_CMP(s.gathering.at[0].seen_first, ==, s.gathering.at[0].seen_end);
     /* No cell gets two visits: the rest is for the sweep. */
     open_scene(&s);
     s.lists.seen[0] = 10;

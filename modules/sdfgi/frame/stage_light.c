@@ -26,37 +26,36 @@ static bool probes_are_dark(const struct plan_stage *stage)
            stage->frame->next.accumulation.phase == LIGHTING_DARK;
 }
 
-/* Workgroups of cell_gather share a word of seen cells: as many as it takes at SDFGI_VISIT_CELLS each. */
-#define SEEN_PER_VISIT (32 / SDFGI_VISIT_CELLS)
+static uint32_t blocks(uint32_t entries, uint32_t per_block)
+{
+    return (entries + per_block - 1) / per_block;
+}
 
-/* Lets a pass run over ranges of all cascades, and then over the seen cells of each. `first` and `end` are
- * those of its arguments. For an entry's worth of threads there are `seen_per_entry` entries that may be
- * seen, and as many rows that share them. */
+/* Lets a pass run over ranges of all cascades, and over the seen cells of each. `first` and `end` are those
+ * of its arguments. */
 static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES],
                         uint end[static SDFGI_MAX_CASCADES], const struct gather_range *ranges,
-                        uint32_t count, uint32_t cascades, uint32_t seen_per_entry)
+                        uint32_t count)
 {
-    bool any_seen = false;
     for (uint32_t i = 0; i < count; i++) {
-        first[ranges[i].cascade] = ranges[i].first;
-        end[ranges[i].cascade] = ranges[i].first + ranges[i].count;
-        const uint32_t seen = (ranges[i].seen_span + seen_per_entry - 1) / seen_per_entry;
-        const uint32_t longer = ranges[i].count > seen ? ranges[i].count : seen;
-        work->count = longer > work->count ? longer : work->count;
-        work->units += ranges[i].count + ranges[i].seen_count;
-        any_seen = any_seen || ranges[i].seen_span > 0;
+        const struct gather_range *range = &ranges[i];
+        first[range->cascade] = range->first;
+        end[range->cascade] = range->first + range->count;
+        work->count = range->count > work->count ? range->count : work->count;
+        work->seen = range->seen_span > work->seen ? range->seen_span : work->seen;
+        work->blocks += blocks(range->count, SDFGI_SEEN_BITS) +
+                        blocks(range->seen_span, SDFGI_SEEN_BITS * SDFGI_SEEN_WORDS);
+        work->units += range->count + range->seen_count;
     }
-    work->rows = any_seen ? (1 + seen_per_entry) * cascades : cascades;
 }
 
 /* What arrives at surfaces and leaves them. */
 static void add_bounce(const struct plan_stage *stage, const struct gather_range *ranges, uint32_t count)
 {
-    const uint32_t cascades = stage->frame->next.cascades.count;
     struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_BOUNCE, 0);
     struct sdfgi_light_bounce_args *bounce = &work->args.light_bounce;
     bounce->without_probes = probes_are_dark(stage);
-    fill_ranges(work, bounce->first, bounce->end, ranges, count, cascades, 1);
+    fill_ranges(work, bounce->first, bounce->end, ranges, count);
 }
 
 /* What lookups show of it: a run of the filter. */
@@ -67,7 +66,7 @@ static void add_filter(const struct plan_stage *stage, enum pass pass, const str
     if (!work)
         return;
     struct sdfgi_cell_filter_args *filter = &work->args.cell_filter;
-    fill_ranges(work, filter->first, filter->end, ranges, count, stage->frame->next.cascades.count, 1);
+    fill_ranges(work, filter->first, filter->end, ranges, count);
 }
 
 /* All entries. */
@@ -143,8 +142,7 @@ static void gather(const struct plan_stage *stage)
         return;
     struct sdfgi_cell_gather_args *args = &work->args.cell_gather;
     args->epoch = frame->next.gathering.epoch;
-    fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count, frame->next.cascades.count,
-                SEEN_PER_VISIT);
+    fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count);
     for (uint32_t i = 0; i < frame->gather_count; i++) {
         const struct gather_range *range = &frame->gathers[i];
         args->visits[range->cascade] = range->visits;

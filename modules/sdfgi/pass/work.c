@@ -62,11 +62,23 @@ static uint64_t stored_light(const struct extent *e)
     return e->cascades * (axes > texels ? axes : texels);
 }
 
+/* A row of workgroups for the range of each cascade, and rows for its seen cells: workgroups of as many rows
+ * share a word as it takes to visit all that it holds. */
+static struct work_groups all_light_cells(const struct work *work, uint32_t group, uint32_t cascades)
+{
+    const uint32_t shares = group < SDFGI_SEEN_BITS ? SDFGI_SEEN_BITS / group : 1;
+    const uint32_t seen = groups_for(work->seen, shares), rows = work->seen > 0 ? 1 + shares : 1;
+    return (struct work_groups){ groups_for(work->count > seen ? work->count : seen, group), rows * cascades,
+                                 1 };
+}
+
 /* Elements that a workgroup takes on software drivers, where each of its threads does alone what a workgroup
- * shares elsewhere; 0: as many as elsewhere. */
+ * shares elsewhere, or what several of its threads do; 0: as many as elsewhere. */
 static const uint32_t software_groups[PASS_COUNT] = {
     [PASS_DISTANCE_PLANE] = 2 * SDFGI_LINES, /* two lines for each thread */
     [PASS_DISTANCE_EXACT] = 2 * SDFGI_LINES,
+    [PASS_CELL_GATHER] = SDFGI_SEEN_BITS,
+    [PASS_LIGHT_BOUNCE] = SDFGI_GROUP_LINEAR * SDFGI_BOUNCE_BLOCKS,
     [PASS_LIGHT_MARK] = SDFGI_GROUP_LINEAR * 64, /* a light block, of 64 cells, for each thread */
     [PASS_PROBE_PLACE] = SDFGI_GROUP_PROBE,
     [PASS_PROBE_SUM] = SDFGI_GROUP_PROBE,
@@ -115,7 +127,8 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return (struct work_groups){ of_cascade.x, of_cascade.y, cascades };
     }
     case DOMAIN_ALL_LIGHT_CELLS:
-        return (struct work_groups){ groups_for(work->count, group), work->rows ? work->rows : cascades, 1 };
+        return software ? in_rows(groups_for(SDFGI_SEEN_BITS * (uint64_t)work->blocks, group))
+                        : all_light_cells(work, group, cascades);
     case DOMAIN_STORED_LIGHT:
         return in_rows(groups_for(stored_light(e), group));
     case DOMAIN_PIXELS:

@@ -6,8 +6,6 @@
  * frame would be on in all of them, or off. With 16 the mean of its light was 1.06 of what it should be. */
 #define EPOCH_FRAMES 17
 
-/* Entries in a word of seen cells: ranges of them begin with a word. */
-#define SEEN_BITS 32
 /* Frames for which a cell counts as seen. */
 #define SEEN_FRAMES 64
 
@@ -63,11 +61,12 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
 }
 
 /* Goes on with the seen cells of a cascade. Where they lie in the list is not known here: as many entries as
- * hold `most` of them, if they are spread evenly. */
+ * hold `most` of them, if they are spread evenly. Ranges of them begin with a word. */
 static void take_seen(struct gather_cursor *cursor, uint32_t entries, uint32_t seen, uint32_t most,
                       struct gather_range *range)
 {
-    const uint64_t span = most > 0 ? (uint64_t)entries * most / seen / SEEN_BITS * SEEN_BITS + SEEN_BITS : 0;
+    const uint64_t span =
+        most > 0 ? (uint64_t)entries * most / seen / SDFGI_SEEN_BITS * SDFGI_SEEN_BITS + SDFGI_SEEN_BITS : 0;
     const uint32_t first = cursor->seen_end < entries && span < entries ? cursor->seen_end : 0;
     cursor->seen_first = first;
     cursor->seen_end = first + span < entries ? first + (uint32_t)span : entries;
@@ -127,8 +126,10 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
     for (uint32_t c = 0; c < lists->cascades; c++)
         unsettled += !gathering->at[c].settled;
     for (uint32_t c = 0; c < lists->cascades; c++) {
-        if (gathering->at[c].settled)
+        if (gathering->at[c].settled) {
+            gathering->at[c].seen_first = gathering->at[c].seen_end = 0;
             continue;
+        }
         const uint32_t most = --unsettled > 0 ? (rest + 1) / 2 : rest;
         const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
         /* Where all cells have a visit in each frame there is nothing to choose. */
