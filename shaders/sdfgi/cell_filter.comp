@@ -2,6 +2,7 @@
  * The first run of the filter over light cells: see cell_filter.glsl. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "../lib/on_cpu.glsl"
 #define FILTER_DISTANCE         1
 #define FILTER_NOISE_SCALE      3.0

@@ -123,8 +123,10 @@ void main()
     uint entry;
 #ifdef SDFGI_SOFTWARE
     uint cascade, step = 0u;
-    while (visit_next(step, cascade, entry))
-        filter_cell(cascade, entry);
+    do
+        if (visit_next(step, cascade, entry))
+            filter_cell(cascade, entry);
+    while (step < VISIT_STEPS);
 #else
     if (visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, entry))
         filter_cell(visited_cascade(gl_WorkGroupID.y), entry);

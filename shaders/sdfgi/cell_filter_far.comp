@@ -3,6 +3,7 @@
  * like cells a third of the noise is left. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_SURFACES
 #include "../lib/on_cpu.glsl"
 #define FILTER_DISTANCE         2

@@ -9,6 +9,7 @@
  * of what is listed, so nothing counts twice. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "../lib/on_cpu.glsl"
 #ifdef SDFGI_SOFTWARE
 #include "cell_visit_alone.glsl"

@@ -73,8 +73,10 @@ void visit_cell(uint cascade)
 void visit()
 {
     uint cascade, step = 0u;
-    while (visit_next(step, cascade, visited.entry))
-        visit_cell(cascade);
+    do
+        if (visit_next(step, cascade, visited.entry))
+            visit_cell(cascade);
+    while (step < VISIT_STEPS);
 }
 
 #endif

@@ -162,7 +162,8 @@ void visit()
     const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
     uint first_seen = 0u, seen = 0u;
     if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count) {
-        seen = visited_seen(cascade, gl_WorkGroupID.x, first_seen);
+        first_seen = sdfgi_frame.cascades[cascade].seen_first + uint(SDFGI_SEEN_BITS) * gl_WorkGroupID.x;
+        seen = visited_seen(cascade, first_seen, visited_seen_end(cascade));
         if (uint(bitCount(seen)) <= first_seen_cell())
             return;
     }

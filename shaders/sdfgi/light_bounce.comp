@@ -5,6 +5,7 @@
  * A thread per light cell that visits.glsl tells, or per dirty light cell. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define SDFGI_WRITES_LIGHT
 #define SDFGI_WRITES_SURFACES
 #include "../lib/on_cpu.glsl"
@@ -137,7 +138,8 @@ bool next_cell(inout uint step, out uint cascade, out uint entry)
     if (args.only_dirty == 0u)
         return visit_next(step, cascade, entry);
     cascade = args.cascade;
-    return step++ == 0u && dirty_entry(entry);
+    step = VISIT_STEPS;
+    return dirty_entry(entry);
 }
 
 /* Goes on to the next cell that asks probes, or to the next one that does not. */
@@ -145,20 +147,25 @@ bool next_that_asks(bool asks, inout uint step, out uint cascade, out uint entry
 {
     bool found;
     do
-        found = next_cell(step, cascade, entry);
-    while (found && asks_probes(cascade, entry) != asks);
+        found = next_cell(step, cascade, entry) && asks_probes(cascade, entry) == asks;
+    while (!found && step < VISIT_STEPS);
     return found;
 }
 
-/* First those that do not, so that the others alone take the time that reading probes takes. */
-void main()
+void bounce_all(bool asks)
 {
     uint cascade, entry, step = 0u;
-    while (next_that_asks(false, step, cascade, entry))
-        bounce(cascade, entry, false);
-    step = 0u;
-    while (next_that_asks(true, step, cascade, entry))
-        bounce(cascade, entry, true);
+    do
+        if (next_that_asks(asks, step, cascade, entry))
+            bounce(cascade, entry, asks);
+    while (step < VISIT_STEPS);
+}
+
+/* Two loops, so that only cells that ask probes take the time that reading them takes. */
+void main()
+{
+    bounce_all(false);
+    bounce_all(true);
 }
 #else
 void main()

@@ -21,16 +21,21 @@ uint visited_bits_below(int n)
     return n < SDFGI_SEEN_BITS ? (1u << max(n, 0)) - 1u : ~0u;
 }
 
-/* Seen cells of a word that are visited beside the range: a bit for each, from the entry `first` on. */
-uint visited_seen(uint cascade, uint word, out uint first)
+/* Seen cells of a word that are visited beside the range: a bit for each entry from `first` to before `last`.
+ */
+uint visited_seen(uint cascade, uint first, uint last)
 {
-    first = sdfgi_frame.cascades[cascade].seen_first + uint(SDFGI_SEEN_BITS) * word;
-    const uint last = min(sdfgi_frame.cascades[cascade].seen_end, light_cell_count(cascade));
     if (first >= last)
         return 0u;
     const uint in_range = visited_bits_below(int(args.end[cascade] - first)) &
                           ~visited_bits_below(int(args.first[cascade] - first));
     return sdfgi_seen_at(seen_word(cascade, first)) & visited_bits_below(int(last - first)) & ~in_range;
+}
+
+/* The end of a cascade's entries of which those that are seen are visited. */
+uint visited_seen_end(uint cascade)
+{
+    return min(sdfgi_frame.cascades[cascade].seen_end, light_cell_count(cascade));
 }
 
 #ifdef SDFGI_SOFTWARE
@@ -45,58 +50,67 @@ uint visited_seen(uint cascade, uint word, out uint first)
 #endif
 
 struct visit_block {
-    uint row;   /* the ranges of all cascades, and then their seen cells */
-    uint index; /* of the block in its row; too large if there is no such block */
+    uint cascade;
+    uint first, end; /* entries */
+    bool seen;       /* only those that are seen, outside of the range */
 };
 
-uint visit_blocks_of(uint row)
+/* Takes the block with so many before it from entries that follow one another. `before` becomes less by those
+ * that are passed over. */
+void visit_block_take(inout visit_block block, inout int before, uint cascade, bool seen, uint first,
+                      uint end)
 {
-    const uint cascade = visited_cascade(row), bits = uint(SDFGI_SEEN_BITS);
-    return row < sdfgi_frame.cascade_count
-               ? (args.end[cascade] - args.first[cascade] + bits - 1u) / bits
-               : (sdfgi_frame.cascades[cascade].seen_end - sdfgi_frame.cascades[cascade].seen_first +
-                  bits * uint(SDFGI_SEEN_WORDS) - 1u) /
-                     (bits * uint(SDFGI_SEEN_WORDS));
+    const uint size = uint(SDFGI_SEEN_BITS) * (seen ? uint(SDFGI_SEEN_WORDS) : 1u);
+    const uint count = cascade < sdfgi_frame.cascade_count ? (end - first + size - 1u) / size : 0u;
+    if (before >= 0 && uint(before) < count)
+        block = visit_block(cascade, first + uint(before) * size, end, seen);
+    before -= int(count);
 }
 
+/* The block with so many before it: those of the ranges come first. Cascades are constants where loops are
+ * unrolled, so that all threads load together. Without entries if there is no such block. */
 visit_block visit_block_find(uint index)
 {
-    visit_block block = visit_block(0u, index);
-    for (uint row = 0u; row + 1u < 2u * sdfgi_frame.cascade_count; row++) {
-        const uint count = visit_blocks_of(row);
-        if (block.index < count)
-            break;
-        block = visit_block(row + 1u, block.index - count);
+    visit_block block = visit_block(0u, 0u, 0u, false);
+    int before = int(index);
+    [[unroll]] for (uint c = 0u; c < uint(SDFGI_MAX_CASCADES); c++)
+    {
+        visit_block_take(block, before, c, false, args.first[c], args.end[c]);
+    }
+    [[unroll]] for (uint c = 0u; c < uint(SDFGI_MAX_CASCADES); c++)
+    {
+        visit_block_take(block, before, c, true, sdfgi_frame.cascades[c].seen_first,
+                         sdfgi_frame.cascades[c].seen_end);
     }
     return block;
 }
 
-/* The entry that a thread visits in a step. False if there is none. */
-bool visit_step(uint step, out uint cascade, out uint entry)
+/* Words of seen cells of all of a thread's blocks. */
+#define VISIT_STEPS (VISIT_BLOCKS * uint(SDFGI_SEEN_WORDS))
+
+/* The entry that a thread visits in a step: one of a range, or one of a word of seen cells. False if there is
+ * none. Goes on to the next step, which is in the next block after an entry of a range. */
+bool visit_step(inout uint step, out uint cascade, out uint entry)
 {
-    const uint bits = uint(SDFGI_SEEN_BITS), lane = gl_LocalInvocationIndex % bits;
-    const uint turn = step / uint(SDFGI_SEEN_WORDS), k = step % uint(SDFGI_SEEN_WORDS);
-    const uint first_block = workgroup_index() * VISIT_BLOCKS + turn;
-    const visit_block block =
-        visit_block_find((first_block * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
-    cascade = visited_cascade(block.row);
-    if (block.row < sdfgi_frame.cascade_count) {
-        entry = args.first[cascade] + block.index * bits + lane;
-        return k == 0u && entry < min(args.end[cascade], light_cell_count(cascade));
-    }
-    uint first;
-    const uint seen = visited_seen(cascade, block.index * uint(SDFGI_SEEN_WORDS) + k, first);
+    const uint words = uint(SDFGI_SEEN_WORDS), bits = uint(SDFGI_SEEN_BITS),
+               lane = gl_LocalInvocationIndex % bits, k = step % words;
+    const uint turn = workgroup_index() * VISIT_BLOCKS + step / words;
+    const visit_block block = visit_block_find((turn * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
+    cascade = block.cascade;
+    const uint last = min(block.end, light_cell_count(cascade));
+    step += block.seen ? 1u : words;
     /* Words that hold few bits give them to different threads. */
-    const uint n = (lane + 8u * k) % bits;
-    entry = first + sdfgi_nth_bit(seen, n);
-    return n < uint(bitCount(seen));
+    const uint first = block.first + k * bits, n = (lane + 8u * k) % bits;
+    const uint seen = block.seen ? visited_seen(cascade, first, last) : 0u;
+    entry = block.seen ? first + sdfgi_nth_bit(seen, n) : block.first + lane;
+    return block.seen ? n < uint(bitCount(seen)) : entry < last;
 }
 
-/* Goes on to the next entry that a thread visits. False if there is none. */
+/* Goes on to the next entry that a thread visits, until `step` is VISIT_STEPS. False if there is none. */
 bool visit_next(inout uint step, out uint cascade, out uint entry)
 {
     bool found = false;
-    for (; !found && step < VISIT_BLOCKS * uint(SDFGI_SEEN_WORDS); step++)
+    while (!found && step < VISIT_STEPS)
         found = visit_step(step, cascade, entry);
     return found;
 }
@@ -113,8 +127,7 @@ bool visited_entry(uint row, uint n, out uint entry)
     if (row < sdfgi_frame.cascade_count)
         return entry < min(end, count);
     entry = sdfgi_frame.cascades[cascade].seen_first + n;
-    return entry < min(sdfgi_frame.cascades[cascade].seen_end, count) && (entry < first || entry >= end) &&
-           seen_holds(cascade, entry);
+    return entry < visited_seen_end(cascade) && (entry < first || entry >= end) && seen_holds(cascade, entry);
 }
 
 #endif

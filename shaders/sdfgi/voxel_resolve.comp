@@ -316,44 +316,104 @@ uvec2 resolve_emission(uint block, ivec3 first)
 
 /* ---- Blocks */
 
+uint samples_in(uint block)
+{
+    return accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
+           accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
+}
+
+bool emits(uint block)
+{
+    return emission_is_kept() && accumulated(SDFGI_ACCUM_EMISSION_AREA, block) > 0u;
+}
+
+uint out_index(ivec3 cell)
+{
+    return sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
+}
+
+/* Stores the surfaces of a block that has samples. */
+void store_surfaces(ivec3 cell, uint block)
+{
+    sdfgi_albedo[out_index(cell)] = resolve_albedo(block);
+    sdfgi_normals[out_index(cell)] = resolve_normals(block, samples_in(block));
+    if (args.bounds_axis >= 0)
+        bounds_add(args.cascade, BOUNDS_ADDED, args.bounds_axis, cell, cell + 2);
+}
+
+void store_no_surfaces(ivec3 cell)
+{
+    sdfgi_albedo[out_index(cell)] = uvec2(0u);
+    sdfgi_normals[out_index(cell)] = SURFACE_NO_NORMALS;
+}
+
+/* The first cell of the i-th block. False if there is none. */
+bool block_at(uint i, out ivec3 cell)
+{
+    const uvec3 size = uvec3(args.high - args.low) / 2u;
+    cell = args.low + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    return i < size.x * size.y * size.z;
+}
+
+#ifdef SDFGI_SOFTWARE
+/* Software drivers run what is under a condition in any case, but a loop only as often as one of its threads
+ * needs. Most blocks have no samples: a thread looks at several, and resolves those that have. */
+void main()
+{
+    const uint first =
+        SDFGI_RESOLVE_BLOCKS * SDFGI_GROUP_LINEAR * workgroup_index() + gl_LocalInvocationIndex;
+    ivec3 cell;
+    uint filled = 0u, emissive = 0u, voxels = 0u;
+    for (uint k = SDFGI_ZERO; k < SDFGI_RESOLVE_BLOCKS; k++) {
+        if (!block_at(first + k * SDFGI_GROUP_LINEAR, cell))
+            break;
+        const uint block = part_block(resolved_part(), cell), samples = samples_in(block);
+        store_no_surfaces(cell);
+        sdfgi_emission[out_index(cell)] = uvec2(0u);
+        filled |= uint(samples > 0u) << k;
+        emissive |= uint(emits(block)) << k;
+        voxels += samples;
+    }
+    for (; filled != 0u; filled &= filled - 1u) {
+        block_at(first + uint(findLSB(filled)) * SDFGI_GROUP_LINEAR, cell);
+        store_surfaces(cell, part_block(resolved_part(), cell));
+    }
+    for (; emissive != 0u; emissive &= emissive - 1u) {
+        block_at(first + uint(findLSB(emissive)) * SDFGI_GROUP_LINEAR, cell);
+        sdfgi_emission[out_index(cell)] = resolve_emission(part_block(resolved_part(), cell), cell);
+    }
+    if (voxels > 0u)
+        counter_add(SDFGI_COUNTER_VOXELS, voxels);
+}
+#else
 /* Samples in the blocks of the workgroup, so that one atomic adds them to the counter. */
 shared uint voxels;
 
 void resolve(ivec3 cell)
 {
-    const uint block = part_block(resolved_part(), cell);
-    const uint count = accumulated(SDFGI_ACCUM_NORMAL, block) + accumulated(SDFGI_ACCUM_NORMAL + 3u, block) +
-                       accumulated(SDFGI_ACCUM_NORMAL + 6u, block);
-    const uint out_index =
-        sdfgi_albedo_block_index(args.cascade, cell) + args.cascade * sdfgi_albedo_block_count();
-    uvec2 albedo = uvec2(0u), emission = uvec2(0u);
-    uint normals = SURFACE_NO_NORMALS;
-    if (count > 0u) {
-        albedo = resolve_albedo(block);
-        normals = resolve_normals(block, count);
-    }
-    if (emission_is_kept() && accumulated(SDFGI_ACCUM_EMISSION_AREA, block) > 0u)
+    const uint block = part_block(resolved_part(), cell), samples = samples_in(block);
+    if (samples > 0u)
+        store_surfaces(cell, block);
+    else
+        store_no_surfaces(cell);
+    uvec2 emission = uvec2(0u);
+    if (emits(block))
         emission = resolve_emission(block, cell);
-    sdfgi_albedo[out_index] = albedo;
-    sdfgi_emission[out_index] = emission;
-    sdfgi_normals[out_index] = normals;
-    if (count == 0u)
-        return;
-    atomicAdd(voxels, count);
-    if (args.bounds_axis >= 0)
-        bounds_add(args.cascade, BOUNDS_ADDED, args.bounds_axis, cell, cell + 2);
+    sdfgi_emission[out_index(cell)] = emission;
+    if (samples > 0u)
+        atomicAdd(voxels, samples);
 }
 
 void main()
 {
-    const uvec3 size = uvec3(args.high - args.low) / 2u;
-    const uint i = workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     if (gl_LocalInvocationIndex == 0u)
         voxels = 0u;
     barrier();
-    if (i < size.x * size.y * size.z)
-        resolve(args.low + 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
+    ivec3 cell;
+    if (block_at(workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex, cell))
+        resolve(cell);
     barrier();
     if (gl_LocalInvocationIndex == 0u && voxels > 0u)
         counter_add(SDFGI_COUNTER_VOXELS, voxels);
 }
+#endif

@@ -101,6 +101,7 @@
 #define SDFGI_GROUP_CELLS       4  /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR      64 /* one thread per element of a list */
 #define SDFGI_CELLS_OF_SURFACES 16 /* light cells that a workgroup lights directly */
+#define SDFGI_RESOLVE_BLOCKS    16 /* albedo blocks of a thread of voxel_resolve on software drivers */
 #define SDFGI_BOUNCE_BLOCKS     4  /* light cells of a thread of light_bounce on software drivers, about */
 #define SDFGI_GROUP_SURFACES    (6 * SDFGI_CELLS_OF_SURFACES) /* one thread per axis of a light cell */
 #define SDFGI_GROUP_LINES       128 /* threads that share SDFGI_LINES lines of cells, or a layer */

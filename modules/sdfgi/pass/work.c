@@ -28,7 +28,8 @@ bool sdfgi_work_has(const struct work_list *list, enum pass pass)
     return false;
 }
 
-/* Workgroups that share a row of light blocks: along the ground it holds a thousand cells. */
+/* Workgroups that share a row of light blocks: along the ground it holds a thousand cells. On software
+ * drivers one has the row: most rows hold no cell, and each workgroup takes its time nevertheless. */
 #define LIST_SHARES 4
 
 static uint32_t groups_for(uint64_t elements, uint64_t per_group)
@@ -75,6 +76,7 @@ static struct work_groups all_light_cells(const struct work *work, uint32_t grou
 /* Elements that a workgroup takes on software drivers, where each of its threads does alone what a workgroup
  * shares elsewhere, or what several of its threads do; 0: as many as elsewhere. */
 static const uint32_t software_groups[PASS_COUNT] = {
+    [PASS_VOXEL_RESOLVE] = 8 * SDFGI_GROUP_LINEAR * SDFGI_RESOLVE_BLOCKS,
     [PASS_DISTANCE_PLANE] = 2 * SDFGI_LINES, /* two lines for each thread */
     [PASS_DISTANCE_EXACT] = 2 * SDFGI_LINES,
     [PASS_CELL_GATHER] = SDFGI_SEEN_BITS,
@@ -121,7 +123,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_LIGHT_BLOCKS:
         return (struct work_groups){ in_rows(groups_for(work->count, group)).x, 1, 1 };
     case DOMAIN_LIGHT_ROWS:
-        return (struct work_groups){ (uint32_t)(e->cells / 64 / group), LIST_SHARES, 1 };
+        return (struct work_groups){ (uint32_t)(e->cells / 64 / group), software ? 1 : LIST_SHARES, 1 };
     case DOMAIN_LIGHT_CELLS: {
         const struct work_groups of_cascade = in_rows(groups_for(work->count, group));
         return (struct work_groups){ of_cascade.x, of_cascade.y, cascades };
