@@ -160,12 +160,17 @@ void main()
 {
     if (gl_LocalInvocationIndex == 0u)
         listed_count = 0u;
-    /* First samples, then listed pixels. A loop, so that drivers compile the lookup once. */
+    /* First samples, then listed pixels. A loop, so that drivers compile the lookup once. The loop in it asks
+     * at its end: software drivers would go round once more with a lookup for nothing. */
     [[dont_unroll]] for (uint part = 0u; part < 2u; part++)
     {
         const uint count = part == 0u ? SAMPLES : listed_count;
-        for (uint i = gl_LocalInvocationIndex; i < count; i += SAMPLES)
-            look_up(part == 0u, i);
+        uint i = gl_LocalInvocationIndex;
+        do {
+            if (i < count)
+                look_up(part == 0u, i);
+            i += SAMPLES;
+        } while (i < count);
         barrier();
         if (part == 0u)
             tile_interpolate();
