@@ -122,11 +122,9 @@ void main()
 {
     uint entry;
 #ifdef SDFGI_SOFTWARE
-    uint cascade, step = 0u;
-    do
-        if (visit_next(step, cascade, entry))
-            filter_cell(cascade, entry);
-    while (step < VISIT_STEPS);
+    uint cascade;
+    if (visit_entry(0u, cascade, entry))
+        filter_cell(cascade, entry);
 #else
     if (visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, entry))
         filter_cell(visited_cascade(gl_WorkGroupID.y), entry);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A thread visits cells alone, one after another, for software drivers: where threads wait for one another,
+ * A thread visits a cell alone, for software drivers: where threads wait for one another,
  * these drivers keep all variables in memory, and they read shared memory for one thread after another. */
 #ifndef SDFGI_CELL_VISIT_ALONE_GLSL
 #define SDFGI_CELL_VISIT_ALONE_GLSL
@@ -72,11 +72,9 @@ void visit_cell(uint cascade)
 
 void visit()
 {
-    uint cascade, step = 0u;
-    do
-        if (visit_next(step, cascade, visited.entry))
-            visit_cell(cascade);
-    while (step < VISIT_STEPS);
+    uint cascade;
+    if (visit_entry(0u, cascade, visited.entry))
+        visit_cell(cascade);
 }
 
 #endif

@@ -132,33 +132,34 @@ bool dirty_entry(out uint entry)
 }
 
 #ifdef SDFGI_SOFTWARE
-/* As visit_next. A thread has one dirty cell at most. */
-bool next_cell(inout uint step, out uint cascade, out uint entry)
+/* The cell of a thread's k-th block. A thread has one dirty cell at most. */
+bool cell_of_block(uint k, out uint cascade, out uint entry)
 {
     if (args.only_dirty == 0u)
-        return visit_next(step, cascade, entry);
+        return visit_entry(k, cascade, entry);
     cascade = args.cascade;
-    step = VISIT_STEPS;
-    return dirty_entry(entry);
+    return k == 0u && dirty_entry(entry);
 }
 
-/* Goes on to the next cell that asks probes, or to the next one that does not. */
-bool next_that_asks(bool asks, inout uint step, out uint cascade, out uint entry)
+/* Goes on to the next cell that asks probes, or to the next one that does not. False if there is none. */
+bool next_cell(bool asks, inout uint k, out uint cascade, out uint entry)
 {
-    bool found;
-    do
-        found = next_cell(step, cascade, entry) && asks_probes(cascade, entry) == asks;
-    while (!found && step < VISIT_STEPS);
+    const uint blocks = args.only_dirty != 0u ? 1u : VISIT_BLOCKS;
+    bool found = false;
+    for (; !found && k < blocks; k++)
+        found = cell_of_block(k, cascade, entry) && asks_probes(cascade, entry) == asks;
+    k = k < blocks ? k : VISIT_BLOCKS;
     return found;
 }
 
+/* Asks at its end: a loop that asks at its beginning goes round once more on these drivers, for nothing. */
 void bounce_all(bool asks)
 {
-    uint cascade, entry, step = 0u;
+    uint cascade, entry, k = 0u;
     do
-        if (next_that_asks(asks, step, cascade, entry))
+        if (next_cell(asks, k, cascade, entry))
             bounce(cascade, entry, asks);
-    while (step < VISIT_STEPS);
+    while (k < VISIT_BLOCKS);
 }
 
 /* Two loops, so that only cells that ask probes take the time that reading them takes. */

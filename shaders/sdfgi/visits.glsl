@@ -40,9 +40,10 @@ uint visited_seen_end(uint cascade)
 
 #ifdef SDFGI_SOFTWARE
 
-/* Software drivers run what is under a condition in any case, but a loop only as often as one of its threads
- * needs: few threads may have nothing to do. As many threads as a word has bits take the entries of a block:
- * those of a range that follow one another, or SDFGI_SEEN_WORDS words of seen cells. */
+/* Software drivers run the whole shader for threads that have nothing to do, too: there are to be few. As
+ * many threads as a word has bits take the entries of a block: those of a range that follow one another, or
+ * those of a word that are seen. A thread of cell_gather has one entry: these drivers end a shader whose
+ * loops go round too often. */
 
 /* Blocks for a thread. */
 #ifndef VISIT_BLOCKS
@@ -60,7 +61,7 @@ struct visit_block {
 void visit_block_take(inout visit_block block, inout int before, uint cascade, bool seen, uint first,
                       uint end)
 {
-    const uint size = uint(SDFGI_SEEN_BITS) * (seen ? uint(SDFGI_SEEN_WORDS) : 1u);
+    const uint size = uint(SDFGI_SEEN_BITS);
     const uint count = cascade < sdfgi_frame.cascade_count ? (end - first + size - 1u) / size : 0u;
     if (before >= 0 && uint(before) < count)
         block = visit_block(cascade, first + uint(before) * size, end, seen);
@@ -85,34 +86,18 @@ visit_block visit_block_find(uint index)
     return block;
 }
 
-/* Words of seen cells of all of a thread's blocks. */
-#define VISIT_STEPS (VISIT_BLOCKS * uint(SDFGI_SEEN_WORDS))
-
-/* The entry that a thread visits in a step: one of a range, or one of a word of seen cells. False if there is
- * none. Goes on to the next step, which is in the next block after an entry of a range. */
-bool visit_step(inout uint step, out uint cascade, out uint entry)
+/* The entry that a thread visits in its k-th block. False if there is none. */
+bool visit_entry(uint k, out uint cascade, out uint entry)
 {
-    const uint words = uint(SDFGI_SEEN_WORDS), bits = uint(SDFGI_SEEN_BITS),
-               lane = gl_LocalInvocationIndex % bits, k = step % words;
-    const uint turn = workgroup_index() * VISIT_BLOCKS + step / words;
-    const visit_block block = visit_block_find((turn * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
+    const uint bits = uint(SDFGI_SEEN_BITS), lane = gl_LocalInvocationIndex % bits;
+    const uint groups = workgroup_index() * VISIT_BLOCKS + k;
+    const visit_block block =
+        visit_block_find((groups * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
     cascade = block.cascade;
     const uint last = min(block.end, light_cell_count(cascade));
-    step += block.seen ? 1u : words;
-    /* Words that hold few bits give them to different threads. */
-    const uint first = block.first + k * bits, n = (lane + 8u * k) % bits;
-    const uint seen = block.seen ? visited_seen(cascade, first, last) : 0u;
-    entry = block.seen ? first + sdfgi_nth_bit(seen, n) : block.first + lane;
-    return block.seen ? n < uint(bitCount(seen)) : entry < last;
-}
-
-/* Goes on to the next entry that a thread visits, until `step` is VISIT_STEPS. False if there is none. */
-bool visit_next(inout uint step, out uint cascade, out uint entry)
-{
-    bool found = false;
-    while (!found && step < VISIT_STEPS)
-        found = visit_step(step, cascade, entry);
-    return found;
+    const uint seen = block.seen ? visited_seen(cascade, block.first, last) : 0u;
+    entry = block.first + (block.seen ? sdfgi_nth_bit(seen, lane) : lane);
+    return block.seen ? lane < uint(bitCount(seen)) : entry < last;
 }
 
 #else

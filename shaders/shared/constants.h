@@ -73,8 +73,6 @@
 #define SDFGI_VISIT_CELLS  8
 /* Entries whose bits of seen cells share a word. */
 #define SDFGI_SEEN_BITS    32
-/* Words of seen cells that are visited together on software drivers. */
-#define SDFGI_SEEN_WORDS   4
 
 /* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)

@@ -26,9 +26,9 @@ static bool probes_are_dark(const struct plan_stage *stage)
            stage->frame->next.accumulation.phase == LIGHTING_DARK;
 }
 
-static uint32_t blocks(uint32_t entries, uint32_t per_block)
+static uint32_t blocks(uint32_t entries)
 {
-    return (entries + per_block - 1) / per_block;
+    return (entries + SDFGI_SEEN_BITS - 1) / SDFGI_SEEN_BITS;
 }
 
 /* Lets a pass run over ranges of all cascades, and over the seen cells of each. `first` and `end` are those
@@ -43,8 +43,7 @@ static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES]
         end[range->cascade] = range->first + range->count;
         work->count = range->count > work->count ? range->count : work->count;
         work->seen = range->seen_span > work->seen ? range->seen_span : work->seen;
-        work->blocks += blocks(range->count, SDFGI_SEEN_BITS) +
-                        blocks(range->seen_span, SDFGI_SEEN_BITS * SDFGI_SEEN_WORDS);
+        work->blocks += blocks(range->count) + blocks(range->seen_span);
         work->units += range->count + range->seen_count;
     }
 }
