@@ -86,11 +86,20 @@ visit_block visit_block_find(uint index)
     return block;
 }
 
+/* Numbers workgroups so that those in a row are far apart: these drivers give each processor a part of them,
+ * in a row, and blocks of seen cells have less to do than others. */
+uint visit_group()
+{
+    const uint parts = uint(SDFGI_VISIT_PARTS),
+               part = max(gl_NumWorkGroups.x * gl_NumWorkGroups.y / parts, 1u);
+    return workgroup_index() % part * parts + workgroup_index() / part;
+}
+
 /* The entry that a thread visits in its k-th block. False if there is none. */
 bool visit_entry(uint k, out uint cascade, out uint entry)
 {
     const uint bits = uint(SDFGI_SEEN_BITS), lane = gl_LocalInvocationIndex % bits;
-    const uint groups = workgroup_index() * VISIT_BLOCKS + k;
+    const uint groups = visit_group() * VISIT_BLOCKS + k;
     const visit_block block =
         visit_block_find((groups * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
     cascade = block.cascade;

@@ -73,6 +73,15 @@ static struct work_groups all_light_cells(const struct work *work, uint32_t grou
                                  1 };
 }
 
+/* The same on software drivers: blocks of all cascades. As many workgroups as make whole parts, in rows, too.
+ */
+static struct work_groups blocks_of_light_cells(uint32_t blocks, uint32_t group)
+{
+    const uint32_t parts = SDFGI_VISIT_PARTS, most = SDFGI_MAX_GROUPS / parts * parts,
+                   groups = groups_for(SDFGI_SEEN_BITS * (uint64_t)blocks, (uint64_t)group * parts) * parts;
+    return (struct work_groups){ groups < most ? groups : most, groups_for(groups, most), 1 };
+}
+
 /* Elements that a workgroup takes on software drivers, where each of its threads does alone what a workgroup
  * shares elsewhere, or what several of its threads do; 0: as many as elsewhere. */
 static const uint32_t software_groups[PASS_COUNT] = {
@@ -129,8 +138,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return (struct work_groups){ of_cascade.x, of_cascade.y, cascades };
     }
     case DOMAIN_ALL_LIGHT_CELLS:
-        return software ? in_rows(groups_for(SDFGI_SEEN_BITS * (uint64_t)work->blocks, group))
-                        : all_light_cells(work, group, cascades);
+        return software ? blocks_of_light_cells(work->blocks, group) : all_light_cells(work, group, cascades);
     case DOMAIN_STORED_LIGHT:
         return in_rows(groups_for(stored_light(e), group));
     case DOMAIN_PIXELS:
