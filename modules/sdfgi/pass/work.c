@@ -73,8 +73,7 @@ static struct work_groups all_light_cells(const struct work *work, uint32_t grou
                                  1 };
 }
 
-/* The same on software drivers: blocks of all cascades. As many workgroups as make whole parts, in rows, too.
- */
+/* The same on software drivers: blocks of all cascades, in workgroups that make whole parts. */
 static struct work_groups blocks_of_light_cells(uint32_t blocks, uint32_t group)
 {
     const uint32_t parts = SDFGI_VISIT_PARTS, most = SDFGI_MAX_GROUPS / parts * parts,
