@@ -169,7 +169,7 @@ static void what_a_picture_shows_is_visited_first(void **state)
         struct picture_scene scene;
         struct progress found[2] = { { 0 } };
         open_ground(&t, &scene);
-        const struct picture picture = picture_draw(&scene, &above, 64, 64);
+        const struct picture picture = picture_draw(&scene, &above, 68, 68);
         for (int i = 0; i < FRAMES; i++) {
             gi_test_update(&t, 1);
             if (looks)

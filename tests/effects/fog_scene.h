@@ -6,7 +6,7 @@
 
 #include "host.h"
 
-enum { FOG_WIDTH = 96, FOG_HEIGHT = 64, FOG_PIXELS = FOG_WIDTH * FOG_HEIGHT };
+enum { FOG_WIDTH = 96, FOG_HEIGHT = 72, FOG_PIXELS = FOG_WIDTH * FOG_HEIGHT };
 
 struct fog_box {
     double center[3], size[3];

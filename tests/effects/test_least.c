@@ -70,7 +70,7 @@ static void a_step_works_on_its_slab_alone(void **state)
  * shows light. */
 static uint32_t cells_seen(struct gi_test *t, float depth, bool *lit)
 {
-    enum { SIDE = 32 };
+    enum { SIDE = 36 };
     static float depths[SIDE * SIDE], normals[SIDE * SIDE][4];
     static uint16_t found[SIDE * SIDE][4];
     for (int i = 0; i < SIDE * SIDE; i++) {

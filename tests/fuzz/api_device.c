@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { COPY_BYTES = 32 * 32 * 32 * 8, SIDE = 8 };
+enum { COPY_BYTES = 32 * 32 * 32 * 8, TEXELS = 8 };
 
 /* ---- Memory ----------------------------------------------------------------------------------------- */
 
@@ -118,21 +118,23 @@ static void make_shape(struct api_device *device, struct gi_test *t, uint32_t in
 void api_device_open(struct api_device *device, struct gi_test *t)
 {
     static const double center[3], half[3] = { 0.9, 0.35, 0.6 }, u[3] = { 0, 0, 1.5 }, v[3] = { 1.5, 0, 0 };
-    static float ones[4 * SIDE * SIDE];
-    static uint8_t texels[4 * SIDE * SIDE];
+    static float halves[4 * API_PICTURE * API_PICTURE];
+    static uint8_t texels[4 * TEXELS * TEXELS];
     make_shape(device, t, 0, test_mesh_box(center, half, test_rotation_none));
     make_shape(device, t, 1, test_mesh_sphere(center, 0.8, 1));
     make_shape(device, t, 2, test_mesh_torus(center, 0.9, 0.3, test_rotation_none, 8, 4));
     make_shape(device, t, 3, test_mesh_plane(center, u, v, 2));
     device->copy = gpu_test_buffer_host(&t->gpu, COPY_BYTES, 0, NULL);
-    for (int i = 0; i < 4 * SIDE * SIDE; i++) {
-        ones[i] = 0.5f;
+    for (int i = 0; i < 4 * API_PICTURE * API_PICTURE; i++)
+        halves[i] = 0.5f;
+    for (int i = 0; i < 4 * TEXELS * TEXELS; i++)
         texels[i] = (uint8_t)(37 * i);
-    }
-    device->depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, ones);
-    device->normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, SIDE, SIDE, ones);
-    device->output = gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, SIDE, SIDE, NULL);
-    device->texture = gi_test_gather_image(t, VK_FORMAT_R8G8B8A8_UNORM, 4, SIDE, SIDE, texels);
+    device->depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, API_PICTURE, API_PICTURE, halves);
+    device->normal =
+        gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, API_PICTURE, API_PICTURE, halves);
+    device->output =
+        gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, API_PICTURE, API_PICTURE, NULL);
+    device->texture = gi_test_gather_image(t, VK_FORMAT_R8G8B8A8_UNORM, 4, TEXELS, TEXELS, texels);
 }
 
 void api_device_close(struct api_device *device, struct gi_test *t)

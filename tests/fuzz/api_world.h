@@ -13,7 +13,8 @@ enum {
     API_MATERIALS = 6,
     API_LIGHTS = 5,
     API_INSTANCES = 14,
-    API_STALE = 16
+    API_STALE = 16,
+    API_PICTURE = 24 /* pixels along a side of what is gathered and drawn */
 };
 
 /* What the host has made, as it would make it again. */

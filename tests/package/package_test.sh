@@ -166,7 +166,7 @@ if ls /usr/include/cglm/cglm.h >/dev/null 2>&1; then
             -o forward forward_host.cpp sample_*.o $shared $vulkan -lm
     }
     for host in forward deferred; do
-        quietly "the $host host's picture" env LD_LIBRARY_PATH="$libdir" ./$host --size 64x48 --gi off \
+        quietly "the $host host's picture" env LD_LIBRARY_PATH="$libdir" ./$host --size 72x48 --gi off \
             --out $host.ppm
         "$picture_colors" $host.ppm || fail "the picture of the $host host shows a single colour"
     done

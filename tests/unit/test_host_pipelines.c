@@ -88,7 +88,7 @@ static void stage_open(struct stage *stage, const char *materials, int count, en
     stage->scene = host_scene_create(device, stage->gltf, &view);
     assert_non_null(stage->scene);
     const struct host_renderer_desc desc = {
-        .width = 8, .height = 8, .settings = &stage->settings, .lookups = { lookup, HOST_LOOKUP_FULL }
+        .width = 24, .height = 24, .settings = &stage->settings, .lookups = { lookup, HOST_LOOKUP_FULL }
     };
     stage->renderer = host_renderer_create(device, stage->scene, &desc);
     if (!stage->renderer)

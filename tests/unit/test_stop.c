@@ -114,7 +114,7 @@ static void a_run_without_results_ends_at_once(void **state)
         skip();
     struct run run = { .code = 0 };
     for (double delay_s = 0.02; delay_s < longest_delay_s && run.code != 128 + SIGTERM; delay_s *= 1.5) {
-        const pid_t child = start("render tiny.gltf --gi off --size 8x8 --frames 1000000 --out a.png");
+        const pid_t child = start("render tiny.gltf --gi off --size 24x24 --frames 1000000 --out a.png");
         sleep_s(delay_s);
         run = stop(child, SIGTERM);
     }
@@ -127,7 +127,7 @@ static void a_picture_shows_the_light_that_there_was(void **state)
     (void)state;
     if (!has_device())
         skip();
-    stop_at_work("render tiny.gltf --gi off --size 8x8 --frames 1000000 --report r.json --out a.png", 1,
+    stop_at_work("render tiny.gltf --gi off --size 24x24 --frames 1000000 --report r.json --out a.png", 1,
                  SIGINT);
     run_in_folder("test -s a.png && grep -q '\"frames\":.*[1-9]' r.json && rm a.png r.json");
     assert_int_equal(files_count(), 1);
@@ -139,8 +139,9 @@ static void a_walk_keeps_its_frames(void **state)
     if (!has_device())
         skip();
     files_write_text("path.json", "{\"points\":[[0,0,2],[10,0,2]]}");
-    static const char arguments[] = "walk tiny.gltf --path path.json --set enabled=false --hold 0 --size 8x8 "
-                                    "--frames 100000 --every 100000 --out w";
+    static const char arguments[] =
+        "walk tiny.gltf --path path.json --set enabled=false --hold 0 --size 24x24 "
+        "--frames 100000 --every 100000 --out w";
     const double begin_s = now_s();
     const pid_t child = start(arguments);
     while (access(files_path("w/frame_000000.off.png"), F_OK) != 0 && now_s() - begin_s < longest_delay_s)
