@@ -171,8 +171,9 @@ void tour_run(struct tour *tour, const struct step *steps, uint32_t count)
     char error[512] = "";
     struct host_view view;
     host_view_default(&view);
+    /* Beside the floor, which begins about where the panel ends: sky takes less time. */
     view.camera = (struct host_camera){
-        .position = { 0.4, 1, 1.6 }, .look_at = { 0.4, 0.2, 0 }, .up = { 0, 1, 0 }, .yfov_rad = 1.4f
+        .position = { -2.3, 1, 1.6 }, .look_at = { -2.3, 0.2, 0 }, .up = { 0, 1, 0 }, .yfov_rad = 1.4f
     };
     view.emissive_scale = 0;
     for (int i = 0; i < 3; i++)
