@@ -6,6 +6,7 @@
 
 #include "host.h"
 
+/* Whole tiles of froxels along both sides. */
 enum { FOG_WIDTH = 96, FOG_HEIGHT = 72, FOG_PIXELS = FOG_WIDTH * FOG_HEIGHT };
 
 struct fog_box {

@@ -381,7 +381,7 @@ static void fog_follows_what_changes(void **state)
     host_renderer_get_settings(stage.renderer, &settings);
     settings.enabled = true;
     assert_true(host_renderer_set_settings(stage.renderer, &settings));
-    assert_true(host_renderer_resize(stage.renderer, 39, 31));
+    assert_true(host_renderer_resize(stage.renderer, 39, 31)); /* no whole tiles of froxels */
     assert_true(host_renderer_frame(stage.renderer, &stage.camera));
     fog_stage_read(&stage, picture);
     REQUIRE_NEAR(picture[0], 2, 0.02);

@@ -24,7 +24,7 @@ struct rectangle {
 
 struct reference {
     const char *folder, *file, *name;
-    uint32_t spp, full_spp; /* samples per pixel; the larger number, with which each pixel is compared */
+    uint32_t spp, full_spp; /* samples per pixel; the larger number, with which pixels are compared */
     struct rectangle mask;  /* left out of the comparison */
     double noise;           /* relMSE of the reference against its own expectation, as published with it */
 };
