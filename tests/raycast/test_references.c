@@ -30,14 +30,14 @@ struct reference {
 };
 
 /* living_room: the pillar at the window, whose faces coincide. */
-static const struct reference cornell = { "cornell", "cornell.glb", "cornell", 32, 2048, { 0 }, 0.0002 };
+static const struct reference cornell = { "cornell", "cornell.glb", "cornell", 32, 512, { 0 }, 0.0002 };
 static const struct reference living_room = {
     "living_room", "living_room.glb", "living_room", 32, 0, { 136, 24, 176, 120 }, 0
 };
 static const struct reference two_rooms_lit = { "two_rooms", "two_rooms.glb", "two_rooms_lit", 48,
-                                                1536,        { 0 },           0.0009 };
+                                                768,         { 0 },           0.0009 };
 static const struct reference two_rooms_dark = {
-    "two_rooms", "two_rooms.glb", "two_rooms_dark", 8, 512, { 0 }, 0
+    "two_rooms", "two_rooms.glb", "two_rooms_dark", 8, 128, { 0 }, 0
 };
 static const struct reference glossy = {
     "glossy_emissive", "DepthOfFieldExample.glb", "glossy_emissive", 64, 0, { 0 }, 0
