@@ -90,8 +90,8 @@
       | R(INDIRECT) | R(EMITTERS), R(RAYS))                                                                  \
     X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(ALBEDO)    \
-      | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(SEEN) | R(INDIRECT),   \
-      R(GATHERED))                                                                                           \
+      | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(INDIRECT),             \
+      R(SEEN) | R(GATHERED))                                                                                 \
     X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
       ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
       R(SEEN) | R(INDIRECT), R(GATHERED))                                                                    \

@@ -10,6 +10,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#define SDFGI_WRITES_SEEN
 #include "../lib/on_cpu.glsl"
 #ifdef SDFGI_SOFTWARE
 #include "cell_visit_alone.glsl"

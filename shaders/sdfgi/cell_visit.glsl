@@ -26,6 +26,7 @@ struct visited_cell {
     uint entry;
     gathered_state state; /* with which the visit begins */
     float importance;     /* of all emitters, for the cell */
+    bool watched;         /* what its rays hit is marked */
 };
 
 /* What a visit has found, of all surfaces of a cell. */
@@ -176,6 +177,16 @@ vec3 place_before(uint cascade, vec3 from, vec3 dir, sdfgi_trace_hit hit)
     return clamp(sdfgi_cascade_from_first(hit.cascade, at), low, high);
 }
 
+/* Marks the light cell that a ray of a watched cell hits, for one ray of eight: most are hit by many. */
+void mark_hit(ray_source source, uint index, uint cascade, uint entry)
+{
+    if (!cell_of(source.own).watched || (sdfgi_random_hash(source.shift + index) & 7u) != 0u)
+        return;
+    const uint bit = 1u << entry % uint(SDFGI_SEEN_BITS);
+    if ((atomicOr(sdfgi_seen[hit_word(true, cascade, entry)], bit) & bit) == 0u)
+        atomicAdd(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELLS_HIT + cascade)], 1u);
+}
+
 /* Light at the end of a ray, the `index`-th of a cycle: 0 in a if the surface that it hit has no light cell.
  * One loop, so that drivers compile the ray once. */
 vec4 send_random_ray(uint cascade, ray_source source, uint index)
@@ -200,6 +211,7 @@ vec4 send_random_ray(uint cascade, ray_source source, uint index)
     uint entry;
     if (!hit.has_cell || !sdfgi_cell_entry(hit.cascade, hit.cell, entry))
         return vec4(0.0);
+    mark_hit(source, index, hit.cascade, entry);
     const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(hit.cascade, entry, hit.axis)));
     return vec4(light + share * leaving, 1.0);
 }

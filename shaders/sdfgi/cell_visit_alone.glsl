@@ -62,6 +62,7 @@ void visit_cell(uint cascade)
         return;
     notes = visit_notes(0.0, 0.0, 0.0);
     visited.state = state_of_visit(cascade, visited.entry);
+    visited.watched = watched_holds(cascade, visited.entry);
     visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint surface = uint(findLSB(left));

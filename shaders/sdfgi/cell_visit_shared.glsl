@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Four share those of 32 in a row that are seen
+ * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Four share those of 32 in a row that are watched
  * (visits.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so that
  * sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
 #ifndef SDFGI_CELL_VISIT_SHARED_GLSL
@@ -106,30 +106,31 @@ vec4 light_of_rays(uint first, uint rays)
     return visit_mean(light);
 }
 
-/* The first of the seen cells of a word that the workgroup visits: workgroups of as many rows share them. */
-uint first_seen_cell()
+/* The first of the watched cells of a word that the workgroup visits: workgroups of as many rows share them.
+ */
+uint first_watched_cell()
 {
     return CELLS * (gl_WorkGroupID.y / sdfgi_frame.cascade_count - 1u);
 }
 
 /* Entry of the own-th cell that the workgroup visits. False if there is none. */
-bool find_entry(uint cascade, uint own, uint seen, uint first_seen, out uint entry)
+bool find_entry(uint cascade, uint own, uint watched, uint first_watched, out uint entry)
 {
     entry = args.first[cascade] + gl_WorkGroupID.x * CELLS + own;
     if (gl_WorkGroupID.y < sdfgi_frame.cascade_count)
         return entry < min(args.end[cascade], light_cell_count(cascade));
-    if (first_seen_cell() + own >= uint(bitCount(seen)))
+    if (first_watched_cell() + own >= uint(bitCount(watched)))
         return false;
-    entry = first_seen + sdfgi_nth_bit(seen, first_seen_cell() + own);
+    entry = first_watched + sdfgi_nth_bit(watched, first_watched_cell() + own);
     return entry < light_cell_count(cascade);
 }
 
 /* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */
-void find_surfaces(uint cascade, uint seen, uint first_seen)
+void find_surfaces(uint cascade, uint watched, uint first_watched)
 {
     const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u;
     uint entry;
-    const bool visited = own < CELLS && find_entry(cascade, own, seen, first_seen, entry);
+    const bool visited = own < CELLS && find_entry(cascade, own, watched, first_watched, entry);
     ivec3 cell = ivec3(0);
     if (visited)
         cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
@@ -139,8 +140,10 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
         cells[own].entry = entry;
         notes[own] = uvec3(0u);
         facing[own] = 0u;
-        if (there)
+        if (there) {
             cells[own].state = state_of_visit(cascade, entry);
+            cells[own].watched = watched_holds(cascade, entry);
+        }
     }
     barrier();
     if (there && axis < 6u && light_cell_faces(cascade, cell, axis))
@@ -160,15 +163,16 @@ void find_surfaces(uint cascade, uint seen, uint first_seen)
 void visit()
 {
     const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
-    uint first_seen = 0u, seen = 0u;
+    uint first_watched = 0u, watched = 0u;
     if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count) {
-        first_seen = sdfgi_frame.cascades[cascade].seen_first + uint(SDFGI_SEEN_BITS) * gl_WorkGroupID.x;
-        seen = visited_seen(cascade, first_seen, visited_seen_end(cascade));
-        if (uint(bitCount(seen)) <= first_seen_cell())
+        first_watched =
+            sdfgi_frame.cascades[cascade].watched_first + uint(SDFGI_SEEN_BITS) * gl_WorkGroupID.x;
+        watched = visited_watched(cascade, first_watched, visited_watched_end(cascade));
+        if (uint(bitCount(watched)) <= first_watched_cell())
             return;
     }
     const uint rays = rays_of_visit(cascade);
-    find_surfaces(cascade, seen, first_seen);
+    find_surfaces(cascade, watched, first_watched);
     barrier();
     for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);

@@ -19,7 +19,7 @@ struct gather_cycle {
 gather_cycle gather_cycle_of(uint cascade, uint entry, gathered_state state, uint others_visits)
 {
     gather_cycle cycle;
-    cycle.ahead = sdfgi_frame.cascades[cascade].seen_first < sdfgi_frame.cascades[cascade].seen_end &&
+    cycle.ahead = sdfgi_frame.cascades[cascade].watched_first < sdfgi_frame.cascades[cascade].watched_end &&
                   seen_holds(cascade, entry);
     const bool is_long = state.mean >= GATHERED_GOES_ON, is_first = state.mean < GATHERED_FIRST;
     const uint visits = is_long ? gathered_long_visits()

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Which light cells a dispatch visits: in each cascade those of a range of the list, and beside it some that
- * are seen (seen.glsl). Includers have args.first and args.end, the ranges. */
+ * are watched (seen.glsl). Includers have args.first and args.end, the ranges. */
 #ifndef SDFGI_VISITS_GLSL
 #define SDFGI_VISITS_GLSL
 
@@ -9,7 +9,7 @@
 #include "workgroup.glsl"
 #include "../lib/nth_bit.glsl"
 
-/* The cascade of a row. Rows of the ranges come first, and then those of the seen cells. */
+/* The cascade of a row. Rows of the ranges come first, and then those of the watched cells. */
 uint visited_cascade(uint row)
 {
     return row % sdfgi_frame.cascade_count;
@@ -21,28 +21,29 @@ uint visited_bits_below(int n)
     return n < SDFGI_SEEN_BITS ? (1u << max(n, 0)) - 1u : ~0u;
 }
 
-/* Seen cells of a word that are visited beside the range: a bit for each entry from `first` to before `last`.
+/* Watched cells of a word that are visited beside the range: a bit for each entry from `first` to before
+ * `last`.
  */
-uint visited_seen(uint cascade, uint first, uint last)
+uint visited_watched(uint cascade, uint first, uint last)
 {
     if (first >= last)
         return 0u;
     const uint in_range = visited_bits_below(int(args.end[cascade] - first)) &
                           ~visited_bits_below(int(args.first[cascade] - first));
-    return sdfgi_seen_at(seen_word(cascade, first)) & visited_bits_below(int(last - first)) & ~in_range;
+    return watched_bits(cascade, first) & visited_bits_below(int(last - first)) & ~in_range;
 }
 
-/* The end of a cascade's entries of which those that are seen are visited. */
-uint visited_seen_end(uint cascade)
+/* The end of a cascade's entries of which those that are watched are visited. */
+uint visited_watched_end(uint cascade)
 {
-    return min(sdfgi_frame.cascades[cascade].seen_end, light_cell_count(cascade));
+    return min(sdfgi_frame.cascades[cascade].watched_end, light_cell_count(cascade));
 }
 
 #ifdef SDFGI_SOFTWARE
 
 /* Software drivers run the whole shader for threads that have nothing to do, too: there are to be few. As
  * many threads as a word has bits take the entries of a block: those of a range that follow one another, or
- * those of a word that are seen. A thread of cell_gather has one entry: these drivers end a shader whose
+ * those of a word that are watched. A thread of cell_gather has one entry: these drivers end a shader whose
  * loops go round too often. */
 
 /* Blocks for a thread. */
@@ -53,18 +54,18 @@ uint visited_seen_end(uint cascade)
 struct visit_block {
     uint cascade;
     uint first, end; /* entries */
-    bool seen;       /* only those that are seen, outside of the range */
+    bool watched;    /* only those that are watched, outside of the range */
 };
 
 /* Takes the block with so many before it from entries that follow one another. `before` becomes less by those
  * that are passed over. */
-void visit_block_take(inout visit_block block, inout int before, uint cascade, bool seen, uint first,
+void visit_block_take(inout visit_block block, inout int before, uint cascade, bool watched, uint first,
                       uint end)
 {
     const uint size = uint(SDFGI_SEEN_BITS);
     const uint count = cascade < sdfgi_frame.cascade_count ? (end - first + size - 1u) / size : 0u;
     if (before >= 0 && uint(before) < count)
-        block = visit_block(cascade, first + uint(before) * size, end, seen);
+        block = visit_block(cascade, first + uint(before) * size, end, watched);
     before -= int(count);
 }
 
@@ -80,14 +81,14 @@ visit_block visit_block_find(uint index)
     }
     [[unroll]] for (uint c = 0u; c < uint(SDFGI_MAX_CASCADES); c++)
     {
-        visit_block_take(block, before, c, true, sdfgi_frame.cascades[c].seen_first,
-                         sdfgi_frame.cascades[c].seen_end);
+        visit_block_take(block, before, c, true, sdfgi_frame.cascades[c].watched_first,
+                         sdfgi_frame.cascades[c].watched_end);
     }
     return block;
 }
 
 /* Numbers workgroups so that those in a row are far apart: these drivers give each processor a part of them,
- * in a row, and blocks of seen cells have less to do than others. */
+ * in a row, and blocks of watched cells have less to do than others. */
 uint visit_group()
 {
     const uint parts = uint(SDFGI_VISIT_PARTS),
@@ -104,15 +105,15 @@ bool visit_entry(uint k, out uint cascade, out uint entry)
         visit_block_find((groups * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
     cascade = block.cascade;
     const uint last = min(block.end, light_cell_count(cascade));
-    const uint seen = block.seen ? visited_seen(cascade, block.first, last) : 0u;
-    entry = block.first + (block.seen ? sdfgi_nth_bit(seen, lane) : lane);
-    return block.seen ? lane < uint(bitCount(seen)) : entry < last;
+    const uint watched = block.watched ? visited_watched(cascade, block.first, last) : 0u;
+    entry = block.first + (block.watched ? sdfgi_nth_bit(watched, lane) : lane);
+    return block.watched ? lane < uint(bitCount(watched)) : entry < last;
 }
 
 #else
 
-/* Finds the n-th entry of a row: of the range [first, end), or of the seen cells outside of it. False if it
- * is not to be visited. */
+/* Finds the n-th entry of a row: of the range [first, end), or of the watched cells outside of it. False if
+ * it is not to be visited. */
 bool visited_entry(uint row, uint n, out uint entry)
 {
     const uint cascade = visited_cascade(row), count = light_cell_count(cascade), first = args.first[cascade],
@@ -120,8 +121,9 @@ bool visited_entry(uint row, uint n, out uint entry)
     entry = first + n;
     if (row < sdfgi_frame.cascade_count)
         return entry < min(end, count);
-    entry = sdfgi_frame.cascades[cascade].seen_first + n;
-    return entry < visited_seen_end(cascade) && (entry < first || entry >= end) && seen_holds(cascade, entry);
+    entry = sdfgi_frame.cascades[cascade].watched_first + n;
+    return entry < visited_watched_end(cascade) && (entry < first || entry >= end) &&
+           watched_holds(cascade, entry);
 }
 
 #endif

@@ -71,10 +71,11 @@
 #define SDFGI_ROUGH_VISITS 8
 #define SDFGI_VISIT_RAYS   16
 #define SDFGI_VISIT_CELLS  8
-/* Entries whose bits of seen cells share a word. */
-#define SDFGI_SEEN_BITS    32
+/* Entries whose bits share a word of SEEN, and parts of that buffer: see sdfgi/seen.glsl. */
+#define SDFGI_SEEN_BITS  32
+#define SDFGI_SEEN_PARTS 3
 /* Parts of a dispatch over light cells that have as much work each, on software drivers. */
-#define SDFGI_VISIT_PARTS  16
+#define SDFGI_VISIT_PARTS 16
 
 /* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)

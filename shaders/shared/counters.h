@@ -34,7 +34,9 @@
 #define SDFGI_COUNTER_CELLS_CHANGING 48
 /* Per cascade: float bits of the largest relative change of a light cell since it was marked. */
 #define SDFGI_COUNTER_CELL_DRIFT 56
-#define SDFGI_COUNTER_COUNT      64
+/* Per cascade: light cells that rays of watched cells have hit since marks go to the present part of SEEN. */
+#define SDFGI_COUNTER_CELLS_HIT 64
+#define SDFGI_COUNTER_COUNT     72
 
 /* X(id, cleared, health): the counters that are not per cascade.
  *   cleared  CHANGE: in a frame that voxelises anything; CYCLE: then, and at the start of every sample cycle

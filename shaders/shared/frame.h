@@ -18,20 +18,20 @@ SDFGI_ASSERT_SIZE(sdfgi_dirty_box, 32);
 /* Cell space of a cascade: (0, 0, 0) is its low corner, one unit is one cell along each axis; a cell is as
  * high as y_scale times its width. Metric lengths inside a cascade are counted in cell widths. */
 struct sdfgi_cascade_params {
-    vec3 origin_rel;  /* low corner in metres relative to the host's origin */
-    float cell_m;     /* width of a cell in metres */
-    ivec3 wrap;       /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
-    uint seen_first;  /* entries [seen_first, seen_end) of the light list whose seen cells are visited, too */
-    ivec3 probe_wrap; /* slot of probe (0, 0, 0), in [0, probes_per_side) */
-    uint seen_end;
+    vec3 origin_rel;    /* low corner in metres relative to the host's origin */
+    float cell_m;       /* width of a cell in metres */
+    ivec3 wrap;         /* texel of cell (0, 0, 0) in the toroidal volumes, in [0, resolution) */
+    uint watched_first; /* entries [watched_first, watched_end) of the list: watched cells are visited, too */
+    ivec3 probe_wrap;   /* slot of probe (0, 0, 0), in [0, probes_per_side) */
+    uint watched_end;
     vec3 from_first; /* cell space = from_first + from_first_scale * cell space of cascade 0 */
     float from_first_scale;
     ivec3 probe_base; /* world index of probe (0, 0, 0), low 32 bits: seeds its ray directions */
-    uint padding_2;
-    ivec3 valid_low; /* valid region: cells [low, high) are complete and may be read; empty if low = high */
-    int dirty_count; /* boxes in `dirty` */
+    uint hit_bits;    /* cells of a word that have their turn if rays hit them: see sdfgi/seen.glsl */
+    ivec3 valid_low;  /* valid region: cells [low, high) are complete and may be read; empty if low = high */
+    int dirty_count;  /* boxes in `dirty` */
     ivec3 valid_high;
-    uint padding_3;
+    uint hit_part; /* 0 or 1: where marks on these are read; new ones go to the other part */
     /* Blend region: cells [low, high) that lookups sample, inside the valid region. It follows the valid
      * region smoothly, whereas that changes in steps of SDFGI_PROBE_SPACING cells. */
     vec3 blend_low;
@@ -62,7 +62,7 @@ struct sdfgi_frame_params {
     uint up_axis; /* enum sdfgi_up_axis. Bit 0: up is along Z, not Y; bit 1: against it */
     vec3 sky_ground;
     uint has_metal; /* 1: a material is metal that reflects what it sees */
-    float y_scale; /* height of a cell over its width */
+    float y_scale;  /* height of a cell over its width */
     float exposure;
     float exposure_inverse; /* 1 / exposure */
     float energy;

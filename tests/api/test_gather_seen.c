@@ -45,27 +45,39 @@ static const struct picture_camera above = { .position = { 0.4, 1.5, 0.3 },
 struct progress {
     uint32_t cells;
     uint32_t complete, in_long, after_long; /* those with a complete cycle, in long ones, and with one */
+    uint32_t visits;                        /* about so many */
 };
 
-/* Of the cells that are seen, [1], and of those that are not, [0]. */
-static void read_progress(struct gi_test *t, struct progress found[static 2])
+/* [SEEN]: cells that are seen; [HIT]: others that rays of watched cells have hit of late. */
+enum { OTHERS, SEEN, HIT, KINDS };
+
+static int kind_of(const uint32_t *marks, uint64_t room, uint32_t i)
+{
+    const uint64_t part = (room + SDFGI_SEEN_BITS - 1) / SDFGI_SEEN_BITS, word = i / SDFGI_SEEN_BITS;
+    const uint32_t hit = marks[part + word] | marks[2 * part + word];
+    if (marks[word] >> i % SDFGI_SEEN_BITS & 1)
+        return SEEN;
+    return hit >> i % SDFGI_SEEN_BITS & 1 ? HIT : OTHERS;
+}
+
+static void read_progress(struct gi_test *t, struct progress found[static KINDS])
 {
     const uint64_t room = t->gi->volume.resources->extent.light_cells;
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL),
-             *seen = gi_test_read(t, RESOURCE_SEEN, NULL),
-             *gathered = gi_test_read(t, RESOURCE_GATHERED, NULL), marked = 0;
+             *marks = gi_test_read(t, RESOURCE_SEEN, NULL),
+             *gathered = gi_test_read(t, RESOURCE_GATHERED, NULL);
     for (uint32_t i = 0; i < counters[SDFGI_COUNTER_LIGHT_CELLS]; i++) {
-        struct progress *p = &found[seen[i / 32] >> (i % 32) & 1];
+        struct progress *p = &found[kind_of(marks, room, i)];
         p->cells++;
-        const uint32_t mean = gathered[STATE_PLANE * room + i] >> 7 & 7;
+        const uint32_t state = gathered[STATE_PLANE * room + i], mean = state >> 7 & 7;
         p->complete += mean >= FIRST;
         p->in_long += mean >= GOES_ON;
         p->after_long += mean >= LONG;
-        marked += seen[i / 32] >> (i % 32) & 1;
+        p->visits += (state & 0x7f) + (mean >= FIRST ? SDFGI_ROUGH_VISITS : 0);
     }
-    REQUIRE_CMP(counters[SDFGI_COUNTER_CELLS_SEEN], ==, marked);
+    REQUIRE_CMP(counters[SDFGI_COUNTER_CELLS_SEEN], ==, found[SEEN].cells);
     free(counters);
-    free(seen);
+    free(marks);
     free(gathered);
 }
 
@@ -107,7 +119,7 @@ static void seen_cells_gather_four_times_the_rays(void **state)
     static float soon[PIXELS], late[PIXELS], exact[PIXELS];
     struct gi_test t;
     struct picture_scene scene;
-    struct progress found[2] = { { 0 } };
+    struct progress found[KINDS] = { { 0 } };
     open_ground(&t, &scene);
     add_sunlit_box(&t);
     struct picture picture = picture_draw(&scene, &above, SIDE, SIDE);
@@ -126,9 +138,10 @@ static void seen_cells_gather_four_times_the_rays(void **state)
     printf(
         "%u of %u cells that are seen have completed a long cycle, and %u of %u others; light is off by %.4f "
         "after %d frames and by %.4f after %d\n",
-        found[1].after_long, found[1].cells, found[0].after_long, found[0].cells, before, SOON, after, LATE);
-    REQUIRE_CMP(found[1].after_long, >=, found[1].cells * 9 / 10);
-    REQUIRE_CMP(found[0].after_long, ==, 0u);
+        found[SEEN].after_long, found[SEEN].cells, found[OTHERS].after_long, found[OTHERS].cells, before,
+        SOON, after, LATE);
+    REQUIRE_CMP(found[SEEN].after_long, >=, found[SEEN].cells * 9 / 10);
+    REQUIRE_CMP(found[OTHERS].after_long + found[HIT].after_long, ==, 0u);
     REQUIRE_CMP(after, <=, 0.53 * before);
     picture_finish(&picture);
     picture_scene_finish(&scene);
@@ -141,7 +154,7 @@ static void cells_whose_light_still_changes_have_short_cycles(void **state)
     (void)state;
     struct gi_test t;
     struct picture_scene scene;
-    struct progress found[2] = { { 0 } };
+    struct progress found[KINDS] = { { 0 } };
     open_empty(&t, &scene);
     picture_scene_add(&scene, &t,
                       test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 2, 2, 2 }, 0.5, test_rotation_none),
@@ -153,9 +166,9 @@ static void cells_whose_light_still_changes_have_short_cycles(void **state)
     }
     read_progress(&t, found);
     printf("bright room: %u of %u cells that are seen have completed a cycle, and %u are in long ones\n",
-           found[1].complete, found[1].cells, found[1].in_long);
-    REQUIRE_CMP(found[1].complete, >=, found[1].cells * 9 / 10);
-    REQUIRE_CMP(found[1].in_long, ==, 0u);
+           found[SEEN].complete, found[SEEN].cells, found[SEEN].in_long);
+    REQUIRE_CMP(found[SEEN].complete, >=, found[SEEN].cells * 9 / 10);
+    REQUIRE_CMP(found[SEEN].in_long, ==, 0u);
     picture_finish(&picture);
     picture_scene_finish(&scene);
     gi_test_close(&t);
@@ -167,7 +180,7 @@ static void what_a_picture_shows_is_visited_first(void **state)
     for (int looks = 0; looks < 2; looks++) {
         struct gi_test t;
         struct picture_scene scene;
-        struct progress found[2] = { { 0 } };
+        struct progress found[KINDS] = { { 0 } };
         open_ground(&t, &scene);
         const struct picture picture = picture_draw(&scene, &above, 68, 68);
         for (int i = 0; i < FRAMES; i++) {
@@ -177,13 +190,44 @@ static void what_a_picture_shows_is_visited_first(void **state)
         }
         read_progress(&t, found);
         printf("%u of %u cells that are seen have completed a cycle, and %u of %u others\n",
-               found[1].complete, found[1].cells, found[0].complete, found[0].cells);
-        REQUIRE_TRUE(looks ? found[1].cells >= 20 : found[1].cells == 0);
-        REQUIRE_CMP(found[1].complete, >=, found[1].cells * 9 / 10);
-        REQUIRE_CMP(found[0].complete, <=, found[0].cells / 2);
+               found[SEEN].complete, found[SEEN].cells, found[OTHERS].complete, found[OTHERS].cells);
+        REQUIRE_TRUE(looks ? found[SEEN].cells >= 20 : found[SEEN].cells == 0);
+        REQUIRE_CMP(found[SEEN].complete, >=, found[SEEN].cells * 9 / 10);
+        REQUIRE_CMP(found[OTHERS].complete, <=, found[OTHERS].cells / 2);
         picture_scene_finish(&scene);
         gi_test_close(&t);
     }
+}
+
+/* A floor alone is shown; walls and ceiling light it. */
+static void what_lights_it_is_visited_next(void **state)
+{
+    (void)state;
+    struct gi_test t;
+    struct picture_scene scene;
+    struct progress found[KINDS] = { { 0 } };
+    open_empty(&t, &scene);
+    struct sdfgi_settings settings = t.gi->settings;
+    settings.cell_rays_per_frame = 6800;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
+    picture_scene_add(&scene, &t,
+                      test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 2, 2, 2 }, 0.5, test_rotation_none),
+                      0.5f, 0.05f);
+    struct picture picture = picture_draw(&scene, &above, SIDE, SIDE);
+    for (int i = 0; i < FRAMES; i++) {
+        gi_test_update(&t, 1);
+        free(picture_gather(&t, &picture, SDFGI_GATHER_FULL));
+    }
+    read_progress(&t, found);
+    const double hit = (double)found[HIT].visits / found[HIT].cells,
+                 others = (double)found[OTHERS].visits / found[OTHERS].cells;
+    printf("%u cells that light %u seen ones had %.2f visits each, %u others %.2f\n", found[HIT].cells,
+           found[SEEN].cells, hit, found[OTHERS].cells, others);
+    REQUIRE_CMP(found[HIT].cells, >=, 2 * found[SEEN].cells);
+    REQUIRE_CMP(hit, >=, 1.3 * others);
+    picture_finish(&picture);
+    picture_scene_finish(&scene);
+    gi_test_close(&t);
 }
 
 TEST_GROUP(gather_seen)
@@ -192,6 +236,7 @@ TEST_GROUP(gather_seen)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_a_picture_shows_is_visited_first),
+        cmocka_unit_test(what_lights_it_is_visited_next),
         cmocka_unit_test(seen_cells_gather_four_times_the_rays),
         cmocka_unit_test(cells_whose_light_still_changes_have_short_cycles),
     };

@@ -19,17 +19,17 @@
     X(sdfgi_cascade_params, origin_rel)                                                                      \
     X(sdfgi_cascade_params, cell_m)                                                                          \
     X(sdfgi_cascade_params, wrap)                                                                            \
-    X(sdfgi_cascade_params, seen_first)                                                                      \
+    X(sdfgi_cascade_params, watched_first)                                                                   \
     X(sdfgi_cascade_params, probe_wrap)                                                                      \
-    X(sdfgi_cascade_params, seen_end)                                                                        \
+    X(sdfgi_cascade_params, watched_end)                                                                     \
     X(sdfgi_cascade_params, from_first)                                                                      \
     X(sdfgi_cascade_params, from_first_scale)                                                                \
     X(sdfgi_cascade_params, probe_base)                                                                      \
-    X(sdfgi_cascade_params, padding_2)                                                                       \
+    X(sdfgi_cascade_params, hit_bits)                                                                        \
     X(sdfgi_cascade_params, valid_low)                                                                       \
     X(sdfgi_cascade_params, dirty_count)                                                                     \
     X(sdfgi_cascade_params, valid_high)                                                                      \
-    X(sdfgi_cascade_params, padding_3)                                                                       \
+    X(sdfgi_cascade_params, hit_part)                                                                        \
     X(sdfgi_cascade_params, blend_low)                                                                       \
     X(sdfgi_cascade_params, padding_4)                                                                       \
     X(sdfgi_cascade_params, blend_high)                                                                      \

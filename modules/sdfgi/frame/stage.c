@@ -25,14 +25,49 @@ void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first)
         list->items[i].group = list->groups;
 }
 
-void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t c)
+/* Clears parts [first, first + count) of a cascade's marks. */
+static void clear_marks(const struct plan_stage *stage, uint32_t c, uint32_t first, uint32_t count)
 {
     const struct extent *e = &stage->input->extent;
-    const uint64_t seen = sdfgi_resource_size(RESOURCE_SEEN, e) / e->cascades;
-    if (!e->gathers)
-        return;
-    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SEEN, c * seen, seen);
-    sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (SDFGI_COUNTER_CELLS_SEEN + c), 4);
+    const uint64_t part = sdfgi_resource_size(RESOURCE_SEEN, e) / (SDFGI_SEEN_PARTS * e->cascades);
+    if (e->gathers)
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SEEN, (SDFGI_SEEN_PARTS * c + first) * part,
+                             count * part);
+}
+
+static void clear_seen_counter(const struct plan_stage *stage, uint32_t c)
+{
+    if (stage->input->extent.gathers)
+        sdfgi_work_add_clear(&stage->frame->work, RESOURCE_COUNTERS, 4 * (SDFGI_COUNTER_CELLS_SEEN + c), 4);
+}
+
+static void clear_hit_counter(const struct plan_stage *stage, uint32_t c)
+{
+    const struct extent *e = &stage->input->extent;
+    if (e->gathers)
+        sdfgi_work_add_clear(
+            &stage->frame->work, RESOURCE_GATHERED,
+            sdfgi_gather_counters_offset(e) + 4 * (SDFGI_COUNTER_CELLS_HIT - SDFGI_COUNTER_GATHER + c), 4);
+}
+
+void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t c)
+{
+    clear_marks(stage, c, 0, 1);
+    clear_seen_counter(stage, c);
+}
+
+void sdfgi_stage_forget_hit(const struct plan_stage *stage, uint32_t c)
+{
+    clear_marks(stage, c, 2 - sdfgi_gathering_hit_part(&stage->frame->next.gathering), 1);
+    clear_hit_counter(stage, c);
+}
+
+void sdfgi_stage_forget_watched(const struct plan_stage *stage, uint32_t c)
+{
+    clear_marks(stage, c, 0, SDFGI_SEEN_PARTS);
+    clear_seen_counter(stage, c);
+    clear_hit_counter(stage, c);
+    sdfgi_gathering_forget_hit(&stage->frame->next.gathering, c);
 }
 
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t c)

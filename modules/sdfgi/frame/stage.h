@@ -37,8 +37,11 @@ void sdfgi_stage_complete(const struct plan_stage *stage);
 /* Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
 void sdfgi_stage_light(const struct plan_stage *stage);
 
-/* Forgets which light cells of a cascade were seen: entries of its list change, or a view may have turned. */
+/* Forgets which light cells of a cascade were seen, as a view may have turned; which of them rays have hit,
+ * as far as new marks are concerned; and all of it, as entries of the list change. */
 void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t cascade);
+void sdfgi_stage_forget_hit(const struct plan_stage *stage, uint32_t cascade);
+void sdfgi_stage_forget_watched(const struct plan_stage *stage, uint32_t cascade);
 
 /* What happens to the light list of a cascade. */
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t cascade);

@@ -101,7 +101,7 @@ static void empty_list(const struct plan_stage *stage, uint32_t c)
         sdfgi_work_add_clear(&stage->frame->work, RESOURCE_INDIRECT, 16 * (records[i] + c) + 12, 4);
     }
     clear_blocks(stage, c);
-    sdfgi_stage_forget_seen(stage, c);
+    sdfgi_stage_forget_watched(stage, c);
 }
 
 void sdfgi_stage_empty_lists(const struct plan_stage *stage)
@@ -133,7 +133,7 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
     sdfgi_stage_end_group(stage, first);
 
     clear_blocks(stage, c);
-    sdfgi_stage_forget_seen(stage, c);
+    sdfgi_stage_forget_watched(stage, c);
     sdfgi_stage_add_phase(stage, PHASE_LIST, &target);
 
     const uint32_t second = sdfgi_stage_begin_group(stage);

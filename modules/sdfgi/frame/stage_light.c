@@ -31,8 +31,8 @@ static uint32_t blocks(uint32_t entries)
     return (entries + SDFGI_SEEN_BITS - 1) / SDFGI_SEEN_BITS;
 }
 
-/* Lets a pass run over ranges of all cascades, and over the seen cells of each. `first` and `end` are those
- * of its arguments. */
+/* Lets a pass run over ranges of all cascades, and over the watched cells of each. `first` and `end` are
+ * those of its arguments. */
 static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES],
                         uint end[static SDFGI_MAX_CASCADES], const struct gather_range *ranges,
                         uint32_t count)
@@ -42,9 +42,9 @@ static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES]
         first[range->cascade] = range->first;
         end[range->cascade] = range->first + range->count;
         work->count = range->count > work->count ? range->count : work->count;
-        work->seen = range->seen_span > work->seen ? range->seen_span : work->seen;
-        work->blocks += blocks(range->count) + blocks(range->seen_span);
-        work->units += range->count + range->seen_count;
+        work->watched = range->watched_span > work->watched ? range->watched_span : work->watched;
+        work->blocks += blocks(range->count) + blocks(range->watched_span);
+        work->units += range->count + range->watched_count;
     }
 }
 
@@ -157,6 +157,9 @@ static void trace(const struct plan_stage *stage)
     for (uint32_t i = 0; i < stage->frame->gather_count; i++)
         if (stage->frame->gathers[i].begins_cycle)
             clear_change(stage, &stage->frame->gathers[i]);
+    if (stage->frame->situation.gathers && sdfgi_gathering_forgets_hit(&stage->frame->next.gathering))
+        for (uint32_t c = 0; c < stage->frame->next.cascades.count; c++)
+            sdfgi_stage_forget_hit(stage, c);
     const uint32_t first = sdfgi_stage_begin_group(stage);
     add_probe_trace(stage);
     gather(stage);

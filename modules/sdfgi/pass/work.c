@@ -63,14 +63,14 @@ static uint64_t stored_light(const struct extent *e)
     return e->cascades * (axes > texels ? axes : texels);
 }
 
-/* A row of workgroups for the range of each cascade, and rows for its seen cells: workgroups of as many rows
- * share a word as it takes to visit all that it holds. */
+/* A row of workgroups for the range of each cascade, and rows for its watched cells: workgroups of as many
+ * rows share a word as it takes to visit all that it holds. */
 static struct work_groups all_light_cells(const struct work *work, uint32_t group, uint32_t cascades)
 {
     const uint32_t shares = group < SDFGI_SEEN_BITS ? SDFGI_SEEN_BITS / group : 1;
-    const uint32_t seen = groups_for(work->seen, shares), rows = work->seen > 0 ? 1 + shares : 1;
-    return (struct work_groups){ groups_for(work->count > seen ? work->count : seen, group), rows * cascades,
-                                 1 };
+    const uint32_t watched = groups_for(work->watched, shares), rows = work->watched > 0 ? 1 + shares : 1;
+    return (struct work_groups){ groups_for(work->count > watched ? work->count : watched, group),
+                                 rows * cascades, 1 };
 }
 
 /* The same on software drivers: blocks of all cascades, in workgroups that make whole parts. */

@@ -37,7 +37,7 @@ enum domain {
     DOMAIN_LIGHT_BLOCKS,     /* `count` cells, of which a workgroup looks at one block or more in turn */
     DOMAIN_LIGHT_ROWS,       /* rows of light blocks of a cascade */
     DOMAIN_LIGHT_CELLS,      /* `count` entries of the light lists of all cascades */
-    DOMAIN_ALL_LIGHT_CELLS,  /* the same, few enough for a row of workgroups; and what is seen of `seen` */
+    DOMAIN_ALL_LIGHT_CELLS,  /* the same, few enough for a row of workgroups; and of `watched` entries some */
     DOMAIN_STORED_LIGHT,     /* axes of light cells, and texels of probes, of all cascades */
     DOMAIN_PIXELS,           /* of a picture */
     DOMAIN_TILE_LIST,        /* tiles of a picture that a list names: indirect */
@@ -76,11 +76,11 @@ struct work {
     struct cell_box box;   /* DOMAIN_BOX, DOMAIN_INSTANCES */
     struct cell_box made;  /* DOMAIN_INSTANCES: triangles of what touches this have been checked; or empty */
     uint32_t first, count; /* a range of the domain */
-    uint32_t seen;         /* DOMAIN_ALL_LIGHT_CELLS: entries that hold the seen ones of a cascade, at most */
-    uint32_t blocks;       /* the same: what software drivers visit, in blocks of visits.glsl */
-    uint32_t indirect;     /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
-    uint32_t group;        /* neighbours with the same number run side by side and share one time; 0: alone */
-    uint64_t units;        /* what the report counts as work */
+    uint32_t watched;  /* DOMAIN_ALL_LIGHT_CELLS: entries that hold the watched ones of a cascade, at most */
+    uint32_t blocks;   /* the same: what software drivers visit, in blocks of visits.glsl */
+    uint32_t indirect; /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
+    uint32_t group;    /* neighbours with the same number run side by side and share one time; 0: alone */
+    uint64_t units;    /* what the report counts as work */
     union work_args args;
     enum resource resource; /* WORK_CLEAR: bytes [offset, offset + bytes) of this */
     uint64_t offset, bytes;

@@ -6,8 +6,10 @@
  * frame would be on in all of them, or off. With 16 the mean of its light was 1.06 of what it should be. */
 #define EPOCH_FRAMES 17
 
-/* Frames for which a cell counts as seen. */
+/* Frames for which a cell counts as seen, and for which marks on what rays hit are collected and then read.
+ */
 #define SEEN_FRAMES 64
+#define HIT_FRAMES  8
 
 void sdfgi_gathering_init(struct gathering *gathering)
 {
@@ -60,18 +62,20 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
     }
 }
 
-/* Goes on with the seen cells of a cascade. Where they lie in the list is not known here: as many entries as
- * hold `most` of them, if they are spread evenly. Ranges of them begin with a word. */
-static void take_seen(struct gather_cursor *cursor, uint32_t entries, uint32_t seen, uint32_t most,
-                      struct gather_range *range)
+/* Goes on with the watched cells of a cascade. Where they lie in the list is not known here: as many entries
+ * as hold `most` of them, if they are spread evenly. Ranges of them begin with a word. */
+static void take_watched(struct gather_cursor *cursor, uint32_t entries, uint32_t watched, uint32_t most,
+                         struct gather_range *range)
 {
     const uint64_t span =
-        most > 0 ? (uint64_t)entries * most / seen / SDFGI_SEEN_BITS * SDFGI_SEEN_BITS + SDFGI_SEEN_BITS : 0;
-    const uint32_t first = cursor->seen_end < entries && span < entries ? cursor->seen_end : 0;
-    cursor->seen_first = first;
-    cursor->seen_end = first + span < entries ? first + (uint32_t)span : entries;
-    range->seen_span = most > 0 ? cursor->seen_end - first : 0;
-    range->seen_count = seen < most ? seen : most;
+        most > 0 ? (uint64_t)entries * most / watched / SDFGI_SEEN_BITS * SDFGI_SEEN_BITS + SDFGI_SEEN_BITS
+                 : 0;
+    const uint32_t first = cursor->watched_end < entries && span < entries ? cursor->watched_end : 0;
+    cursor->watched_first = first;
+    cursor->round += first == 0;
+    cursor->watched_end = first + span < entries ? first + (uint32_t)span : entries;
+    range->watched_span = most > 0 ? cursor->watched_end - first : 0;
+    range->watched_count = watched < most ? watched : most;
 }
 
 /* Goes on with a cascade, at most to the end of the sweep. */
@@ -97,21 +101,58 @@ static struct gather_range take(struct gather_cursor *cursor, uint32_t c, uint32
     return range;
 }
 
-/* Shares visits among the seen cells of cascades that have not settled. Those of a cascade count twice as
+/* How many of so many cells that rays hit have their turn. */
+static uint64_t hits_in_turn(const struct gathering *gathering, uint64_t hit)
+{
+    return hit >> gathering->hit_turns_log2;
+}
+
+/* Cells that rays hit have visits in turn: half as many as cells that are seen. Where these leave less of the
+ * `visits` of a frame, they have fewer, but a quarter of these. */
+static void read_hit(struct gathering *gathering, const struct light_lists *lists, uint32_t visits)
+{
+    uint64_t seen = 0, hit = 0;
+    for (uint32_t c = 0; c < lists->cascades; c++) {
+        gathering->at[c].hit = lists->hit[c];
+        hit += lists->hit[c];
+        seen += lists->seen[c];
+    }
+    const uint64_t left = seen < visits ? visits - seen : 0, room = left > visits / 4 ? left : visits / 4,
+                   most = seen / 2 < room ? seen / 2 : room;
+    gathering->hit_turns_log2 = 0;
+    while (hits_in_turn(gathering, SDFGI_SEEN_BITS) > 1 && hits_in_turn(gathering, hit) > most)
+        gathering->hit_turns_log2++;
+}
+
+/* Of all visits of a frame, those of watched cells, if these are so many. */
+static uint32_t visits_for_watched(uint32_t visits)
+{
+    return (uint32_t)((uint64_t)visits * 7 / 12);
+}
+
+/* How many cells of a cascade are watched and have their turn. */
+static uint32_t watched_cells(const struct gathering *gathering, const struct light_lists *lists, uint32_t c)
+{
+    return lists->seen[c] + (uint32_t)hits_in_turn(gathering, gathering->at[c].hit);
+}
+
+/* Shares visits among the watched cells of cascades that have not settled. Those of a cascade count twice as
  * much as those of the next one, because what is near is looked at closely. None gets two visits in a frame.
  * Returns how many were shared out. */
-static uint32_t share_seen(const struct gathering *gathering, const struct light_lists *lists,
-                           uint32_t visits, uint32_t parts[static SDFGI_MAX_CASCADES])
+static uint32_t share_watched(const struct gathering *gathering, const struct light_lists *lists,
+                              uint32_t visits, uint32_t parts[static SDFGI_MAX_CASCADES])
 {
     uint64_t weights[SDFGI_MAX_CASCADES] = { 0 }, sum = 0;
     uint32_t given = 0;
     for (uint32_t c = 0; c < lists->cascades; c++) {
-        weights[c] = gathering->at[c].settled ? 0 : (uint64_t)lists->seen[c] << (SDFGI_MAX_CASCADES - c);
+        const uint64_t watched = watched_cells(gathering, lists, c);
+        weights[c] = gathering->at[c].settled ? 0 : watched << (SDFGI_MAX_CASCADES - c);
         sum += weights[c];
     }
     for (uint32_t c = 0; c < lists->cascades; c++) {
         const uint64_t part = sum > 0 ? visits * weights[c] / sum : 0;
-        parts[c] = part < lists->seen[c] ? (uint32_t)part : lists->seen[c];
+        const uint32_t watched = watched_cells(gathering, lists, c);
+        parts[c] = part < watched ? (uint32_t)part : watched;
         given += parts[c];
     }
     return given;
@@ -121,27 +162,53 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
                               const struct light_lists *lists, uint32_t cells, uint32_t cycle_visits,
                               struct gather_range ranges[static SDFGI_MAX_CASCADES])
 {
-    uint32_t count = 0, unsettled = 0, seen[SDFGI_MAX_CASCADES];
-    uint32_t rest = cells - share_seen(gathering, lists, cells / 2, seen);
+    uint32_t count = 0, unsettled = 0, watched[SDFGI_MAX_CASCADES];
+    gathering->seen_frames = (gathering->seen_frames + 1) % SEEN_FRAMES;
+    if (sdfgi_gathering_forgets_hit(gathering))
+        read_hit(gathering, lists, visits_for_watched(cells));
+    uint32_t rest = cells - share_watched(gathering, lists, visits_for_watched(cells), watched);
     for (uint32_t c = 0; c < lists->cascades; c++)
         unsettled += !gathering->at[c].settled;
     for (uint32_t c = 0; c < lists->cascades; c++) {
         if (gathering->at[c].settled) {
-            gathering->at[c].seen_first = gathering->at[c].seen_end = 0;
+            gathering->at[c].watched_first = gathering->at[c].watched_end = 0;
             continue;
         }
         const uint32_t most = --unsettled > 0 ? (rest + 1) / 2 : rest;
         const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
         /* Where all cells have a visit in each frame there is nothing to choose. */
-        const uint32_t seen_most = entries > most + seen[c] ? seen[c] : 0;
+        const uint32_t watched_most = entries > most + watched[c] ? watched[c] : 0;
         struct gather_range *range = &ranges[count++];
-        rest += seen[c] - seen_most;
-        *range = take(&gathering->at[c], c, entries, most + seen[c] - seen_most, cycle_visits);
-        take_seen(&gathering->at[c], entries, lists->seen[c], seen_most, range);
+        rest += watched[c] - watched_most;
+        *range = take(&gathering->at[c], c, entries, most + watched[c] - watched_most, cycle_visits);
+        take_watched(&gathering->at[c], entries, watched_cells(gathering, lists, c), watched_most, range);
         rest -= range->count;
     }
-    gathering->seen_frames = (gathering->seen_frames + 1) % SEEN_FRAMES;
     return count;
+}
+
+bool sdfgi_gathering_forgets_hit(const struct gathering *gathering)
+{
+    return gathering->seen_frames % HIT_FRAMES == 0;
+}
+
+void sdfgi_gathering_forget_hit(struct gathering *gathering, uint32_t c)
+{
+    gathering->at[c].hit = 0;
+}
+
+uint32_t sdfgi_gathering_hit_part(const struct gathering *gathering)
+{
+    return gathering->seen_frames / HIT_FRAMES % 2;
+}
+
+uint32_t sdfgi_gathering_hit_bits(const struct gathering *gathering, uint32_t c)
+{
+    const uint32_t turns = 1u << gathering->hit_turns_log2;
+    uint32_t bits = 0;
+    for (uint32_t i = gathering->at[c].round % turns; i < SDFGI_SEEN_BITS; i += turns)
+        bits |= 1u << i;
+    return bits;
 }
 
 bool sdfgi_gathering_forgets_seen(const struct gathering *gathering)

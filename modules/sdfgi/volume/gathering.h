@@ -4,9 +4,9 @@
  * A sweep visits each entry of a cascade's light list once. A gather cycle takes as many sweeps as a cell has
  * visits in a cycle: few after the lights have changed, because light makes a bounce in each cycle, and more
  * once most of the light changes little. Near cascades get most of a frame's rays: each gets half of what is
- * left, and the last one all of it. Where pictures are gathered, half of all rays go to the cells that these
- * read, in turn. A cascade whose light changes no more from cycle to cycle has settled, and gets
- * none. Plain data.
+ * left, and the last one all of it. Where pictures are gathered, up to 7/12 of all rays go to watched cells:
+ * to those that pictures read, which are seen, and in turn to those that rays of watched cells hit. A cascade
+ * whose light changes no more from cycle to cycle has settled, and gets none. Plain data.
  */
 #ifndef SDFGI_GATHERING_H
 #define SDFGI_GATHERING_H
@@ -20,25 +20,29 @@ struct gather_cursor {
     uint64_t cycle;         /* cycles are numbered from 1 */
     uint64_t invalid_cycle; /* the last one with light from before it was invalidated */
     struct convergence convergence;
-    uint32_t rough_cycles;         /* since the lights changed */
-    uint32_t seen_first, seen_end; /* entries of which those that are seen are visited in this frame, too */
-    bool rough;                    /* cycles are short, because the lights have changed */
+    uint32_t rough_cycles; /* since the lights changed */
+    uint32_t watched_first,
+        watched_end; /* entries of which those that are watched are visited in this frame, too */
+    uint32_t hit;    /* cells that rays had hit when marks on them were last read anew */
+    uint32_t round;  /* of visits to watched cells: in each, other cells that rays hit have their turn */
+    bool rough;      /* cycles are short, because the lights have changed */
     bool settled;
 };
 
 struct gathering {
     struct gather_cursor at[SDFGI_MAX_CASCADES];
-    uint64_t invalidations; /* of the light, as far as they are taken in */
-    uint32_t epoch;         /* of the lights */
-    uint32_t epoch_frames;  /* since it began */
-    bool epoch_over;        /* the lights have changed since */
-    uint32_t seen_frames;   /* since it was forgotten which cells were seen */
+    uint64_t invalidations;  /* of the light, as far as they are taken in */
+    uint32_t epoch;          /* of the lights */
+    uint32_t epoch_frames;   /* since it began */
+    bool epoch_over;         /* the lights have changed since */
+    uint32_t seen_frames;    /* since it was forgotten which cells were seen */
+    uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
 
 struct gather_range {
     uint32_t cascade, first, count;
-    uint32_t seen_span,
-        seen_count; /* entries among which seen ones are visited, and about how many these are */
+    uint32_t watched_span,
+        watched_count; /* entries among which watched ones are visited, and about how many these are */
     bool begins_cycle;
     uint64_t ends_cycle; /* the cycle whose last entries these are; 0: none */
     uint32_t visits;     /* of a cell in a cycle */
@@ -63,6 +67,13 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
                               struct gather_range ranges[static SDFGI_MAX_CASCADES]);
 /* True in the frames in which it is forgotten which cells were seen: a view may have turned away. */
 bool sdfgi_gathering_forgets_seen(const struct gathering *gathering);
+/* True in the frames in which marks on what rays hit are read anew, and new ones begin. */
+bool sdfgi_gathering_forgets_hit(const struct gathering *gathering);
+/* The entries of a cascade's list are others. */
+void sdfgi_gathering_forget_hit(struct gathering *gathering, uint32_t cascade);
+/* hit_part and hit_turns of sdfgi_cascade_params. */
+uint32_t sdfgi_gathering_hit_part(const struct gathering *gathering);
+uint32_t sdfgi_gathering_hit_bits(const struct gathering *gathering, uint32_t cascade);
 /* A cycle that ended came back from the GPU. */
 void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle,
                                const struct gather_change *change);

@@ -82,8 +82,10 @@ static struct sdfgi_cascade_params cascade_params(const struct volume_state *sta
         .from_first = point_of(shift),
         .from_first_scale = ldexpf(1.0f, -(int)c),
         .probe_base = cell_of(probe_base),
-        .seen_first = state->gathering.at[c].seen_first,
-        .seen_end = state->gathering.at[c].seen_end,
+        .watched_first = state->gathering.at[c].watched_first,
+        .watched_end = state->gathering.at[c].watched_end,
+        .hit_bits = sdfgi_gathering_hit_bits(&state->gathering, c),
+        .hit_part = sdfgi_gathering_hit_part(&state->gathering),
     };
     fill_change(cascade, &p);
     fill_content(cascade, &state->content, &p);

@@ -32,6 +32,7 @@ struct light_lists {
     uint32_t cascades, room;              /* entries that a list has room for */
     uint32_t counted[SDFGI_MAX_CASCADES]; /* entries of the newest list that came back */
     uint32_t seen[SDFGI_MAX_CASCADES];    /* of these, how many pictures have seen of late */
+    uint32_t hit[SDFGI_MAX_CASCADES];     /* of these, how many rays of watched cells have hit of late */
     uint64_t frame;
     uint32_t frames_in_flight;
 };

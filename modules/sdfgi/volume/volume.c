@@ -182,5 +182,6 @@ struct light_lists sdfgi_volume_light_lists(const struct volume *volume)
                                  .frames_in_flight = volume->backend->retired.frames_in_flight };
     memcpy(lists.counted, volume->feedback.counters + SDFGI_COUNTER_LIGHT_CELLS, sizeof lists.counted);
     memcpy(lists.seen, volume->feedback.counters + SDFGI_COUNTER_CELLS_SEEN, sizeof lists.seen);
+    memcpy(lists.hit, volume->feedback.counters + SDFGI_COUNTER_CELLS_HIT, sizeof lists.hit);
     return lists;
 }
