@@ -71,7 +71,7 @@ bool sdfgi_gathering_forgets_seen(const struct gathering *gathering);
 bool sdfgi_gathering_forgets_hit(const struct gathering *gathering);
 /* The entries of a cascade's list are others. */
 void sdfgi_gathering_forget_hit(struct gathering *gathering, uint32_t cascade);
-/* hit_part and hit_turns of sdfgi_cascade_params. */
+/* hit_part and hit_bits of sdfgi_cascade_params. */
 uint32_t sdfgi_gathering_hit_part(const struct gathering *gathering);
 uint32_t sdfgi_gathering_hit_bits(const struct gathering *gathering, uint32_t cascade);
 /* A cycle that ended came back from the GPU. */
