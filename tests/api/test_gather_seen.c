@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Light cells that a gathered picture reads are visited more often than others, and gather more rays. */
+ * Light cells that a gathered picture reads are visited more often than others, and gather more rays. Those
+ * that light them are visited more often, too. */
 #include "gather_picture.h"
 #include "light_scene.h"
 #include "require.h"
@@ -11,14 +12,16 @@
 
 enum { FRAMES = 60, STATE_PLANE = 18, FIRST = 2, GOES_ON = 5, LONG = 6 };
 
-/* A frame visits a hundred surfaces. */
+/* A frame visits a hundred surfaces with so many rays. */
+enum { RAYS_PER_FRAME = 1600 };
+
 static void open_empty(struct gi_test *t, struct picture_scene *scene)
 {
     struct sdfgi_settings settings = gi_test_settings();
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.resolution = 32;
     settings.cell_rays = 128;
-    settings.cell_rays_per_frame = 1600;
+    settings.cell_rays_per_frame = RAYS_PER_FRAME;
     *scene = (struct picture_scene){ .count = 0 };
     gi_test_open(t, &settings);
 }
@@ -148,30 +151,54 @@ static void seen_cells_gather_four_times_the_rays(void **state)
     gi_test_close(&t);
 }
 
-/* Light makes a bounce in a cycle: in a bright room it needs many. */
-static void cells_whose_light_still_changes_have_short_cycles(void **state)
+/* Of a closed room of which a picture shows a part of the floor, with so many rays in a frame. */
+static void progress_of_room(float albedo, uint32_t cell_rays_per_frame, struct progress found[static KINDS])
 {
-    (void)state;
     struct gi_test t;
     struct picture_scene scene;
-    struct progress found[KINDS] = { { 0 } };
     open_empty(&t, &scene);
+    struct sdfgi_settings settings = t.gi->settings;
+    settings.cell_rays_per_frame = cell_rays_per_frame;
+    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
     picture_scene_add(&scene, &t,
                       test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 2, 2, 2 }, 0.5, test_rotation_none),
-                      0.95f, 0.05f);
+                      albedo, 0.05f);
     struct picture picture = picture_draw(&scene, &above, SIDE, SIDE);
     for (int i = 0; i < FRAMES; i++) {
         gi_test_update(&t, 1);
         free(picture_gather(&t, &picture, SDFGI_GATHER_FULL));
     }
     read_progress(&t, found);
+    picture_finish(&picture);
+    picture_scene_finish(&scene);
+    gi_test_close(&t);
+}
+
+/* Light makes a bounce in a cycle: in a bright room it needs many. */
+static void cells_whose_light_still_changes_have_short_cycles(void **state)
+{
+    (void)state;
+    struct progress found[KINDS] = { { 0 } };
+    progress_of_room(0.95f, RAYS_PER_FRAME, found);
     printf("bright room: %u of %u cells that are seen have completed a cycle, and %u are in long ones\n",
            found[SEEN].complete, found[SEEN].cells, found[SEEN].in_long);
     REQUIRE_CMP(found[SEEN].complete, >=, found[SEEN].cells * 9 / 10);
     REQUIRE_CMP(found[SEEN].in_long, ==, 0u);
-    picture_finish(&picture);
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
+}
+
+/* Walls and ceiling light the floor that the picture shows. */
+static void what_lights_it_is_visited_next(void **state)
+{
+    (void)state;
+    struct progress found[KINDS] = { { 0 } };
+    progress_of_room(0.5f, 6800, found);
+    const struct progress *hit = &found[HIT], *others = &found[OTHERS];
+    REQUIRE_CMP(hit->cells, >=, 2 * found[SEEN].cells);
+    const double of_hit = (double)hit->visits / hit->cells,
+                 of_others = (double)others->visits / others->cells;
+    printf("%u cells that light %u seen ones had %.2f visits each, %u others %.2f\n", hit->cells,
+           found[SEEN].cells, of_hit, others->cells, of_others);
+    REQUIRE_CMP(of_hit, >=, 1.3 * of_others);
 }
 
 static void what_a_picture_shows_is_visited_first(void **state)
@@ -197,37 +224,6 @@ static void what_a_picture_shows_is_visited_first(void **state)
         picture_scene_finish(&scene);
         gi_test_close(&t);
     }
-}
-
-/* A floor alone is shown; walls and ceiling light it. */
-static void what_lights_it_is_visited_next(void **state)
-{
-    (void)state;
-    struct gi_test t;
-    struct picture_scene scene;
-    struct progress found[KINDS] = { { 0 } };
-    open_empty(&t, &scene);
-    struct sdfgi_settings settings = t.gi->settings;
-    settings.cell_rays_per_frame = 6800;
-    REQUIRE_CMP((int)sdfgi_set_settings(t.gi, &settings), ==, (int)SDFGI_OK);
-    picture_scene_add(&scene, &t,
-                      test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 2, 2, 2 }, 0.5, test_rotation_none),
-                      0.5f, 0.05f);
-    struct picture picture = picture_draw(&scene, &above, SIDE, SIDE);
-    for (int i = 0; i < FRAMES; i++) {
-        gi_test_update(&t, 1);
-        free(picture_gather(&t, &picture, SDFGI_GATHER_FULL));
-    }
-    read_progress(&t, found);
-    const double hit = (double)found[HIT].visits / found[HIT].cells,
-                 others = (double)found[OTHERS].visits / found[OTHERS].cells;
-    printf("%u cells that light %u seen ones had %.2f visits each, %u others %.2f\n", found[HIT].cells,
-           found[SEEN].cells, hit, found[OTHERS].cells, others);
-    REQUIRE_CMP(found[HIT].cells, >=, 2 * found[SEEN].cells);
-    REQUIRE_CMP(hit, >=, 1.3 * others);
-    picture_finish(&picture);
-    picture_scene_finish(&scene);
-    gi_test_close(&t);
 }
 
 TEST_GROUP(gather_seen)
