@@ -260,23 +260,26 @@ void gpu_render_pass_end(struct gpu_recorder *rec);
 
 /* ---- Timestamps: gpu_timer.c */
 
-enum { GPU_TIMER_SPANS = 256 }; /* timed spans per frame; further ones are not timed */
+enum {
+    GPU_TIMER_STAMPS = 512,         /* per frame; what runs after the last of them is not timed */
+    GPU_TIMER_NOTHING = 0x7fffffff, /* a tag: what runs until the next stamp is not timed */
+};
 
+/* From one stamp to the next. */
 struct gpu_timer_span {
     uint32_t tag; /* the caller's */
     uint64_t ns;
 };
 
-/* Query slots of the frames in flight. */
+/* Stamps of the frames in flight, each in a slot. */
 struct gpu_timer {
     VkQueryPool pool; /* null: no timestamps on this queue */
     uint32_t slots, slot;
-    uint32_t count;   /* spans begun in the current slot */
-    uint32_t *tags;   /* slots * GPU_TIMER_SPANS */
+    uint32_t *tags;   /* slots * GPU_TIMER_STAMPS */
     uint32_t *counts; /* per slot */
 };
 
-/* `tags` holds slots * GPU_TIMER_SPANS and `counts` slots elements; both stay the caller's. */
+/* `tags` holds slots * GPU_TIMER_STAMPS and `counts` slots elements; both stay the caller's. */
 VkResult gpu_timer_init(const struct gpu_device *device, struct gpu_timer *timer, uint32_t slots,
                         uint32_t *tags, uint32_t *counts);
 void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer);
@@ -284,12 +287,16 @@ void gpu_timer_finish(const struct gpu_device *device, struct gpu_timer *timer);
 /* Reads the spans last recorded in `slot`, whose frame must be over. `*count` says how many were written to
  * `spans`: none on failure, and none where the device has no times. */
 VkResult gpu_timer_read(const struct gpu_device *device, const struct gpu_timer *timer, uint32_t slot,
-                        struct gpu_timer_span spans[GPU_TIMER_SPANS], uint32_t *count);
+                        struct gpu_timer_span spans[GPU_TIMER_STAMPS], uint32_t *count);
 
 /* Starts recording into `slot`, forgetting what it held. */
 void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot);
-void gpu_timer_begin(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t tag);
-void gpu_timer_end(struct gpu_timer *timer, struct gpu_recorder *rec);
+/* Before the first stamp that a command buffer takes. One reset for all of them: between passes each would
+ * have the device wait. */
+void gpu_timer_reset(struct gpu_timer *timer, struct gpu_recorder *rec);
+/* Ends the span of the stamp before, and begins that of `tag`. The last stamp in a command buffer has the tag
+ * GPU_TIMER_NOTHING. */
+void gpu_timer_stamp(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t tag);
 
 /* ---- Deferred destruction: gpu_retire.c */
 

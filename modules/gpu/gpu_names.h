@@ -34,12 +34,12 @@
 #define gpu_retire                  sdfgi_gpu_retire
 #define gpu_retire_all              sdfgi_gpu_retire_all
 #define gpu_retire_collect          sdfgi_gpu_retire_collect
-#define gpu_timer_begin             sdfgi_gpu_timer_begin
 #define gpu_timer_begin_frame       sdfgi_gpu_timer_begin_frame
-#define gpu_timer_end               sdfgi_gpu_timer_end
 #define gpu_timer_finish            sdfgi_gpu_timer_finish
 #define gpu_timer_init              sdfgi_gpu_timer_init
 #define gpu_timer_read              sdfgi_gpu_timer_read
+#define gpu_timer_reset             sdfgi_gpu_timer_reset
+#define gpu_timer_stamp             sdfgi_gpu_timer_stamp
 #define gpu_update                  sdfgi_gpu_update
 #define gpu_use                     sdfgi_gpu_use
 

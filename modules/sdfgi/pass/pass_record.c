@@ -24,11 +24,14 @@ void sdfgi_pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint poin
     r->bound |= 1u << point;
 }
 
-static void end_time(struct pass_recorder *r)
+/* From here on the device's time is that of `tag`. */
+static void stamp(struct pass_recorder *r, uint32_t tag)
 {
-    if (r->timed)
-        gpu_timer_end(r->timer, &r->gpu);
-    r->timed = false;
+    if (!r->stamped)
+        gpu_timer_reset(r->timer, &r->gpu);
+    gpu_timer_stamp(r->timer, &r->gpu, tag);
+    r->stamped = true;
+    r->timed = tag != GPU_TIMER_NOTHING;
 }
 
 static void end_label(struct pass_recorder *r)
@@ -41,7 +44,8 @@ static void end_label(struct pass_recorder *r)
 void sdfgi_pass_close(struct pass_recorder *r)
 {
     end_label(r);
-    end_time(r);
+    if (r->timed)
+        stamp(r, GPU_TIMER_NOTHING);
 }
 
 void sdfgi_pass_recorder_end(struct pass_recorder *r)
@@ -65,12 +69,9 @@ void sdfgi_pass_open(struct pass_recorder *r, const struct work *work)
     }
     const bool beside = r->open && work->group != 0 && r->open->group == work->group;
     end_label(r);
-    if (!beside)
-        end_time(r);
     gpu_label_begin(&r->gpu, sdfgi_pass_row(work->pass)->name);
-    if (!r->timed)
-        gpu_timer_begin(r->timer, &r->gpu, (uint32_t)work->pass);
-    r->timed = true;
+    if (!beside)
+        stamp(r, (uint32_t)work->pass);
     r->open = work;
     if (sdfgi_pass_row(work->pass)->kind != PASS_KIND_COMPUTE)
         return; /* the voxeliser binds what each material needs */

@@ -18,6 +18,7 @@ struct pass_recorder {
     struct gpu_recorder gpu;
     struct pass_tally tally[PASS_COUNT];
     const struct work *open; /* the newest item of the pass whose label is open; NULL: none */
+    bool stamped;            /* a stamp has been taken */
     bool timed;              /* a time span is open */
     uint32_t bound;          /* a bit per bind point that has the resources' sets */
 };

@@ -22,7 +22,7 @@ struct resources {
     struct gpu_buffer buffers[RESOURCE_COUNT];
     struct gpu_buffer readback; /* counters of the frames in flight */
     struct gpu_timer timer;
-    uint32_t timer_tags[SDFGI_MAX_FRAMES_IN_FLIGHT * GPU_TIMER_SPANS];
+    uint32_t timer_tags[SDFGI_MAX_FRAMES_IN_FLIGHT * GPU_TIMER_STAMPS];
     uint32_t timer_counts[SDFGI_MAX_FRAMES_IN_FLIGHT];
     VkDescriptorPool pool;
     VkDescriptorSet sets[RESOURCE_SET_COUNT];

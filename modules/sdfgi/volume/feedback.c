@@ -41,7 +41,7 @@ static bool read_counters(struct volume *volume, const struct feedback_slot *slo
 
 static VkResult read_times(struct volume *volume, uint32_t index)
 {
-    struct gpu_timer_span spans[GPU_TIMER_SPANS];
+    struct gpu_timer_span spans[GPU_TIMER_STAMPS];
     uint32_t count;
     const VkResult result =
         gpu_timer_read(&volume->backend->device, &volume->resources->timer, index, spans, &count);
