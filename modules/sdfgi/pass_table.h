@@ -85,6 +85,8 @@
       R(COUNTERS))                                                                                           \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
       ALL_RAYS, none, SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS) | R(EMITTERS), R(SCRATCH) | R(INDIRECT))   \
+    X(VISIT_LIST, COMPUTE, visit_list, LIGHT_CELLS, CELLS, OWN, CREATED,                                     \
+      SEEN_WORDS, visit_list, SDFGI_GROUP_VISITS, NONE, 0, R(SEEN))                                          \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
       ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)               \
       | R(INDIRECT) | R(EMITTERS), R(RAYS))                                                                  \
@@ -93,10 +95,10 @@
       | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(INDIRECT),             \
       R(SEEN) | R(GATHERED))                                                                                 \
     X(CELL_FILTER, COMPUTE, cell_filter, LIGHT_CELLS, FILTER, OWN, CREATED,                                  \
-      ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
+      ALL_LIGHT_CELLS, cell_filter, SDFGI_FILTER_CELLS, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
       R(SEEN) | R(INDIRECT), R(GATHERED))                                                                    \
     X(CELL_FILTER_FAR, COMPUTE, cell_filter_far, LIGHT_CELLS, FILTER, OWN, CREATED,                          \
-      ALL_LIGHT_CELLS, cell_filter, SDFGI_GROUP_LINEAR, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
+      ALL_LIGHT_CELLS, cell_filter, SDFGI_FILTER_CELLS, NONE, R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |             \
       R(SEEN) | R(INDIRECT) | R(GATHERED), R(SURFACES))                                                      \
     X(PROBE_SUM, COMPUTE, probe_sum, RAYS, TRACE, SUM, CREATED,                                              \
       ALL_PROBES, none, 1, NONE, R(PROBES) | R(RAYS) | R(LIGHT) | R(LIGHT_BLOCKS) | R(SURFACES) |            \

@@ -34,7 +34,8 @@ static struct frame_input frame_input(struct sdfgi *gi, const struct sdfgi_frame
                                  .lists = sdfgi_volume_light_lists(&gi->volume),
                                  .gaps = gi->volume.gaps,
                                  .starts_in_parts = sdfgi_preparation_keeps(gi),
-                                 .threads_per_ray = threads_per_ray(&gi->backend.device) };
+                                 .threads_per_ray = threads_per_ray(&gi->backend.device),
+                                 .software = gi->backend.software };
 }
 
 static void report_off(struct sdfgi *gi)

@@ -14,3 +14,8 @@ void filter_store(uint cascade, uint axis, uint entry, uint word)
 {
     sdfgi_gathered[gathered_word(cascade, GATHERED_BETWEEN + axis, entry)] = word;
 }
+
+void main()
+{
+    filter_cells();
+}

@@ -4,8 +4,8 @@
  * loses, so the filter keeps the sum. Cells whose irradiance differs more than their noise explains, at the
  * edge of a shadow, exchange little. cell_filter goes over neighbours, and then cell_filter_far over what it
  * has left, with neighbours two cells away (a trous: Dammertz et al. 2010, "Edge-avoiding A-Trous wavelet
- * transform for fast global illumination filtering"). A thread per light cell that visits.glsl
- * tells.
+ * transform for fast global illumination filtering"). It takes the light cells that are
+ * visited (visits.glsl), or all.
  *
  * Before it includes this file a shader defines
  *   FILTER_DISTANCE          how far away neighbours are, in cells
@@ -19,9 +19,8 @@
 #include "gathered.glsl"
 #include "../include/sdfgi_cells.glsl"
 
-layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_cell_filter_args);
-#include "visits.glsl"
+#include "visits_or_all.glsl"
 
 void filter_store(uint cascade, uint axis, uint entry, uint word);
 
@@ -56,16 +55,16 @@ struct row {
     bool there[3];
 };
 
-/* Rows, and places in them, go from -1 to 1 times the distance. Everything is loaded before it is
- * needed: loads overlap, so that a thread waits once for three of them. */
-row load_row(uint cascade, ivec3 cell, uint entry, float noise, int y, int z)
+/* The i-th of nine rows. They, and places in them, go from -1 to 1 times the distance. Everything is loaded
+ * before it is needed: loads overlap, so that a thread waits once for three of them. */
+row load_row(uint cascade, ivec3 cell, uint entry, float noise, int i)
 {
     row r;
     for (int k = 0; k < 3; k++) {
-        const ivec3 at = cell + FILTER_DISTANCE * ivec3(k - 1, y, z);
+        const ivec3 away = ivec3(k, i % 3, i / 3) - 1, at = cell + FILTER_DISTANCE * away;
         uint other;
         const bool is_light = sdfgi_cell_entry(cascade, at, other);
-        r.there[k] = is_light && sdfgi_cell_is_valid(cascade, at);
+        r.there[k] = is_light && sdfgi_cell_is_valid(cascade, at) && away != ivec3(0);
         r.entries[k] = r.there[k] ? other : entry;
     }
     for (int k = 0; k < 3; k++)
@@ -88,47 +87,18 @@ vec4 gain_from_row(uint cascade, row r, uint axis, vec3 own)
     return gained;
 }
 
-void filter_cell(uint cascade, uint entry)
+/* What a surface shows that has gained so much: light, and the sum of shares. */
+uint filter_result(uint own, vec4 gained)
 {
-    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
-    if (!sdfgi_cell_is_valid(cascade, cell))
-        return;
-    const float noise = gathered_load_shown_noise(cascade, entry);
-    uint own[6];
-    vec4 gained[6]; /* light, and the sum of shares */
-    for (uint axis = 0u; axis < 6u; axis++) {
-        own[axis] = filtered_word(cascade, axis, entry);
-        gained[axis] = vec4(0.0);
-    }
-    for (int i = 0; i < 9; i++) {
-        row r = load_row(cascade, cell, entry, noise, i % 3 - 1, i / 3 - 1);
-        r.there[1] = r.there[1] && i != 4;
-        for (uint axis = 0u; axis < 6u; axis++)
-            if (own[axis] < SDFGI_SURFACE_UNKNOWN)
-                gained[axis] += gain_from_row(cascade, r, axis, sdfgi_rgbe_decode(own[axis]));
-    }
-    for (uint axis = 0u; axis < 6u; axis++) {
-        uint result = own[axis];
-        if (result < SDFGI_SURFACE_UNKNOWN) {
-            /* In a thicket more than eight may be alike. */
-            const vec3 light = sdfgi_rgbe_decode(result) + gained[axis].rgb / max(gained[axis].a, 1.0);
-            result = min(sdfgi_rgbe_encode(light), SDFGI_SURFACE_UNKNOWN - 1u);
-        }
-        filter_store(cascade, axis, entry, result);
-    }
+    /* In a thicket more than eight may be alike. */
+    const vec3 light = sdfgi_rgbe_decode(own) + gained.rgb / max(gained.a, 1.0);
+    return own < SDFGI_SURFACE_UNKNOWN ? min(sdfgi_rgbe_encode(light), SDFGI_SURFACE_UNKNOWN - 1u) : own;
 }
 
-void main()
-{
-    uint entry;
 #ifdef SDFGI_SOFTWARE
-    uint cascade;
-    if (visit_entry(0u, cascade, entry))
-        filter_cell(cascade, entry);
+#include "cell_filter_alone.glsl"
 #else
-    if (visited_entry(gl_WorkGroupID.y, gl_GlobalInvocationID.x, entry))
-        filter_cell(visited_cascade(gl_WorkGroupID.y), entry);
+#include "cell_filter_shared.glsl"
 #endif
-}
 
 #endif

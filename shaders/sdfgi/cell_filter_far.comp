@@ -16,3 +16,8 @@ void filter_store(uint cascade, uint axis, uint entry, uint word)
 {
     sdfgi_surfaces[sdfgi_surface_index(cascade, entry, axis)] = word;
 }
+
+void main()
+{
+    filter_cells();
+}

@@ -74,7 +74,7 @@ void visit_cell(uint cascade)
 void visit()
 {
     uint cascade;
-    if (visit_entry(0u, cascade, visited.entry))
+    if (visit_find(gl_WorkGroupSize.x * workgroup_index() + gl_LocalInvocationIndex, cascade, visited.entry))
         visit_cell(cascade);
 }
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Four share those of 32 in a row that are watched
- * (visits.glsl). Its threads share the rays of all their surfaces. A surface adds its rays in order, so that
- * sums do not depend on which thread sent which ray. Shared memory: 9 KiB. */
+ * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Its threads share the rays of all their surfaces.
+ * A surface adds its rays in order, so that sums do not depend on which thread sent which ray. Shared memory:
+ * 9 KiB. */
 #ifndef SDFGI_CELL_VISIT_SHARED_GLSL
 #define SDFGI_CELL_VISIT_SHARED_GLSL
 
 #include "cell_visit.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = 192) in;
 
 const uint CELLS = uint(SDFGI_VISIT_CELLS), THREADS = gl_WorkGroupSize.x;
 const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */
@@ -106,31 +106,12 @@ vec4 light_of_rays(uint first, uint rays)
     return visit_mean(light);
 }
 
-/* The first of the watched cells of a word that the workgroup visits: workgroups of as many rows share them.
- */
-uint first_watched_cell()
-{
-    return CELLS * (gl_WorkGroupID.y / sdfgi_frame.cascade_count - 1u);
-}
-
-/* Entry of the own-th cell that the workgroup visits. False if there is none. */
-bool find_entry(uint cascade, uint own, uint watched, uint first_watched, out uint entry)
-{
-    entry = args.first[cascade] + gl_WorkGroupID.x * CELLS + own;
-    if (gl_WorkGroupID.y < sdfgi_frame.cascade_count)
-        return entry < min(args.end[cascade], light_cell_count(cascade));
-    if (first_watched_cell() + own >= uint(bitCount(watched)))
-        return false;
-    entry = first_watched + sdfgi_nth_bit(watched, first_watched_cell() + own);
-    return entry < light_cell_count(cascade);
-}
-
 /* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */
-void find_surfaces(uint cascade, uint watched, uint first_watched)
+void find_surfaces(uint cascade)
 {
     const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u;
-    uint entry;
-    const bool visited = own < CELLS && find_entry(cascade, own, watched, first_watched, entry);
+    uint of_cell, entry;
+    const bool visited = own < CELLS && visit_find(CELLS * workgroup_index() + own, of_cell, entry);
     ivec3 cell = ivec3(0);
     if (visited)
         cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
@@ -162,17 +143,11 @@ void find_surfaces(uint cascade, uint watched, uint first_watched)
 
 void visit()
 {
-    const uint cascade = visited_cascade(gl_WorkGroupID.y), lane = gl_LocalInvocationIndex;
-    uint first_watched = 0u, watched = 0u;
-    if (gl_WorkGroupID.y >= sdfgi_frame.cascade_count) {
-        first_watched =
-            sdfgi_frame.cascades[cascade].watched_first + uint(SDFGI_SEEN_BITS) * gl_WorkGroupID.x;
-        watched = visited_watched(cascade, first_watched, visited_watched_end(cascade));
-        if (uint(bitCount(watched)) <= first_watched_cell())
-            return;
-    }
-    const uint rays = rays_of_visit(cascade);
-    find_surfaces(cascade, watched, first_watched);
+    const uint word = visit_word(CELLS * workgroup_index());
+    if (word == VISIT_NOTHING)
+        return;
+    const uint cascade = visit_cascade(word), lane = gl_LocalInvocationIndex, rays = rays_of_visit(cascade);
+    find_surfaces(cascade);
     barrier();
     for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);

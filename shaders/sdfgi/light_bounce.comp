@@ -2,7 +2,7 @@
  * Per light cell, and per axis along which a surface faces: the irradiance that arrives, which lookups read;
  * and outgoing radiance, that is, direct light, and the irradiance times bounce gain. Emission is not part of
  * it: whoever reads outgoing light adds that of the surface which a ray hits.
- * A thread per light cell that visits.glsl tells, or per dirty light cell. */
+ * A thread per light cell that is visited (visits.glsl), per dirty light cell, or for all. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,8 +16,7 @@
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
 SDFGI_PUSH(sdfgi_light_bounce_args);
-#define VISIT_BLOCKS uint(SDFGI_BOUNCE_BLOCKS)
-#include "visits.glsl"
+#include "visits_or_all.glsl"
 
 /* Albedo times feedback, capped below 1 so that light in a closed white room stays finite. */
 vec3 bounce_gain(vec3 albedo)
@@ -132,23 +131,31 @@ bool dirty_entry(out uint entry)
 }
 
 #ifdef SDFGI_SOFTWARE
-/* The cell of a thread's k-th block. A thread has one dirty cell at most. */
+const uint BLOCKS = uint(SDFGI_BOUNCE_BLOCKS);
+#else
+const uint BLOCKS = 1u;
+#endif
+
+/* The cell of a thread in the k-th block of its workgroup. A thread has one dirty cell at most. */
 bool cell_of_block(uint k, out uint cascade, out uint entry)
 {
     if (args.only_dirty == 0u)
-        return visit_entry(k, cascade, entry);
+        return visit_or_entry((workgroup_index() * BLOCKS + k) * gl_WorkGroupSize.x + gl_LocalInvocationIndex,
+                              cascade, entry);
     cascade = args.cascade;
     return k == 0u && dirty_entry(entry);
 }
 
+#ifdef SDFGI_SOFTWARE
+
 /* Goes on to the next cell that asks probes, or to the next one that does not. False if there is none. */
 bool next_cell(bool asks, inout uint k, out uint cascade, out uint entry)
 {
-    const uint blocks = args.only_dirty != 0u ? 1u : VISIT_BLOCKS;
+    const uint blocks = args.only_dirty != 0u ? 1u : BLOCKS;
     bool found = false;
     for (; !found && k < blocks; k++)
         found = cell_of_block(k, cascade, entry) && asks_probes(cascade, entry) == asks;
-    k = k < blocks ? k : VISIT_BLOCKS;
+    k = k < blocks ? k : BLOCKS;
     return found;
 }
 
@@ -159,7 +166,7 @@ void bounce_all(bool asks)
     do
         if (next_cell(asks, k, cascade, entry))
             bounce(cascade, entry, asks);
-    while (k < VISIT_BLOCKS);
+    while (k < BLOCKS);
 }
 
 /* Two loops, so that only cells that ask probes take the time that reading them takes. */
@@ -171,9 +178,8 @@ void main()
 #else
 void main()
 {
-    const uint row = args.cascade + gl_WorkGroupID.y, cascade = visited_cascade(row);
-    uint entry;
-    if (args.only_dirty != 0u ? dirty_entry(entry) : visited_entry(row, gl_GlobalInvocationID.x, entry))
+    uint cascade, entry;
+    if (cell_of_block(0u, cascade, entry))
         bounce(cascade, entry, asks_probes(cascade, entry));
 }
 #endif

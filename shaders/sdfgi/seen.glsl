@@ -12,8 +12,8 @@
 #define SDFGI_ACCESS_SEEN readonly
 #endif
 
-/* A bit per entry of each light list, in three parts: what is seen, and two for what rays hit. Of these one
- * is read and the other written, so that no visit depends on another one of the same frame. */
+/* shared/seen.h. Its parts: what is seen, and two for what rays hit. Of these one is read and the other
+ * written, so that no visit depends on another one of the same frame. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SEEN) SDFGI_ACCESS_SEEN buffer sdfgi_seen_buffer
 {
     uint sdfgi_seen[];
@@ -21,8 +21,8 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_SEEN) SDFGI_ACCESS_
 
 uint seen_word_of_part(uint part, uint cascade, uint entry)
 {
-    const uint bits = uint(SDFGI_SEEN_BITS), words = (sdfgi_frame.light_cell_room + bits - 1u) / bits;
-    return (cascade * uint(SDFGI_SEEN_PARTS) + part) * words + entry / bits;
+    return (cascade * uint(SDFGI_SEEN_PARTS) + part) * sdfgi_seen_part_words(sdfgi_frame.light_cell_room) +
+           entry / uint(SDFGI_SEEN_BITS);
 }
 
 uint seen_word(uint cascade, uint entry)

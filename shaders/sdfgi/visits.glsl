@@ -1,131 +1,50 @@
 /* SPDX-License-Identifier: MIT
- * Which light cells a dispatch visits: in each cascade those of a range of the list, and beside it some that
- * are watched (seen.glsl). Includers have args.first and args.end, the ranges. */
+ * The list of light cells that a frame visits, of all cascades: visit_list writes it, and passes over light
+ * cells have their workgroups from its records. Most watched cells are scattered over the light lists. If
+ * workgroups looked for them there, most would find few or none. */
 #ifndef SDFGI_VISITS_GLSL
 #define SDFGI_VISITS_GLSL
 
 #include "light_cells.glsl"
 #include "seen.glsl"
 #include "workgroup.glsl"
-#include "../lib/nth_bit.glsl"
 
-/* The cascade of a row. Rows of the ranges come first, and then those of the watched cells. */
-uint visited_cascade(uint row)
+const uint VISIT_NOTHING = ~0u; /* fills up what a workgroup takes */
+const uint VISIT_ENTRY_BITS = 28u;
+
+uint visit_record(uint record)
 {
-    return row % sdfgi_frame.cascade_count;
+    return sdfgi_seen_records(sdfgi_frame.light_cell_room, sdfgi_frame.cascade_count) + 4u * record;
 }
 
-/* The lowest n bits. */
-uint visited_bits_below(int n)
+uint visit_slot(uint n)
 {
-    return n < SDFGI_SEEN_BITS ? (1u << max(n, 0)) - 1u : ~0u;
+    return sdfgi_seen_visits(sdfgi_frame.light_cell_room, sdfgi_frame.cascade_count) + n;
 }
 
-/* Watched cells of a word that are visited beside the range: a bit for each entry from `first` to before
- * `last`.
- */
-uint visited_watched(uint cascade, uint first, uint last)
+uint visit_pack(uint cascade, uint entry)
 {
-    if (first >= last)
-        return 0u;
-    const uint in_range = visited_bits_below(int(args.end[cascade] - first)) &
-                          ~visited_bits_below(int(args.first[cascade] - first));
-    return watched_bits(cascade, first) & visited_bits_below(int(last - first)) & ~in_range;
+    return cascade << VISIT_ENTRY_BITS | entry;
 }
 
-/* The end of a cascade's entries of which those that are watched are visited. */
-uint visited_watched_end(uint cascade)
+/* The n-th visit, packed. */
+uint visit_word(uint n)
 {
-    return min(sdfgi_frame.cascades[cascade].watched_end, light_cell_count(cascade));
+    return n < sdfgi_seen_at(visit_record(0u) + 3u) ? sdfgi_seen_at(visit_slot(n)) : VISIT_NOTHING;
 }
 
-#ifdef SDFGI_SOFTWARE
-
-/* Software drivers run the whole shader for threads that have nothing to do, too: there are to be few. As
- * many threads as a word has bits take the entries of a block: those of a range that follow one another, or
- * those of a word that are watched. A thread of cell_gather has one entry: these drivers end a shader whose
- * loops go round too often. */
-
-/* Blocks for a thread. */
-#ifndef VISIT_BLOCKS
-#define VISIT_BLOCKS 1u
-#endif
-
-struct visit_block {
-    uint cascade;
-    uint first, end; /* entries */
-    bool watched;    /* only those that are watched, outside of the range */
-};
-
-/* Takes the block with so many before it from entries that follow one another. `before` becomes less by those
- * that are passed over. */
-void visit_block_take(inout visit_block block, inout int before, uint cascade, bool watched, uint first,
-                      uint end)
+uint visit_cascade(uint word)
 {
-    const uint size = uint(SDFGI_SEEN_BITS);
-    const uint count = cascade < sdfgi_frame.cascade_count ? (end - first + size - 1u) / size : 0u;
-    if (before >= 0 && uint(before) < count)
-        block = visit_block(cascade, first + uint(before) * size, end, watched);
-    before -= int(count);
+    return word >> VISIT_ENTRY_BITS;
 }
 
-/* The block with so many before it: those of the ranges come first. Cascades are constants where loops are
- * unrolled, so that all threads load together. Without entries if there is no such block. */
-visit_block visit_block_find(uint index)
+/* Cascade and entry of the n-th visit. False if there is none. */
+bool visit_find(uint n, out uint cascade, out uint entry)
 {
-    visit_block block = visit_block(0u, 0u, 0u, false);
-    int before = int(index);
-    [[unroll]] for (uint c = 0u; c < uint(SDFGI_MAX_CASCADES); c++)
-    {
-        visit_block_take(block, before, c, false, args.first[c], args.end[c]);
-    }
-    [[unroll]] for (uint c = 0u; c < uint(SDFGI_MAX_CASCADES); c++)
-    {
-        visit_block_take(block, before, c, true, sdfgi_frame.cascades[c].watched_first,
-                         sdfgi_frame.cascades[c].watched_end);
-    }
-    return block;
+    const uint word = visit_word(n);
+    cascade = visit_cascade(word);
+    entry = word & (1u << VISIT_ENTRY_BITS) - 1u;
+    return word != VISIT_NOTHING && entry < light_cell_count(cascade);
 }
-
-/* Numbers workgroups so that those in a row are far apart: these drivers give each processor a part of them,
- * in a row, and blocks of watched cells have less to do than others. */
-uint visit_group()
-{
-    const uint parts = uint(SDFGI_VISIT_PARTS),
-               part = max(gl_NumWorkGroups.x * gl_NumWorkGroups.y / parts, 1u);
-    return workgroup_index() % part * parts + workgroup_index() / part;
-}
-
-/* The entry that a thread visits in its k-th block. False if there is none. */
-bool visit_entry(uint k, out uint cascade, out uint entry)
-{
-    const uint bits = uint(SDFGI_SEEN_BITS), lane = gl_LocalInvocationIndex % bits;
-    const uint groups = visit_group() * VISIT_BLOCKS + k;
-    const visit_block block =
-        visit_block_find((groups * gl_WorkGroupSize.x + gl_LocalInvocationIndex) / bits);
-    cascade = block.cascade;
-    const uint last = min(block.end, light_cell_count(cascade));
-    const uint watched = block.watched ? visited_watched(cascade, block.first, last) : 0u;
-    entry = block.first + (block.watched ? sdfgi_nth_bit(watched, lane) : lane);
-    return block.watched ? lane < uint(bitCount(watched)) : entry < last;
-}
-
-#else
-
-/* Finds the n-th entry of a row: of the range [first, end), or of the watched cells outside of it. False if
- * it is not to be visited. */
-bool visited_entry(uint row, uint n, out uint entry)
-{
-    const uint cascade = visited_cascade(row), count = light_cell_count(cascade), first = args.first[cascade],
-               end = args.end[cascade];
-    entry = first + n;
-    if (row < sdfgi_frame.cascade_count)
-        return entry < min(end, count);
-    entry = sdfgi_frame.cascades[cascade].watched_first + n;
-    return entry < visited_watched_end(cascade) && (entry < first || entry >= end) &&
-           watched_holds(cascade, entry);
-}
-
-#endif
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "types.h"
 #include "constants.h"
+#include "seen.h"
 
 /* Passes over one cascade as a whole. */
 struct sdfgi_cascade_args {
@@ -86,28 +87,34 @@ struct sdfgi_light_direct_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 76);
 
-/* Per cascade entries [first, end) of the light list, or those in dirty blocks. */
-struct sdfgi_light_bounce_args {
+/* Per cascade entries [first, end) of the light list are visited; and how many visits a workgroup of each
+ * pass takes. */
+struct sdfgi_visit_list_args {
     uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
-    uint cascade;        /* of workgroups with y = 0; the next one follows at y = 1, and so on */
-    uint only_dirty;     /* as in sdfgi_light_direct_args */
-    uint without_probes; /* 1: no probe holds light */
+    uint groups[SDFGI_VISITS_RECORDS];
 };
-SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 76);
+SDFGI_ASSERT_SIZE(sdfgi_visit_list_args, 76);
 
-/* Per cascade entries [first, end) of the light list. */
+struct sdfgi_light_bounce_args {
+    uint cascade;                 /* whose dirty cells, */
+    uint only_dirty;              /* 1: as in sdfgi_light_direct_args; else those of all cascades, */
+    uint visited;                 /* 1: that this frame visits */
+    uint without_probes;          /* 1: no probe holds light */
+    uint end[SDFGI_MAX_CASCADES]; /* of the light lists */
+};
+SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 48);
+
 struct sdfgi_cell_gather_args {
-    uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
     uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */
     uint epoch;                      /* of the lights, 8 bits: it changes with them */
     uint marks;                      /* a bit per cascade: its cells mark how much light they have */
 };
-SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 104);
+SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 40);
 
 struct sdfgi_cell_filter_args {
-    uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES]; /* as cell_gather's */
+    uint visited, end[SDFGI_MAX_CASCADES]; /* as in sdfgi_light_bounce_args */
 };
-SDFGI_ASSERT_SIZE(sdfgi_cell_filter_args, 64);
+SDFGI_ASSERT_SIZE(sdfgi_cell_filter_args, 36);
 
 struct sdfgi_light_rescale_args {
     float factor; /* a power of two */

@@ -71,11 +71,10 @@
 #define SDFGI_ROUGH_VISITS 8
 #define SDFGI_VISIT_RAYS   16
 #define SDFGI_VISIT_CELLS  8
-/* Entries whose bits share a word of SEEN, and parts of that buffer: see sdfgi/seen.glsl. */
+#define SDFGI_FILTER_CELLS 16 /* that a workgroup of the filter takes */
+/* Entries whose bits share a word of SEEN, and parts of that buffer: see shared/seen.h. */
 #define SDFGI_SEEN_BITS  32
 #define SDFGI_SEEN_PARTS 3
-/* Parts of a dispatch over light cells that have as much work each, on software drivers. */
-#define SDFGI_VISIT_PARTS 16
 
 /* A small relative change of a light cell over a gather cycle: stored radiance is rounded by as much. */
 #define SDFGI_SMALL_CHANGE (1.0 / 512.0)
@@ -113,6 +112,7 @@
 #define SDFGI_GROUP_RAYS        128 /* one thread per ray of a frame, or threads that share a probe's rays */
 #define SDFGI_GROUP_OCCLUSION   64  /* threads that share one probe's 256 depths */
 #define SDFGI_GROUP_EMITTERS    128 /* threads that list the emitters of a cascade */
+#define SDFGI_GROUP_VISITS      128 /* threads that list visits, one per word of SEEN */
 #define SDFGI_GROUP_PIXELS      8   /* 8x8: one thread per pixel */
 
 /* Pixels along a side of the square over which the rays of a rough surface are spread. */

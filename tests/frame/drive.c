@@ -147,7 +147,8 @@ void drive_plan(const struct drive *d, struct frame *frame)
                                        .lists = lists_of(d),
                                        .gaps = { d->list_grew, d->emitters_added },
                                        .starts_in_parts = d->starts_in_parts,
-                                       .threads_per_ray = SDFGI_GROUP_SURFACES };
+                                       .threads_per_ray = SDFGI_GROUP_SURFACES,
+                                       .software = false };
     sdfgi_frame_plan(frame, &input);
 }
 

@@ -13,9 +13,9 @@ static bool same_work(const struct work *a, const struct work *b)
 {
     return a->kind == b->kind && a->pass == b->pass && a->reason == b->reason && a->cascade == b->cascade &&
            memcmp(&a->box, &b->box, sizeof a->box) == 0 && a->first == b->first && a->count == b->count &&
-           a->indirect == b->indirect && a->group == b->group && a->units == b->units &&
-           memcmp(&a->args, &b->args, sizeof a->args) == 0 && a->resource == b->resource &&
-           a->offset == b->offset && a->bytes == b->bytes;
+           a->indirect == b->indirect && a->records == b->records && a->group == b->group &&
+           a->units == b->units && memcmp(&a->args, &b->args, sizeof a->args) == 0 &&
+           a->resource == b->resource && a->offset == b->offset && a->bytes == b->bytes;
 }
 
 static void require_same_plan(const struct frame *a, const struct frame *b)
@@ -82,7 +82,8 @@ void plan_rules_reasons(const struct frame *frame)
 
 static uint64_t reads_of(const struct work *work)
 {
-    return sdfgi_pass_row(work->pass)->reads | (work->indirect != WORK_DIRECT ? RESOURCE_BIT(INDIRECT) : 0);
+    return sdfgi_pass_row(work->pass)->reads |
+           (work->indirect != WORK_DIRECT ? UINT64_C(1) << work->records : 0);
 }
 
 static void require_apart(const struct work *a, const struct work *b)
@@ -146,6 +147,21 @@ static void require_box(const struct work *work, uint32_t resolution)
                      work->box.high[i] % SDFGI_PROBE_SPACING == 0);
 }
 
+/* Each list takes whole workgroups, and no entry is left out. */
+static void require_lists(const struct drive *d, const struct work *work)
+{
+    const bool filters = work->pass != PASS_LIGHT_BOUNCE;
+    const uint32_t *end = filters ? work->args.cell_filter.end : work->args.light_bounce.end;
+    uint32_t threads = 0;
+    if (work->indirect != WORK_DIRECT)
+        return;
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
+        REQUIRE_CMP(end[c], <=, c < d->settings.cascades ? d->extent.light_cells : 0);
+        threads += (end[c] + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR * SDFGI_GROUP_LINEAR;
+    }
+    REQUIRE_CMP(work->count, ==, threads);
+}
+
 static void require_range(const struct drive *d, const struct work *work)
 {
     switch (sdfgi_pass_row(work->pass)->domain) {
@@ -160,8 +176,15 @@ static void require_range(const struct drive *d, const struct work *work)
         REQUIRE_CMP(work->first + work->count, <=, d->settings.resolution / 4);
         break;
     case DOMAIN_LIGHT_CELLS:
-    case DOMAIN_ALL_LIGHT_CELLS:
         REQUIRE_CMP(work->first + work->count, <=, d->extent.light_cells);
+        break;
+    case DOMAIN_ALL_LIGHT_CELLS:
+        require_lists(d, work);
+        break;
+    case DOMAIN_SEEN_WORDS:
+        REQUIRE_CMP(work->count, <=, sdfgi_seen_part_words((uint32_t)d->extent.light_cells));
+        for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+            REQUIRE_CMP(work->args.visit_list.end[c], <=, SDFGI_SEEN_BITS * work->count);
         break;
     case DOMAIN_ALL_PROBES:
         REQUIRE_TRUE(work->count > 0 && work->count <= d->settings.cascades);

@@ -46,16 +46,20 @@ static void add_box(struct text *text, const struct cell_box *box)
              box->high[2]);
 }
 
-static void add_record(struct text *text, uint32_t record)
+static void add_record(struct text *text, const struct work *work)
 {
     static const char *const names[] = { "CELLS", "MASKS", "DIRECT", "RAYS" };
-    text_add(text, " indirect %s+%u", names[record / SDFGI_MAX_CASCADES], record % SDFGI_MAX_CASCADES);
+    const uint32_t record = work->indirect;
+    if (work->records == RESOURCE_SEEN)
+        text_add(text, " indirect VISITS+%u", record);
+    else
+        text_add(text, " indirect %s+%u", names[record / SDFGI_MAX_CASCADES], record % SDFGI_MAX_CASCADES);
 }
 
 static void add_where(struct text *text, const struct work *work)
 {
     if (work->indirect != WORK_DIRECT)
-        add_record(text, work->indirect);
+        add_record(text, work);
     else if (!sdfgi_cell_box_empty(&work->box))
         add_box(text, &work->box);
     else if (work->count > 0)
@@ -89,6 +93,13 @@ static void add_light_bounce(struct text *text, const struct sdfgi_light_bounce_
     text_add(text, "%s%s", args->only_dirty ? " dirty" : "", args->without_probes ? " without probes" : "");
 }
 
+static void add_visit_list(struct text *text, const struct sdfgi_visit_list_args *args)
+{
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+        if (args->end[c] > 0)
+            text_add(text, " c%u entries %u..%u", c, args->first[c], args->end[c]);
+}
+
 static void add_args(struct text *text, const struct work *work)
 {
     const union work_args *args = &work->args;
@@ -111,6 +122,9 @@ static void add_args(struct text *text, const struct work *work)
         break;
     case PASS_LIGHT_BOUNCE:
         add_light_bounce(text, &args->light_bounce);
+        break;
+    case PASS_VISIT_LIST:
+        add_visit_list(text, &args->visit_list);
         break;
     case PASS_PROBE_BLEND:
         text_add(text, "%s%s", args->probe_blend.cycle_ends ? " cycle ends" : "",
@@ -142,7 +156,9 @@ static void add_pass(struct text *text, const struct work *work)
 
 static void add_uploads(struct text *text, uint32_t uploads)
 {
-    static const char *const names[] = { "params", "lights", "materials", "ray queue" };
+    static const char *const names[] = {
+        "params", "lights", "materials", "ray queue", "instances", "visits"
+    };
     const char *between = "  UPLOAD ";
     for (uint32_t i = 0; i < sizeof names / sizeof *names; i++)
         if (uploads >> i & 1) {

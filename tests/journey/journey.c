@@ -99,11 +99,13 @@ static void download_record(VkCommandBuffer cmd, uint32_t index, void *user)
     }
 }
 
-/* SCRATCH holds queues that threads fill in whatever order they run, and is left out. What the frame makes of
- * them does not depend on their order. */
-static bool depends_on_order(const struct journey_buffer *buffer)
+/* SCRATCH and the end of SEEN hold lists that threads fill in whatever order they run, and are left out. What
+ * the frame makes of them does not depend on their order. */
+static uint64_t hashed_bytes(const struct journey *j, const struct journey_buffer *buffer)
 {
-    return strcmp(buffer->name, "SCRATCH") == 0;
+    if (strcmp(buffer->name, "SCRATCH") == 0)
+        return 0;
+    return strcmp(buffer->name, "SEEN") == 0 ? gi_test_ordered_bytes(&j->t, RESOURCE_SEEN) : buffer->size;
 }
 
 static void add_buffers(struct journey *j, struct journey_row *row)
@@ -115,9 +117,11 @@ static void add_buffers(struct journey *j, struct journey_row *row)
     struct download download = { &j->state, staging.buffer };
     gpu_test_submit(&j->t.gpu, download_record, &download);
     const char *data = staging.mapped;
-    for (uint32_t i = 0; i < j->state.count; data += j->state.buffers[i++].size)
-        if (!depends_on_order(&j->state.buffers[i]))
-            journey_row_add(row, j->state.buffers[i].name, data, j->state.buffers[i].size);
+    for (uint32_t i = 0; i < j->state.count; data += j->state.buffers[i++].size) {
+        const uint64_t bytes = hashed_bytes(j, &j->state.buffers[i]);
+        if (bytes > 0)
+            journey_row_add(row, j->state.buffers[i].name, data, bytes);
+    }
     gpu_test_buffer_destroy(&j->t.gpu, &staging);
 }
 

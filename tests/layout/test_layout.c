@@ -149,8 +149,11 @@
     X(sdfgi_light_direct_args, threads_per_ray)                                                              \
     X(sdfgi_light_bounce_args, cascade)                                                                      \
     X(sdfgi_light_bounce_args, only_dirty)                                                                   \
-    X(sdfgi_light_bounce_args, first)                                                                        \
+    X(sdfgi_light_bounce_args, visited)                                                                      \
     X(sdfgi_light_bounce_args, end)                                                                          \
+    X(sdfgi_visit_list_args, first)                                                                          \
+    X(sdfgi_visit_list_args, end)                                                                            \
+    X(sdfgi_visit_list_args, groups)                                                                         \
     X(sdfgi_light_bounce_args, without_probes)                                                               \
     X(sdfgi_probe_blend_args, cycle_ends)                                                                    \
     X(sdfgi_probe_blend_args, marks)                                                                         \

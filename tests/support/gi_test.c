@@ -263,6 +263,16 @@ void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size)
     return data;
 }
 
+uint64_t gi_test_ordered_bytes(const struct gi_test *t, enum resource resource)
+{
+    const struct resources *r = t->gi->volume.resources;
+    const uint64_t marks =
+        4ull * sdfgi_seen_records((uint32_t)r->extent.light_cells, (uint32_t)r->extent.cascades);
+    if (sdfgi_resource_row(resource)->keep == RESOURCE_KEEP_SCRATCH)
+        return 0;
+    return resource == RESOURCE_SEEN && marks < r->buffers[resource].size ? marks : r->buffers[resource].size;
+}
+
 uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z)
 {
     const ivec3 wrap = t->gi->volume.state.params.cascades[cascade].wrap;

@@ -59,6 +59,8 @@ uint32_t gi_test_converge(struct gi_test *t, uint32_t limit);
 
 /* A copy of a buffer; the caller frees it. */
 void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size);
+/* Bytes of a buffer, from its first on, that do not depend on the order in which threads run. */
+uint64_t gi_test_ordered_bytes(const struct gi_test *t, enum resource resource);
 /* The value of a half float that is finite. */
 float gi_test_half(uint16_t half);
 /* Solid bits of a cascade in cell space, whatever texels they are stored at. */

@@ -22,6 +22,7 @@ struct frame_input {
     struct volume_gaps gaps;
     bool starts_in_parts;     /* a start from nothing keeps to the budget, too */
     uint32_t threads_per_ray; /* of light_direct: few threads at once should not idle */
+    bool software;            /* shaders are those for software drivers */
 };
 
 /* Small data that the host writes into buffers. */
@@ -31,6 +32,7 @@ enum frame_upload {
     FRAME_UPLOAD_MATERIALS = 4,
     FRAME_UPLOAD_RAY_QUEUE = 8, /* empties it */
     FRAME_UPLOAD_INSTANCES = 16,
+    FRAME_UPLOAD_VISITS = 32, /* empties their list */
 };
 
 struct frame {

@@ -192,6 +192,8 @@ static void plan_uploads(struct frame *frame, const struct frame_input *input,
         frame->uploads |= FRAME_UPLOAD_LIGHTS;
     if (needs->holds[NEED_TRACE])
         frame->uploads |= FRAME_UPLOAD_RAY_QUEUE;
+    if (needs->holds[NEED_CELLS])
+        frame->uploads |= FRAME_UPLOAD_VISITS;
 }
 
 /* Voxelisers read instances from a buffer. It is brought up to date in frames that voxelise any. */

@@ -80,6 +80,16 @@ static void empty_ray_queue(struct pass_recorder *r)
     upload(r, RESOURCE_INDIRECT, 16 * SDFGI_INDIRECT_RAYS, sizeof empty, empty);
 }
 
+/* Neither workgroups nor visits: shaders/sdfgi/visit_list.comp. */
+static void empty_visits(struct pass_recorder *r)
+{
+    const uint32_t empty[SDFGI_VISITS_RECORDS][4] = { { 0, 1, 1, 0 }, { 0, 1, 1, 0 }, { 0, 1, 1, 0 } };
+    const struct extent *e = &r->resources->extent;
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, RESOURCE_BIT(SEEN));
+    upload(r, RESOURCE_SEEN, 4ull * sdfgi_seen_records((uint32_t)e->light_cells, (uint32_t)e->cascades),
+           sizeof empty, empty);
+}
+
 static void record_uploads(struct pass_recorder *r, const struct frame *frame, const struct scene *scene)
 {
     if (frame->uploads & FRAME_UPLOAD_PARAMS) {
@@ -88,6 +98,8 @@ static void record_uploads(struct pass_recorder *r, const struct frame *frame, c
     }
     if (frame->uploads & FRAME_UPLOAD_RAY_QUEUE)
         empty_ray_queue(r);
+    if (frame->uploads & FRAME_UPLOAD_VISITS)
+        empty_visits(r);
     if (frame->uploads & FRAME_UPLOAD_LIGHTS)
         upload_lights(r, &frame->next, &scene->lights);
     if (frame->uploads & FRAME_UPLOAD_MATERIALS)

@@ -29,7 +29,7 @@ void sdfgi_stage_end_group(const struct plan_stage *stage, uint32_t first)
 static void clear_marks(const struct plan_stage *stage, uint32_t c, uint32_t first, uint32_t count)
 {
     const struct extent *e = &stage->input->extent;
-    const uint64_t part = sdfgi_resource_size(RESOURCE_SEEN, e) / (SDFGI_SEEN_PARTS * e->cascades);
+    const uint64_t part = 4ull * sdfgi_seen_part_words((uint32_t)e->light_cells);
     if (e->gathers)
         sdfgi_work_add_clear(&stage->frame->work, RESOURCE_SEEN, (SDFGI_SEEN_PARTS * c + first) * part,
                              count * part);

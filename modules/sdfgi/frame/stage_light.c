@@ -26,61 +26,72 @@ static bool probes_are_dark(const struct plan_stage *stage)
            stage->frame->next.accumulation.phase == LIGHTING_DARK;
 }
 
-static uint32_t blocks(uint32_t entries)
+/* Light cells that a frame visits. */
+static uint64_t visits_of(const struct gather_range *ranges, uint32_t count)
 {
-    return (entries + SDFGI_SEEN_BITS - 1) / SDFGI_SEEN_BITS;
+    uint64_t visits = 0;
+    for (uint32_t i = 0; i < count; i++)
+        visits += ranges[i].count + ranges[i].watched_count;
+    return visits;
 }
 
-/* Lets a pass run over ranges of all cascades, and over the watched cells of each. `first` and `end` are
- * those of its arguments. */
-static void fill_ranges(struct work *work, uint first[static SDFGI_MAX_CASCADES],
-                        uint end[static SDFGI_MAX_CASCADES], const struct gather_range *ranges,
-                        uint32_t count)
+/* Lets a pass run over the cells that the frame visits. */
+static void run_over_visits(const struct plan_stage *stage, struct work *work, uint32_t record)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        const struct gather_range *range = &ranges[i];
-        first[range->cascade] = range->first;
-        end[range->cascade] = range->first + range->count;
-        work->count = range->count > work->count ? range->count : work->count;
-        work->watched = range->watched_span > work->watched ? range->watched_span : work->watched;
-        work->blocks += blocks(range->count) + blocks(range->watched_span);
-        work->units += range->count + range->watched_count;
+    work->indirect = record;
+    work->records = RESOURCE_SEEN;
+    work->units = visits_of(stage->frame->gathers, stage->frame->gather_count);
+}
+
+/* Lets a pass run over all entries. `end` is that of its arguments. The list of each cascade takes whole
+ * workgroups of SDFGI_GROUP_LINEAR. */
+static void run_over_all(const struct plan_stage *stage, struct work *work,
+                         uint32_t end[static SDFGI_MAX_CASCADES])
+{
+    const struct frame *frame = stage->frame;
+    const uint32_t group = SDFGI_GROUP_LINEAR;
+    for (uint32_t c = 0; c < frame->next.cascades.count; c++) {
+        end[c] = sdfgi_light_list_entries(&frame->next.relight, &stage->input->lists, c);
+        work->count += (end[c] + group - 1) / group * group;
+        work->units += end[c];
     }
 }
 
-/* What arrives at surfaces and leaves them. */
-static void add_bounce(const struct plan_stage *stage, const struct gather_range *ranges, uint32_t count)
+/* What arrives at surfaces and leaves them, and what lookups show of it. */
+static struct work *add_bounce(const struct plan_stage *stage)
 {
     struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_BOUNCE, 0);
-    struct sdfgi_light_bounce_args *bounce = &work->args.light_bounce;
-    bounce->without_probes = probes_are_dark(stage);
-    fill_ranges(work, bounce->first, bounce->end, ranges, count);
+    work->args.light_bounce.without_probes = probes_are_dark(stage);
+    return work;
 }
 
-/* What lookups show of it: a run of the filter. */
-static void add_filter(const struct plan_stage *stage, enum pass pass, const struct gather_range *ranges,
-                       uint32_t count)
+static void bounce_visited(const struct plan_stage *stage)
+{
+    struct work *work = add_bounce(stage);
+    work->args.light_bounce.visited = 1;
+    run_over_visits(stage, work, SDFGI_VISITS_BOUNCE);
+}
+
+/* A run of the filter. */
+static void filter_visited(const struct plan_stage *stage, enum pass pass)
 {
     struct work *work = sdfgi_stage_add(stage, pass, 0);
     if (!work)
         return;
-    struct sdfgi_cell_filter_args *filter = &work->args.cell_filter;
-    fill_ranges(work, filter->first, filter->end, ranges, count);
+    work->args.cell_filter.visited = 1;
+    run_over_visits(stage, work, SDFGI_VISITS_FILTER);
 }
 
-/* All entries. */
 static void bounce_all(const struct plan_stage *stage)
 {
-    struct gather_range ranges[SDFGI_MAX_CASCADES] = { { 0 } };
-    const uint32_t count = stage->frame->next.cascades.count;
-    for (uint32_t c = 0; c < count; c++)
-        ranges[c] = (struct gather_range){
-            .cascade = c,
-            .count = sdfgi_light_list_entries(&stage->frame->next.relight, &stage->input->lists, c),
-        };
-    add_bounce(stage, ranges, count);
-    add_filter(stage, PASS_CELL_FILTER, ranges, count);
-    add_filter(stage, PASS_CELL_FILTER_FAR, ranges, count);
+    static const enum pass filters[] = { PASS_CELL_FILTER, PASS_CELL_FILTER_FAR };
+    struct work *bounce = add_bounce(stage);
+    run_over_all(stage, bounce, bounce->args.light_bounce.end);
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        struct work *work = sdfgi_stage_add(stage, filters[i], 0);
+        if (work)
+            run_over_all(stage, work, work->args.cell_filter.end);
+    }
 }
 
 /* Lights changed: all cells that were there before. */
@@ -132,6 +143,38 @@ static void clear_change(const struct plan_stage *stage, const struct gather_ran
                              first + 4 * (counters[i] - SDFGI_COUNTER_GATHER + range->cascade), 4);
 }
 
+/* Words of marks that hold what is visited: in the cascade that has most of them. */
+static uint32_t words_of(const struct gathering *gathering, const struct gather_range *range)
+{
+    const uint32_t end = range->first + range->count, watched = gathering->at[range->cascade].watched_end;
+    return ((end > watched ? end : watched) + SDFGI_SEEN_BITS - 1) / SDFGI_SEEN_BITS;
+}
+
+/* Lists the light cells that are visited. */
+static void list_visits(const struct plan_stage *stage)
+{
+    static const enum pass passes[SDFGI_VISITS_RECORDS] = {
+        [SDFGI_VISITS_GATHER] = PASS_CELL_GATHER,
+        [SDFGI_VISITS_BOUNCE] = PASS_LIGHT_BOUNCE,
+        [SDFGI_VISITS_FILTER] = PASS_CELL_FILTER,
+    };
+    const struct frame *frame = stage->frame;
+    struct work *work = sdfgi_stage_add(stage, PASS_VISIT_LIST, 0);
+    if (!work)
+        return;
+    struct sdfgi_visit_list_args *args = &work->args.visit_list;
+    for (uint32_t i = 0; i < SDFGI_VISITS_RECORDS; i++)
+        args->groups[i] = sdfgi_work_group_size(passes[i], stage->input->software);
+    for (uint32_t i = 0; i < frame->gather_count; i++) {
+        const struct gather_range *range = &frame->gathers[i];
+        const uint32_t words = words_of(&frame->next.gathering, range);
+        args->first[range->cascade] = range->first;
+        args->end[range->cascade] = range->first + range->count;
+        work->count = words > work->count ? words : work->count;
+    }
+    work->units = visits_of(frame->gathers, frame->gather_count);
+}
+
 /* Rays of light cells. */
 static void gather(const struct plan_stage *stage)
 {
@@ -141,7 +184,7 @@ static void gather(const struct plan_stage *stage)
         return;
     struct sdfgi_cell_gather_args *args = &work->args.cell_gather;
     args->epoch = frame->next.gathering.epoch;
-    fill_ranges(work, args->first, args->end, frame->gathers, frame->gather_count);
+    run_over_visits(stage, work, SDFGI_VISITS_GATHER);
     for (uint32_t i = 0; i < frame->gather_count; i++) {
         const struct gather_range *range = &frame->gathers[i];
         args->visits[range->cascade] = range->visits;
@@ -153,7 +196,10 @@ static void gather(const struct plan_stage *stage)
 /* This frame's rays, and some direct light beside them. */
 static void trace(const struct plan_stage *stage)
 {
+    const uint32_t lists = sdfgi_stage_begin_group(stage);
     sdfgi_stage_add_phase(stage, PHASE_RAYS, &(struct plan_target){ 0 });
+    list_visits(stage);
+    sdfgi_stage_end_group(stage, lists);
     for (uint32_t i = 0; i < stage->frame->gather_count; i++)
         if (stage->frame->gathers[i].begins_cycle)
             clear_change(stage, &stage->frame->gathers[i]);
@@ -178,18 +224,17 @@ static void add_up(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
     const struct plan_target all = { 0 };
-    const uint32_t gathers = frame->situation.gathering ? frame->gather_count : 0;
-    const bool bounces = gathers > 0 && frame->situation.gathers;
+    const bool bounces = frame->situation.gathering && frame->gather_count > 0 && frame->situation.gathers;
     if (bounces)
-        add_bounce(stage, frame->gathers, gathers);
+        bounce_visited(stage);
     const uint32_t first = sdfgi_stage_begin_group(stage);
     if (bounces)
-        add_filter(stage, PASS_CELL_FILTER, frame->gathers, gathers);
+        filter_visited(stage, PASS_CELL_FILTER);
     sdfgi_stage_add_phase(stage, PHASE_SUM, &all);
     sdfgi_stage_end_group(stage, first);
     const uint32_t second = sdfgi_stage_begin_group(stage);
     if (bounces)
-        add_filter(stage, PASS_CELL_FILTER_FAR, frame->gathers, gathers);
+        filter_visited(stage, PASS_CELL_FILTER_FAR);
     sdfgi_stage_add_phase(stage, PHASE_BLEND, &all);
     sdfgi_stage_end_group(stage, second);
     if (!frame->situation.gathering && sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))

@@ -107,6 +107,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
         break;
     case DOMAIN_LIGHT_CELLS:
     case DOMAIN_ALL_LIGHT_CELLS:
+    case DOMAIN_SEEN_WORDS:
     case DOMAIN_STORED_LIGHT:
     case DOMAIN_PIXELS:
     case DOMAIN_TILES:
@@ -192,6 +193,7 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
     case ARGS_flood:
     case ARGS_light_direct:
     case ARGS_light_bounce:
+    case ARGS_visit_list:
     case ARGS_cell_gather:
     case ARGS_cell_filter:
     case ARGS_light_rescale:

@@ -79,12 +79,21 @@ void sdfgi_pass_open(struct pass_recorder *r, const struct work *work)
     gpu_bind_pipeline(&r->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, r->backend->pipelines.passes[work->pass][0]);
 }
 
+/* Where a record of indirect arguments begins. */
+static uint64_t record_offset(const struct work *work, const struct extent *e)
+{
+    const bool of_visits = work->records == RESOURCE_SEEN;
+    return 16 * work->indirect +
+           (of_visits ? 4ull * sdfgi_seen_records((uint32_t)e->light_cells, (uint32_t)e->cascades) : 0);
+}
+
 static void dispatch(struct pass_recorder *r, const struct work *work)
 {
     const struct pass_row *row = sdfgi_pass_row(work->pass);
     if (work->indirect != WORK_DIRECT) {
-        gpu_use(&r->gpu, GPU_USAGE_INDIRECT, row->reads | RESOURCE_BIT(INDIRECT), row->writes);
-        gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[RESOURCE_INDIRECT], 16 * work->indirect);
+        gpu_use(&r->gpu, GPU_USAGE_INDIRECT, row->reads | UINT64_C(1) << work->records, row->writes);
+        gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[work->records],
+                              record_offset(work, &r->resources->extent));
         return;
     }
     const struct work_groups groups = sdfgi_work_groups(work, &r->resources->extent, r->backend->software);

@@ -15,6 +15,7 @@ enum {
     SIZE_light_mark = ARGS_SIZE(light_mark),
     SIZE_light_direct = ARGS_SIZE(light_direct),
     SIZE_light_bounce = ARGS_SIZE(light_bounce),
+    SIZE_visit_list = ARGS_SIZE(visit_list),
     SIZE_cell_gather = ARGS_SIZE(cell_gather),
     SIZE_cell_filter = ARGS_SIZE(cell_filter),
     SIZE_light_rescale = ARGS_SIZE(light_rescale),

@@ -84,6 +84,7 @@ enum pass_args {
     ARGS_light_mark,
     ARGS_light_direct,
     ARGS_light_bounce,
+    ARGS_visit_list,
     ARGS_cell_gather,
     ARGS_cell_filter,
     ARGS_light_rescale,

@@ -9,7 +9,11 @@ struct work *sdfgi_work_add(struct work_list *list, enum pass pass, uint32_t cas
 {
     assert(list->count < SDFGI_MAX_WORK);
     struct work *work = &list->items[list->count++];
-    *work = (struct work){ .pass = pass, .cascade = cascade, .reason = reason, .indirect = WORK_DIRECT };
+    *work = (struct work){ .pass = pass,
+                           .cascade = cascade,
+                           .reason = reason,
+                           .indirect = WORK_DIRECT,
+                           .records = RESOURCE_INDIRECT };
     return work;
 }
 
@@ -63,24 +67,6 @@ static uint64_t stored_light(const struct extent *e)
     return e->cascades * (axes > texels ? axes : texels);
 }
 
-/* A row of workgroups for the range of each cascade, and rows for its watched cells: workgroups of as many
- * rows share a word as it takes to visit all that it holds. */
-static struct work_groups all_light_cells(const struct work *work, uint32_t group, uint32_t cascades)
-{
-    const uint32_t shares = group < SDFGI_SEEN_BITS ? SDFGI_SEEN_BITS / group : 1;
-    const uint32_t watched = groups_for(work->watched, shares), rows = work->watched > 0 ? 1 + shares : 1;
-    return (struct work_groups){ groups_for(work->count > watched ? work->count : watched, group),
-                                 rows * cascades, 1 };
-}
-
-/* The same on software drivers: blocks of all cascades, in workgroups that make whole parts. */
-static struct work_groups blocks_of_light_cells(uint32_t blocks, uint32_t group)
-{
-    const uint32_t parts = SDFGI_VISIT_PARTS, most = SDFGI_MAX_GROUPS / parts * parts,
-                   groups = groups_for(SDFGI_SEEN_BITS * (uint64_t)blocks, (uint64_t)group * parts) * parts;
-    return (struct work_groups){ groups < most ? groups : most, groups_for(groups, most), 1 };
-}
-
 /* Elements that a workgroup takes on software drivers, where each of its threads does alone what a workgroup
  * shares elsewhere, or what several of its threads do; 0: as many as elsewhere. */
 static const uint32_t software_groups[PASS_COUNT] = {
@@ -89,20 +75,22 @@ static const uint32_t software_groups[PASS_COUNT] = {
     [PASS_DISTANCE_EXACT] = 2 * SDFGI_LINES,
     [PASS_CELL_GATHER] = SDFGI_SEEN_BITS,
     [PASS_LIGHT_BOUNCE] = SDFGI_GROUP_LINEAR * SDFGI_BOUNCE_BLOCKS,
+    [PASS_CELL_FILTER] = SDFGI_GROUP_LINEAR,
+    [PASS_CELL_FILTER_FAR] = SDFGI_GROUP_LINEAR,
     [PASS_LIGHT_MARK] = SDFGI_GROUP_LINEAR * 64, /* a light block, of 64 cells, for each thread */
     [PASS_PROBE_PLACE] = SDFGI_GROUP_PROBE,
     [PASS_PROBE_SUM] = SDFGI_GROUP_PROBE,
     [PASS_PROBE_BLEND] = SDFGI_GROUP_PROBE,
 };
 
-static uint32_t group_of(enum pass pass, bool software)
+uint32_t sdfgi_work_group_size(enum pass pass, bool software)
 {
     return software && software_groups[pass] ? software_groups[pass] : sdfgi_pass_row(pass)->group;
 }
 
 struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e, bool software)
 {
-    const uint32_t group = group_of(work->pass, software), probes = (uint32_t)e->probes,
+    const uint32_t group = sdfgi_work_group_size(work->pass, software), probes = (uint32_t)e->probes,
                    cascades = (uint32_t)e->cascades, n = 8 * ((uint32_t)e->probes_per_side - 1);
     switch (sdfgi_pass_row(work->pass)->domain) {
     case DOMAIN_INSTANCES:
@@ -127,6 +115,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_ALL_PROBES:
         return (struct work_groups){ groups_for(probes, group), work->count, 1 };
     case DOMAIN_ALL_RAYS:
+    case DOMAIN_SEEN_WORDS:
         return (struct work_groups){ groups_for(work->count, group), cascades, 1 };
     case DOMAIN_LIGHT_BLOCKS:
         return (struct work_groups){ in_rows(groups_for(work->count, group)).x, 1, 1 };
@@ -137,7 +126,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return (struct work_groups){ of_cascade.x, of_cascade.y, cascades };
     }
     case DOMAIN_ALL_LIGHT_CELLS:
-        return software ? blocks_of_light_cells(work->blocks, group) : all_light_cells(work, group, cascades);
+        return in_rows(groups_for(work->count, group));
     case DOMAIN_STORED_LIGHT:
         return in_rows(groups_for(stored_light(e), group));
     case DOMAIN_PIXELS:

@@ -12,6 +12,7 @@
 #include "shaders/shared/counters.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/instances.h"
+#include "shaders/shared/seen.h"
 
 enum {
     SDFGI_MAX_LIGHTS = 1024,
@@ -37,7 +38,8 @@ enum domain {
     DOMAIN_LIGHT_BLOCKS,     /* `count` cells, of which a workgroup looks at one block or more in turn */
     DOMAIN_LIGHT_ROWS,       /* rows of light blocks of a cascade */
     DOMAIN_LIGHT_CELLS,      /* `count` entries of the light lists of all cascades */
-    DOMAIN_ALL_LIGHT_CELLS,  /* the same, few enough for a row of workgroups; and of `watched` entries some */
+    DOMAIN_ALL_LIGHT_CELLS,  /* `count` entries of the light lists, one list after another */
+    DOMAIN_SEEN_WORDS,       /* `count` words of marks of each cascade */
     DOMAIN_STORED_LIGHT,     /* axes of light cells, and texels of probes, of all cascades */
     DOMAIN_PIXELS,           /* of a picture */
     DOMAIN_TILE_LIST,        /* tiles of a picture that a list names: indirect */
@@ -53,6 +55,7 @@ union work_args {
     struct sdfgi_light_mark_args light_mark;
     struct sdfgi_light_direct_args light_direct;
     struct sdfgi_light_bounce_args light_bounce;
+    struct sdfgi_visit_list_args visit_list;
     struct sdfgi_cell_gather_args cell_gather;
     struct sdfgi_cell_filter_args cell_filter;
     struct sdfgi_light_rescale_args light_rescale;
@@ -76,11 +79,10 @@ struct work {
     struct cell_box box;   /* DOMAIN_BOX, DOMAIN_INSTANCES */
     struct cell_box made;  /* DOMAIN_INSTANCES: triangles of what touches this have been checked; or empty */
     uint32_t first, count; /* a range of the domain */
-    uint32_t watched;  /* DOMAIN_ALL_LIGHT_CELLS: entries that hold the watched ones of a cascade, at most */
-    uint32_t blocks;   /* the same: what software drivers visit, in blocks of visits.glsl */
-    uint32_t indirect; /* record of indirect arguments: SDFGI_INDIRECT_*, or WORK_DIRECT */
-    uint32_t group;    /* neighbours with the same number run side by side and share one time; 0: alone */
-    uint64_t units;    /* what the report counts as work */
+    uint32_t indirect; /* record of indirect arguments: SDFGI_INDIRECT_*, SDFGI_VISITS_*, or WORK_DIRECT */
+    enum resource records; /* where it is: INDIRECT or SEEN */
+    uint32_t group;        /* neighbours with the same number run side by side and share one time; 0: alone */
+    uint64_t units;        /* what the report counts as work */
     union work_args args;
     enum resource resource; /* WORK_CLEAR: bytes [offset, offset + bytes) of this */
     uint64_t offset, bytes;
@@ -96,6 +98,9 @@ struct work *sdfgi_work_add(struct work_list *list, enum pass pass, uint32_t cas
 void sdfgi_work_add_clear(struct work_list *list, enum resource resource, uint64_t offset, uint64_t bytes);
 /* True if an item runs the pass. */
 bool sdfgi_work_has(const struct work_list *list, enum pass pass);
+
+/* Elements of its domain that a workgroup of a pass takes. */
+uint32_t sdfgi_work_group_size(enum pass pass, bool software);
 
 struct work_groups {
     uint32_t x, y, z;
