@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Finds what the exact distance search has to know before it begins (occupancy.glsl): the runs and layers
  * that hold bits, and the light blocks whose distances are dirty. The two do not depend on each other, so one
- * dispatch finds both: the first workgroups find runs and layers, and the others find blocks. */
+ * dispatch finds both: the first workgroups find runs and layers, and the others find blocks. Where runs and
+ * layers are known from an earlier part of the same change, it finds blocks alone. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_SEARCH
@@ -200,9 +201,8 @@ void find_blocks(uint group)
 
 void main()
 {
-    const uint n = sdfgi_frame.resolution, row_groups = n * n / CELLS_Z;
-    if (gl_WorkGroupID.x < row_groups)
+    if (gl_WorkGroupID.x < args.row_groups)
         find_rows(gl_WorkGroupID.x);
     else
-        find_blocks(gl_WorkGroupID.x - row_groups);
+        find_blocks(gl_WorkGroupID.x - args.row_groups);
 }

@@ -12,8 +12,6 @@
 #include "probe_sum_shared.glsl"
 #endif
 
-layout(local_size_x = SDFGI_GROUP_PROBE) in;
-
 void main()
 {
     if (gl_GlobalInvocationID == uvec3(0u))

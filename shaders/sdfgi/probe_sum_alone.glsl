@@ -7,6 +7,8 @@
 
 #include "probe_rays.glsl"
 
+layout(local_size_x = SDFGI_GROUP_PROBE) in;
+
 const uint TEXELS = uint(SDFGI_IRRADIANCE_COUNT);
 
 /* Light of rays at random, times weight, and its weight, for each texel. */

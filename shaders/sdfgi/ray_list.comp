@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Lists those rays of this frame that must be traced, because their hit is not cached. After the first sample
  * cycle few rays are left, and they are scattered. If each probe traced its own, its threads would wait for
- * each other. One thread per ray, in the cascade gl_WorkGroupID.y. Nothing depends on the order of the
- * list. */
+ * each other. A thread looks at SDFGI_LISTED_RAYS rays, in the cascade gl_WorkGroupID.y. Nothing depends on
+ * the order of the list. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SDFGI_WRITES_INDIRECT
@@ -39,21 +39,29 @@ bool needs_tracing(uint cascade, uint n, out uint ray)
     return !ray_is_cached(sdfgi_rays_at(ray));
 }
 
+const uint RAYS = uint(SDFGI_LISTED_RAYS); /* that a thread looks at: loads overlap */
+
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
         group_count = 0u;
     barrier();
-    uint ray, offset = 0u;
-    const bool listed = needs_tracing(gl_WorkGroupID.y, gl_GlobalInvocationID.x, ray);
-    if (listed)
-        offset = atomicAdd(group_count, 1u);
+    uint rays[RAYS], offsets[RAYS];
+    bool listed[RAYS];
+    for (uint k = 0u; k < RAYS; k++)
+        listed[k] = needs_tracing(
+            gl_WorkGroupID.y, (gl_WorkGroupID.x * RAYS + k) * gl_WorkGroupSize.x + gl_LocalInvocationIndex,
+            rays[k]);
+    for (uint k = 0u; k < RAYS; k++)
+        if (listed[k])
+            offsets[k] = atomicAdd(group_count, 1u);
     barrier();
     if (group_count == 0u)
         return;
     if (gl_LocalInvocationIndex == 0u)
         group_first = ray_queue_extend(group_count);
     barrier();
-    if (listed)
-        sdfgi_scratch[group_first + offset] = ray;
+    for (uint k = 0u; k < RAYS; k++)
+        if (listed[k])
+            sdfgi_scratch[group_first + offsets[k]] = rays[k];
 }

@@ -51,11 +51,12 @@ SDFGI_ASSERT_SIZE(sdfgi_voxelize_args, 112);
 struct sdfgi_distance_prepare_args {
     uint cascade;
     uint first_block;                    /* along x */
+    uint row_groups;                     /* workgroups that find set bits; 0: it is known where they are */
     uint box_count;                      /* dirty boxes; 0: everything is dirty */
     uint corners[3 * SDFGI_MAX_CHANGES]; /* per box and axis: low cell in the low 16 bits, high cell in the
                                             high ones */
 };
-SDFGI_ASSERT_SIZE(sdfgi_distance_prepare_args, 84);
+SDFGI_ASSERT_SIZE(sdfgi_distance_prepare_args, 88);
 
 /* distance_plane, distance_exact: cells [first_x, end_x) along x. */
 struct sdfgi_distance_search_args {

@@ -109,6 +109,7 @@
 #define SDFGI_GROUP_COLUMNS     32  /* columns of cells per workgroup */
 #define SDFGI_GROUP_TRIANGLE    64  /* threads that share as many triangles */
 #define SDFGI_GROUP_PROBE       32  /* threads that share one probe */
+#define SDFGI_LISTED_RAYS       4   /* rays that a thread of ray_list looks at */
 #define SDFGI_GROUP_RAYS        128 /* one thread per ray of a frame, or threads that share a probe's rays */
 #define SDFGI_GROUP_OCCLUSION   64  /* threads that share one probe's 256 depths */
 #define SDFGI_GROUP_EMITTERS    128 /* threads that list the emitters of a cascade */

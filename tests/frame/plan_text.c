@@ -109,7 +109,8 @@ static void add_args(struct text *text, const struct work *work)
         add_region(text, &args->region);
         break;
     case PASS_DISTANCE_PREPARE:
-        text_add(text, " dirty boxes %u", args->distance_prepare.box_count);
+        text_add(text, "%s dirty boxes %u", args->distance_prepare.row_groups ? "" : " known bits",
+                 args->distance_prepare.box_count);
         break;
     case PASS_FLOOD_STEP:
         text_add(text, " jump %u", args->flood.jump);

@@ -132,6 +132,7 @@
     X(sdfgi_instance_params, material)                                                                       \
     X(sdfgi_distance_prepare_args, cascade)                                                                  \
     X(sdfgi_distance_prepare_args, first_block)                                                              \
+    X(sdfgi_distance_prepare_args, row_groups)                                                               \
     X(sdfgi_distance_prepare_args, box_count)                                                                \
     X(sdfgi_distance_prepare_args, corners)                                                                  \
     X(sdfgi_distance_search_args, cascade)                                                                   \

@@ -147,8 +147,9 @@ static void plan_part(const struct part *part, struct frame *frame)
         change->kept = sdfgi_cell_box_whole(N);
     }
     frame->scroll.piece_count = 1;
-    frame->scroll.pieces[0] =
-        (struct scroll_piece){ .kind = PIECE_DISTANCES, .first = part->first, .count = part->count };
+    frame->scroll.pieces[0] = (struct scroll_piece){
+        .kind = PIECE_DISTANCES, .first = part->first, .count = part->count, .finds_bits = part->first == 0
+    };
     sdfgi_stage_generate(&(struct plan_stage){ frame, &input, &needs });
 }
 

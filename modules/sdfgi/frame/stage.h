@@ -21,6 +21,15 @@ struct plan_target {
 /* Adds the passes of a phase that the needs call for, in the order of the table. */
 void sdfgi_stage_add_phase(const struct plan_stage *stage, enum pass_phase phase,
                            const struct plan_target *target);
+/* Adds one of them, if the needs call for it. */
+void sdfgi_stage_add_pass(const struct plan_stage *stage, enum pass pass, const struct plan_target *target);
+
+/* True if light cells have new light from their own rays in this frame. */
+bool sdfgi_stage_bounces(const struct plan_stage *stage);
+/* The piece of distances whose passes run beside those of light, each in the group of another: alone each
+ * takes mostly the time that it waits. NULL if there is none, or several, or if something in this frame needs
+ * the distances. */
+const struct scroll_piece *sdfgi_stage_piece_beside(const struct plan_stage *stage);
 
 /* Adds an item by hand. NULL if nothing calls for the pass in this frame. */
 struct work *sdfgi_stage_add(const struct plan_stage *stage, enum pass pass, uint32_t cascade);

@@ -75,8 +75,26 @@ static void add_voxels(const struct plan_stage *stage, const struct scroll_piece
     add_parts(stage, piece);
 }
 
+const struct scroll_piece *sdfgi_stage_piece_beside(const struct plan_stage *stage)
+{
+    const struct scroll_plan *scroll = &stage->frame->scroll;
+    const struct scroll_piece *found = NULL;
+    for (uint32_t i = 0; i < scroll->piece_count; i++) {
+        if (scroll->pieces[i].kind != PIECE_DISTANCES)
+            continue;
+        if (found)
+            return NULL;
+        found = &scroll->pieces[i];
+    }
+    const bool waits = stage->needs->holds[NEED_EXACT] && !stage->needs->holds[NEED_COMPLETE] &&
+                       stage->needs->holds[NEED_TRACE] && sdfgi_stage_bounces(stage);
+    return waits ? found : NULL;
+}
+
 static void add_distances(const struct plan_stage *stage, const struct scroll_piece *piece)
 {
+    if (piece == sdfgi_stage_piece_beside(stage))
+        return;
     if (!stage->needs->holds[NEED_FLOOD])
         sdfgi_stage_add_phase(stage, PHASE_DISTANCES, &(struct plan_target){ piece->cascade, piece });
     else if (piece->first == 0)

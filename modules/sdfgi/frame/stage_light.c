@@ -193,12 +193,21 @@ static void gather(const struct plan_stage *stage)
     work->units *= sdfgi_extent_visit_rays(&stage->input->extent);
 }
 
+/* A pass of the distances that are made beside light. */
+static void add_beside(const struct plan_stage *stage, enum pass pass)
+{
+    const struct scroll_piece *piece = sdfgi_stage_piece_beside(stage);
+    if (piece)
+        sdfgi_stage_add_pass(stage, pass, &(struct plan_target){ piece->cascade, piece });
+}
+
 /* This frame's rays, and some direct light beside them. */
 static void trace(const struct plan_stage *stage)
 {
     const uint32_t lists = sdfgi_stage_begin_group(stage);
     sdfgi_stage_add_phase(stage, PHASE_RAYS, &(struct plan_target){ 0 });
     list_visits(stage);
+    add_beside(stage, PASS_DISTANCE_PREPARE);
     sdfgi_stage_end_group(stage, lists);
     for (uint32_t i = 0; i < stage->frame->gather_count; i++)
         if (stage->frame->gathers[i].begins_cycle)
@@ -217,6 +226,12 @@ static void trace(const struct plan_stage *stage)
             sdfgi_stage_forget_seen(stage, c);
 }
 
+bool sdfgi_stage_bounces(const struct plan_stage *stage)
+{
+    const struct frame *frame = stage->frame;
+    return frame->situation.gathering && frame->gather_count > 0 && frame->situation.gathers;
+}
+
 /* Adds up what this frame's rays have found. Light cells that have begun to gather change with what they
  * gather, and the passes of probes run beside the filter; before that, and if they never gather, they change
  * with the probes. */
@@ -224,18 +239,20 @@ static void add_up(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
     const struct plan_target all = { 0 };
-    const bool bounces = frame->situation.gathering && frame->gather_count > 0 && frame->situation.gathers;
+    const bool bounces = sdfgi_stage_bounces(stage);
     if (bounces)
         bounce_visited(stage);
     const uint32_t first = sdfgi_stage_begin_group(stage);
     if (bounces)
         filter_visited(stage, PASS_CELL_FILTER);
     sdfgi_stage_add_phase(stage, PHASE_SUM, &all);
+    add_beside(stage, PASS_DISTANCE_PLANE);
     sdfgi_stage_end_group(stage, first);
     const uint32_t second = sdfgi_stage_begin_group(stage);
     if (bounces)
         filter_visited(stage, PASS_CELL_FILTER_FAR);
     sdfgi_stage_add_phase(stage, PHASE_BLEND, &all);
+    add_beside(stage, PASS_DISTANCE_EXACT);
     sdfgi_stage_end_group(stage, second);
     if (!frame->situation.gathering && sdfgi_work_has(&frame->work, PASS_PROBE_BLEND))
         bounce_all(stage);

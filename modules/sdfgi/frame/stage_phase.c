@@ -71,7 +71,7 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
         work->units = sdfgi_cell_box_cells(&work->box) / (row->unit == UNIT_BLOCKS ? 8 : 1);
         break;
     case DOMAIN_DISTANCE_ROWS:
-        work->units = layer_cells(n / 4 + work->count, n);
+        work->units = layer_cells((target->piece->finds_bits ? n / 4 : 0) + work->count, n);
         break;
     case DOMAIN_DISTANCE_LAYERS:
     case DOMAIN_DISTANCE_COLUMNS:
@@ -146,9 +146,12 @@ static struct sdfgi_region_args region_args(const struct change *change, uint32_
 
 /* Without boxes everything is dirty: nothing is kept. */
 static struct sdfgi_distance_prepare_args prepare_args(const struct change *change, const struct work *work,
-                                                       uint32_t resolution)
+                                                       bool finds_bits, uint32_t resolution)
 {
-    struct sdfgi_distance_prepare_args args = { .cascade = work->cascade, .first_block = work->first };
+    const uint32_t groups = resolution * resolution / sdfgi_pass_row(work->pass)->group;
+    struct sdfgi_distance_prepare_args args = { .cascade = work->cascade,
+                                                .first_block = work->first,
+                                                .row_groups = finds_bits ? groups : 0 };
     const uint32_t count = sdfgi_cell_box_empty(&change->kept) ? 0 : change->count;
     for (uint32_t i = 0; i < count; i++)
         if (!sdfgi_cell_box_empty(&change->boxes[i]))
@@ -169,7 +172,8 @@ static void fill_args(const struct plan_stage *stage, const struct plan_target *
         work->args.region = region_args(change, c, &work->box);
         break;
     case ARGS_distance_prepare:
-        work->args.distance_prepare = prepare_args(change, work, frame->next.cascades.resolution);
+        work->args.distance_prepare =
+            prepare_args(change, work, target->piece->finds_bits, frame->next.cascades.resolution);
         break;
     case ARGS_distance_search:
         work->args.distance_search =
@@ -217,17 +221,21 @@ static bool is_void(const struct plan_stage *stage, enum pass pass, const struct
     return !sdfgi_scene_touches(stage->input->scene, &box);
 }
 
+void sdfgi_stage_add_pass(const struct plan_stage *stage, enum pass pass, const struct plan_target *target)
+{
+    if (is_void(stage, pass, target))
+        return;
+    struct work *work = sdfgi_stage_add(stage, pass, target->cascade);
+    if (!work)
+        return;
+    fill_domain(stage, target, work);
+    fill_args(stage, target, work);
+}
+
 void sdfgi_stage_add_phase(const struct plan_stage *stage, enum pass_phase phase,
                            const struct plan_target *target)
 {
-    for (int i = 0; i < PASS_COUNT; i++) {
-        const enum pass pass = (enum pass)i;
-        if (sdfgi_pass_row(pass)->phase != phase || is_void(stage, pass, target))
-            continue;
-        struct work *work = sdfgi_stage_add(stage, pass, target->cascade);
-        if (!work)
-            continue;
-        fill_domain(stage, target, work);
-        fill_args(stage, target, work);
-    }
+    for (int i = 0; i < PASS_COUNT; i++)
+        if (sdfgi_pass_row((enum pass)i)->phase == phase)
+            sdfgi_stage_add_pass(stage, (enum pass)i, target);
 }

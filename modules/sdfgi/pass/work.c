@@ -105,7 +105,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_CASCADE:
         return (struct work_groups){ 1, 1, 1 };
     case DOMAIN_DISTANCE_ROWS:
-        return (struct work_groups){ n * n / group + n / 4 * work->count, 1, 1 };
+        return (struct work_groups){ work->args.distance_prepare.row_groups + n / 4 * work->count, 1, 1 };
     case DOMAIN_DISTANCE_LAYERS:
         return (struct work_groups){ runs_of(work, group), SDFGI_SUBVOXELS * n, 1 };
     case DOMAIN_DISTANCE_COLUMNS:

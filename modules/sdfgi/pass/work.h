@@ -24,12 +24,12 @@ enum {
 
 /* What a pass runs over; sdfgi_work_groups() tells how many workgroups that takes. */
 enum domain {
-    DOMAIN_INSTANCES,        /* mesh instances that touch a box: sized by the voxeliser */
-    DOMAIN_BOX,              /* cells of a box */
-    DOMAIN_CELLS,            /* all cells of a cascade */
-    DOMAIN_BLOCKS,           /* all albedo blocks of a cascade */
-    DOMAIN_CASCADE,          /* a cascade, for one workgroup */
-    DOMAIN_DISTANCE_ROWS,    /* columns of cells, and the light blocks of `count` layers along x */
+    DOMAIN_INSTANCES,     /* mesh instances that touch a box: sized by the voxeliser */
+    DOMAIN_BOX,           /* cells of a box */
+    DOMAIN_CELLS,         /* all cells of a cascade */
+    DOMAIN_BLOCKS,        /* all albedo blocks of a cascade */
+    DOMAIN_CASCADE,       /* a cascade, for one workgroup */
+    DOMAIN_DISTANCE_ROWS, /* columns of cells, if asked for, and the light blocks of `count` layers along x */
     DOMAIN_DISTANCE_LAYERS,  /* layers of sub-voxels, for cells [4 first, 4 (first + count)) along x */
     DOMAIN_DISTANCE_COLUMNS, /* columns of cells, for `count` layers of blocks along x */
     DOMAIN_PROBES,           /* of a cascade */

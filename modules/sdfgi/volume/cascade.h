@@ -75,6 +75,7 @@ struct cascade {
 
 struct cascades {
     uint32_t count, resolution;
+    uint32_t searched; /* cascade of the last search for distances: SEARCH tells where its set bits are */
     struct cascade at[SDFGI_MAX_CASCADES];
 };
 

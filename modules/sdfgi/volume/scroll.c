@@ -186,6 +186,8 @@ static uint64_t take_distances(struct run *run, uint32_t c, uint64_t cells)
         return 0;
     piece->first = change->layer;
     piece->count = (uint32_t)count;
+    piece->finds_bits = change->layer == 0 || run->cascades->searched != c;
+    run->cascades->searched = c;
     change->layer += (uint32_t)count;
     return count * layer;
 }
@@ -229,13 +231,26 @@ static double scrolls_of_all(const struct run *run)
     return scrolls;
 }
 
+/* Frames that may lie between two completions at the camera's pace: less than 0 where one frame may complete
+ * several. */
+static double frames_apart(const struct run *run)
+{
+    return fmin(SCROLL_CALM_FRAMES, BUSY_SCROLLS / scrolls_of_all(run) - 1);
+}
+
+/* The frame after a completion traces the rays of new probes. At a slow pace voxels wait for the next one. */
+static bool voxels_wait(const struct run *run)
+{
+    return run->scroll->calm_frames == 0 && frames_apart(run) >= SCROLL_CALM_FRAMES && !any_hurries(run);
+}
+
 /* Completing a cascade is extra work, so up to SCROLL_CALM_FRAMES frames lie between two completions, fewer
  * if the camera is fast. From BUSY_SCROLLS on, or if a change hurries, one frame may complete several. */
 static bool may_complete(const struct run *run)
 {
     const double scrolls = scrolls_of_all(run);
-    const bool apart = !sdfgi_cascades_complete(run->cascades) &&
-                       run->scroll->calm_frames >= fmin(SCROLL_CALM_FRAMES, BUSY_SCROLLS / scrolls - 1);
+    const bool apart =
+        !sdfgi_cascades_complete(run->cascades) && run->scroll->calm_frames >= frames_apart(run);
     return apart || scrolls >= BUSY_SCROLLS || any_hurries(run);
 }
 
@@ -248,7 +263,10 @@ static void advance(struct run *run, uint32_t c, uint64_t *budget)
     uint64_t done;
     do {
         change->box = sdfgi_change_next_box(change, run->cascades->resolution);
-        done = change->box < change->count ? take_voxels(run, c, *budget) : take_distances(run, c, *budget);
+        if (change->box < change->count)
+            done = voxels_wait(run) ? 0 : take_voxels(run, c, *budget);
+        else
+            done = take_distances(run, c, *budget);
         assert(done <= change->cells_left);
         change->cells_left -= done;
         *budget -= done < *budget ? done : *budget;

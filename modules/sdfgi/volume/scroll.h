@@ -39,6 +39,7 @@ struct scroll_piece {
     struct cell_box box;   /* voxels */
     struct cell_box made;  /* voxels: what earlier parts of the same piece made */
     uint32_t first, count; /* distances: layers of light blocks along x */
+    bool finds_bits;       /* distances: where set bits are is not known of earlier layers of the change */
 };
 
 enum { SCROLL_MAX_PIECES = 64 };
