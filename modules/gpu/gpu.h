@@ -275,6 +275,7 @@ struct gpu_timer_span {
 struct gpu_timer {
     VkQueryPool pool; /* null: no timestamps on this queue */
     uint32_t slots, slot;
+    uint32_t end;     /* of the stamps in the slot that have been reset */
     uint32_t *tags;   /* slots * GPU_TIMER_STAMPS */
     uint32_t *counts; /* per slot */
 };
@@ -291,9 +292,9 @@ VkResult gpu_timer_read(const struct gpu_device *device, const struct gpu_timer 
 
 /* Starts recording into `slot`, forgetting what it held. */
 void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot);
-/* Before the first stamp that a command buffer takes. One reset for all of them: between passes each would
- * have the device wait. */
-void gpu_timer_reset(struct gpu_timer *timer, struct gpu_recorder *rec);
+/* Before the first stamp that a command buffer takes, `most` at most. One reset for all of them: between
+ * passes each would have the device wait. */
+void gpu_timer_reset(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t most);
 /* Ends the span of the stamp before, and begins that of `tag`. The last stamp in a command buffer has the tag
  * GPU_TIMER_NOTHING. */
 void gpu_timer_stamp(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t tag);

@@ -57,27 +57,29 @@ void gpu_timer_begin_frame(struct gpu_timer *timer, uint32_t slot)
 {
     timer->slot = slot;
     timer->counts[slot] = 0;
+    timer->end = 0;
 }
 
-void gpu_timer_reset(struct gpu_timer *timer, struct gpu_recorder *rec)
+void gpu_timer_reset(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t most)
 {
-    const uint32_t count = timer->counts[timer->slot];
-    if (!timer->pool || count >= GPU_TIMER_STAMPS)
+    const uint32_t count = timer->counts[timer->slot], left = GPU_TIMER_STAMPS - count,
+                   reset = most < left ? most : left;
+    if (!timer->pool || reset == 0)
         return;
-    rec->device->fn.CmdResetQueryPool(rec->cmd, timer->pool, timer->slot * GPU_TIMER_STAMPS + count,
-                                      GPU_TIMER_STAMPS - count);
+    rec->device->fn.CmdResetQueryPool(rec->cmd, timer->pool, timer->slot * GPU_TIMER_STAMPS + count, reset);
     rec->command_count++;
+    timer->end = count + reset;
 }
 
-/* A stamp waits for earlier work: spans of passes that a barrier separates do not overlap. The last stamp of
- * a slot begins nothing, because no other one could end that. */
+/* A stamp waits for earlier work: spans of passes that a barrier separates do not overlap. The last stamp
+ * that was reset begins nothing, because no other one could end that. */
 void gpu_timer_stamp(struct gpu_timer *timer, struct gpu_recorder *rec, uint32_t tag)
 {
     const uint32_t first = timer->slot * GPU_TIMER_STAMPS;
     uint32_t *count = &timer->counts[timer->slot];
-    if (!timer->pool || *count >= GPU_TIMER_STAMPS)
+    if (!timer->pool || *count >= timer->end)
         return;
-    timer->tags[first + *count] = *count + 1 < GPU_TIMER_STAMPS ? tag : GPU_TIMER_NOTHING;
+    timer->tags[first + *count] = *count + 1 < timer->end ? tag : GPU_TIMER_NOTHING;
     rec->device->fn.CmdWriteTimestamp(rec->cmd, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timer->pool,
                                       first + *count);
     rec->command_count++;

@@ -6,10 +6,14 @@
 
 #include "shaders/shared/bindings.h"
 
-static void begin(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view)
+/* Timestamps: before each pass, and after the last one; tiles are cleared after `gather`, and the two runs of
+ * the filter share theirs. */
+enum { STAMPS_ALONE = 2, STAMPS_REFLECTIONS = 6 };
+
+static void begin(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view, uint32_t stamps)
 {
     struct pass_recorder *rec = &gi->recorder;
-    sdfgi_pass_recorder_begin(rec, &gi->backend, gi->volume.resources, cmd);
+    sdfgi_pass_recorder_begin(rec, &gi->backend, gi->volume.resources, cmd, stamps);
     sdfgi_pass_bind_resources(rec, VK_PIPELINE_BIND_POINT_COMPUTE);
     gpu_bind_set(&rec->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, gi->backend.pipelines.layouts[PASS_SET_VIEW],
                  SDFGI_SET_VIEW, view->sets[sdfgi_backend_slot(&gi->backend)]);
@@ -29,7 +33,7 @@ static void report(struct sdfgi *gi, enum pass pass)
 void sdfgi_picture_record(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view,
                           const struct work *work)
 {
-    begin(gi, cmd, view);
+    begin(gi, cmd, view, STAMPS_ALONE);
     sdfgi_pass_record(&gi->recorder, work);
     sdfgi_pass_recorder_end(&gi->recorder);
     report(gi, work->pass);
@@ -184,7 +188,7 @@ enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffe
     const struct view_pictures pictures = { desc->depth, desc->normal, desc->roughness, desc->input_layout,
                                             view->diffuse.view };
     sdfgi_view_write_set(&gi->backend, holder, view, &pictures);
-    begin(gi, cmd, holder);
+    begin(gi, cmd, holder, STAMPS_REFLECTIONS);
     if (!view->diffuse_ready)
         gpu_image_to_general(&gi->recorder.gpu, &view->diffuse, 1);
     view->diffuse_ready = true;

@@ -121,7 +121,8 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     sdfgi_frame_plan(&gi->frame, &input);
 
     /* Record it. */
-    sdfgi_pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd);
+    sdfgi_pass_recorder_begin(&gi->recorder, &gi->backend, gi->volume.resources, cmd,
+                              sdfgi_pass_stamps(&gi->frame.work));
     gpu_timer_begin_frame(&gi->volume.resources->timer, slot);
     sdfgi_frame_record(&gi->frame, &gi->scene, &gi->recorder, &gi->draws, slot,
                        sdfgi_backend_number(&gi->backend));

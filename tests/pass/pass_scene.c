@@ -126,7 +126,8 @@ static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
     const struct recording *recording = user;
     struct sdfgi *gi = recording->gi;
     static struct pass_recorder recorder;
-    sdfgi_pass_recorder_begin(&recorder, &gi->backend, gi->volume.resources, cmd);
+    sdfgi_pass_recorder_begin(&recorder, &gi->backend, gi->volume.resources, cmd,
+                              sdfgi_pass_stamps(recording->list));
     gpu_timer_begin_frame(&gi->volume.resources->timer, 0);
     for (uint32_t i = 0; i < recording->list->count; i++) {
         const struct work *work = &recording->list->items[i];

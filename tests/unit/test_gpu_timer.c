@@ -83,7 +83,7 @@ static void spans_share_their_stamps(void **state)
 {
     (void)state;
     gpu_timer_begin_frame(&timer, 1);
-    gpu_timer_reset(&timer, &recorder);
+    gpu_timer_reset(&timer, &recorder, 5);
     gpu_timer_stamp(&timer, &recorder, 7);
     gpu_timer_stamp(&timer, &recorder, 8);
     gpu_timer_stamp(&timer, &recorder, GPU_TIMER_NOTHING);
@@ -103,7 +103,7 @@ static void a_second_command_buffer_goes_on(void **state)
     (void)state;
     gpu_timer_begin_frame(&timer, 0);
     for (uint32_t tag = 0; tag < 2; tag++) {
-        gpu_timer_reset(&timer, &recorder);
+        gpu_timer_reset(&timer, &recorder, 2);
         gpu_timer_stamp(&timer, &recorder, tag);
         gpu_timer_stamp(&timer, &recorder, GPU_TIMER_NOTHING);
     }
@@ -118,11 +118,23 @@ static void what_does_not_fit_is_not_timed(void **state)
     (void)state;
     gpu_timer_begin_frame(&timer, 1);
     for (uint32_t i = 0; i < 2 * GPU_TIMER_STAMPS; i++) {
-        gpu_timer_reset(&timer, &recorder);
+        gpu_timer_reset(&timer, &recorder, 1);
         gpu_timer_stamp(&timer, &recorder, i);
     }
     assert_int_equal(fake.stamps, GPU_TIMER_STAMPS);
-    assert_int_equal(read_slot(1), GPU_TIMER_STAMPS - 1);
+    assert_int_equal(read_slot(1), 0);
+}
+
+static void what_has_not_been_reset_is_not_timed(void **state)
+{
+    (void)state;
+    gpu_timer_begin_frame(&timer, 1);
+    gpu_timer_stamp(&timer, &recorder, 1);
+    gpu_timer_reset(&timer, &recorder, 3);
+    for (uint32_t i = 0; i < 5; i++)
+        gpu_timer_stamp(&timer, &recorder, i);
+    assert_int_equal(fake.stamps, 3);
+    assert_int_equal(read_slot(1), 2);
 }
 
 int main(void)
@@ -131,6 +143,7 @@ int main(void)
         cmocka_unit_test_setup(spans_share_their_stamps, setup),
         cmocka_unit_test_setup(a_second_command_buffer_goes_on, setup),
         cmocka_unit_test_setup(what_does_not_fit_is_not_timed, setup),
+        cmocka_unit_test_setup(what_has_not_been_reset_is_not_timed, setup),
     };
     return cmocka_run_group_tests_name("gpu_timer", tests, NULL, NULL);
 }

@@ -4,10 +4,37 @@
 #include <assert.h>
 #include <string.h>
 
+static bool same_pass(const struct work *a, const struct work *b)
+{
+    return a && a->pass == b->pass && a->group == b->group;
+}
+
+/* Passes that run side by side have one time, that of the first: timestamps between them would have each wait
+ * for the one before. */
+static bool runs_beside(const struct work *a, const struct work *b)
+{
+    return a && b->group != 0 && a->group == b->group;
+}
+
+uint32_t sdfgi_pass_stamps(const struct work_list *list)
+{
+    const struct work *open = NULL;
+    uint32_t stamps = 1;
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct work *work = &list->items[i];
+        const bool is_pass = work->kind == WORK_PASS;
+        if (is_pass ? !same_pass(open, work) && !runs_beside(open, work) : open != NULL)
+            stamps++;
+        open = is_pass ? work : NULL;
+    }
+    return stamps;
+}
+
 void sdfgi_pass_recorder_begin(struct pass_recorder *r, const struct backend *backend,
-                               struct resources *resources, VkCommandBuffer cmd)
+                               struct resources *resources, VkCommandBuffer cmd, uint32_t stamps)
 {
     memset(r, 0, sizeof *r);
+    r->stamps_left = stamps;
     r->backend = backend;
     r->resources = resources;
     r->timer = &resources->timer;
@@ -28,7 +55,9 @@ void sdfgi_pass_bind_resources(struct pass_recorder *r, VkPipelineBindPoint poin
 static void stamp(struct pass_recorder *r, uint32_t tag)
 {
     if (!r->stamped)
-        gpu_timer_reset(r->timer, &r->gpu);
+        gpu_timer_reset(r->timer, &r->gpu, r->stamps_left);
+    assert(r->stamps_left > 0);
+    r->stamps_left--;
     gpu_timer_stamp(r->timer, &r->gpu, tag);
     r->stamped = true;
     r->timed = tag != GPU_TIMER_NOTHING;
@@ -54,20 +83,13 @@ void sdfgi_pass_recorder_end(struct pass_recorder *r)
     gpu_recorder_end(&r->gpu);
 }
 
-static bool same_pass(const struct work *a, const struct work *b)
-{
-    return a && a->pass == b->pass && a->group == b->group;
-}
-
-/* Passes that run side by side have one time, that of the first: timestamps between them would have each wait
- * for the one before. */
 void sdfgi_pass_open(struct pass_recorder *r, const struct work *work)
 {
     if (same_pass(r->open, work)) {
         r->open = work;
         return;
     }
-    const bool beside = r->open && work->group != 0 && r->open->group == work->group;
+    const bool beside = runs_beside(r->open, work);
     end_label(r);
     gpu_label_begin(&r->gpu, sdfgi_pass_row(work->pass)->name);
     if (!beside)

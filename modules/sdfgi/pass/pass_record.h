@@ -18,13 +18,16 @@ struct pass_recorder {
     struct gpu_recorder gpu;
     struct pass_tally tally[PASS_COUNT];
     const struct work *open; /* the newest item of the pass whose label is open; NULL: none */
+    uint32_t stamps_left;    /* timestamps that it may still take */
     bool stamped;            /* a stamp has been taken */
     bool timed;              /* a time span is open */
     uint32_t bound;          /* a bit per bind point that has the resources' sets */
 };
 
+/* Timestamps that recording a list takes. */
+uint32_t sdfgi_pass_stamps(const struct work_list *list);
 void sdfgi_pass_recorder_begin(struct pass_recorder *r, const struct backend *backend,
-                               struct resources *resources, VkCommandBuffer cmd);
+                               struct resources *resources, VkCommandBuffer cmd, uint32_t stamps);
 void sdfgi_pass_recorder_end(struct pass_recorder *r);
 
 /* Binds LOOKUP and WORK, unless they are bound. */
