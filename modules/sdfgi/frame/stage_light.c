@@ -57,7 +57,7 @@ static void run_over_all(const struct plan_stage *stage, struct work *work,
     }
 }
 
-/* What arrives at surfaces and leaves them, and what lookups show of it. */
+/* What arrives at surfaces and leaves them. */
 static struct work *add_bounce(const struct plan_stage *stage)
 {
     struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_BOUNCE, 0);
@@ -72,7 +72,7 @@ static void bounce_visited(const struct plan_stage *stage)
     run_over_visits(stage, work, SDFGI_VISITS_BOUNCE);
 }
 
-/* A run of the filter. */
+/* What lookups show of it: a run of the filter. */
 static void filter_visited(const struct plan_stage *stage, enum pass pass)
 {
     struct work *work = sdfgi_stage_add(stage, pass, 0);
@@ -82,6 +82,7 @@ static void filter_visited(const struct plan_stage *stage, enum pass pass)
     run_over_visits(stage, work, SDFGI_VISITS_FILTER);
 }
 
+/* Both, of all entries. */
 static void bounce_all(const struct plan_stage *stage)
 {
     static const enum pass filters[] = { PASS_CELL_FILTER, PASS_CELL_FILTER_FAR };
