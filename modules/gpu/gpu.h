@@ -233,7 +233,10 @@ void gpu_recorder_begin(struct gpu_recorder *rec, const struct gpu_device *devic
 /* Makes all that was written visible to anything later in the queue. */
 void gpu_recorder_end(struct gpu_recorder *rec);
 
-/* Declares what the next command touches. */
+/* Has what is recorded from here on wait for all that writes what it reads or writes, and for all that reads
+ * what it writes. */
+void gpu_order(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes);
+/* Declares what the next command touches, and orders it. */
 void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes);
 
 void gpu_label_begin(struct gpu_recorder *rec, const char *name);

@@ -25,6 +25,7 @@
 #define gpu_label_begin             sdfgi_gpu_label_begin
 #define gpu_label_end               sdfgi_gpu_label_end
 #define gpu_named                   sdfgi_gpu_named
+#define gpu_order                   sdfgi_gpu_order
 #define gpu_push                    sdfgi_gpu_push
 #define gpu_raster_pipeline_create  sdfgi_gpu_raster_pipeline_create
 #define gpu_recorder_begin          sdfgi_gpu_recorder_begin

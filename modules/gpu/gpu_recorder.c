@@ -61,7 +61,7 @@ static void order(struct gpu_recorder *rec, enum gpu_usage usage)
     rec->write_access = 0;
 }
 
-void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes)
+void gpu_order(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes)
 {
     const bool hazard = ((reads | writes) & rec->writes) || (writes & rec->reads);
     /* Graphics stages are not covered by barriers placed for others. */
@@ -69,6 +69,11 @@ void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uin
         usage == GPU_USAGE_GRAPHICS && !(rec->stages & VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
     if (!rec->begun || hazard || new_graphics)
         order(rec, usage);
+}
+
+void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes)
+{
+    gpu_order(rec, usage, reads, writes);
     rec->reads |= reads;
     rec->writes |= writes;
     rec->stages |= usages[usage].stages;

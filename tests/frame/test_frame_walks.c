@@ -44,6 +44,7 @@ static void take_frame(void)
     drive_plan(d, &d->frame);
     plan_rules_reasons(&d->frame);
     plan_rules_groups(&d->frame.work);
+    plan_rules_barriers(d, &d->frame);
     plan_rules_budget(&d->frame, &d->settings);
     plan_rules_ranges(d, &d->frame);
     plan_rules_cover(&coverage, &d->frame);

@@ -129,13 +129,9 @@ static void record_list(VkCommandBuffer cmd, uint32_t index, void *user)
     sdfgi_pass_recorder_begin(&recorder, &gi->backend, gi->volume.resources, cmd,
                               sdfgi_pass_stamps(recording->list));
     gpu_timer_begin_frame(&gi->volume.resources->timer, 0);
-    for (uint32_t i = 0; i < recording->list->count; i++) {
-        const struct work *work = &recording->list->items[i];
-        if (work->kind == WORK_CLEAR)
-            sdfgi_pass_record_clear(&recorder, work);
-        else
-            sdfgi_pass_record(&recorder, work);
-    }
+    const struct work_list *list = recording->list;
+    for (uint32_t i = 0; i < list->count;)
+        i += sdfgi_pass_record_at_once(&recorder, &list->items[i], list->count - i);
     sdfgi_pass_recorder_end(&recorder);
 }
 

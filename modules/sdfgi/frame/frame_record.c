@@ -110,14 +110,14 @@ static void record_uploads(struct pass_recorder *r, const struct frame *frame, c
 
 /* ---- Work */
 
-static void record_item(struct pass_recorder *r, const struct voxelizer *voxelizer, const struct work *work)
+/* Records what a list begins with. Returns how many items. */
+static uint32_t record_items(struct pass_recorder *r, const struct voxelizer *voxelizer,
+                             const struct work *items, uint32_t count)
 {
-    if (work->kind == WORK_CLEAR)
-        sdfgi_pass_record_clear(r, work);
-    else if (sdfgi_pass_row(work->pass)->domain == DOMAIN_INSTANCES)
-        sdfgi_voxelize_record(voxelizer, work);
-    else
-        sdfgi_pass_record(r, work);
+    if (items->kind == WORK_CLEAR || sdfgi_pass_row(items->pass)->domain != DOMAIN_INSTANCES)
+        return sdfgi_pass_record_at_once(r, items, count);
+    sdfgi_voxelize_record(voxelizer, items);
+    return 1;
 }
 
 /* The counters, and the number that tells that this frame has run. */
@@ -140,9 +140,10 @@ void sdfgi_frame_record(const struct frame *frame, const struct scene *scene, st
                         struct draw_list *draws, uint32_t slot, uint32_t number)
 {
     const struct voxelizer voxelizer = { r, scene, &frame->next.cascades, draws };
+    const struct work_list *list = &frame->work;
     record_uploads(r, frame, scene);
-    for (uint32_t i = 0; i < frame->work.count; i++)
-        record_item(r, &voxelizer, &frame->work.items[i]);
+    for (uint32_t i = 0; i < list->count;)
+        i += record_items(r, &voxelizer, &list->items[i], list->count - i);
     sdfgi_pass_close(r);
     if (!frame->situation.converged)
         record_readback(r, slot, number);

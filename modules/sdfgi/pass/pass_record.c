@@ -109,17 +109,26 @@ static uint64_t record_offset(const struct work *work, const struct extent *e)
            (of_visits ? 4ull * sdfgi_seen_records((uint32_t)e->light_cells, (uint32_t)e->cascades) : 0);
 }
 
+static enum gpu_usage usage_of(const struct work *work)
+{
+    return work->indirect != WORK_DIRECT ? GPU_USAGE_INDIRECT : GPU_USAGE_COMPUTE;
+}
+
+static uint64_t reads_of(const struct work *work)
+{
+    const uint64_t records = work->indirect != WORK_DIRECT ? UINT64_C(1) << work->records : 0;
+    return sdfgi_pass_row(work->pass)->reads | records;
+}
+
 static void dispatch(struct pass_recorder *r, const struct work *work)
 {
-    const struct pass_row *row = sdfgi_pass_row(work->pass);
+    gpu_use(&r->gpu, usage_of(work), reads_of(work), sdfgi_pass_row(work->pass)->writes);
     if (work->indirect != WORK_DIRECT) {
-        gpu_use(&r->gpu, GPU_USAGE_INDIRECT, row->reads | UINT64_C(1) << work->records, row->writes);
         gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[work->records],
                               record_offset(work, &r->resources->extent));
         return;
     }
     const struct work_groups groups = sdfgi_work_groups(work, &r->resources->extent, r->backend->software);
-    gpu_use(&r->gpu, GPU_USAGE_COMPUTE, row->reads, row->writes);
     gpu_dispatch(&r->gpu, groups.x, groups.y, groups.z);
 }
 
@@ -149,10 +158,61 @@ void sdfgi_pass_record_indirect(struct pass_recorder *r, const struct work *work
     gpu_dispatch_indirect(&r->gpu, arguments, offset);
 }
 
-void sdfgi_pass_record_clear(struct pass_recorder *r, const struct work *work)
+static bool clears_overlap(const struct work *a, const struct work *b)
 {
-    assert(work->kind == WORK_CLEAR);
+    return a->resource == b->resource && a->offset < b->offset + b->bytes && b->offset < a->offset + a->bytes;
+}
+
+/* Clears that a list begins with and that touch nothing in common. */
+static uint32_t clears_at_once(const struct work *items, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (items[i].kind != WORK_CLEAR)
+            return i;
+        for (uint32_t k = 0; k < i; k++)
+            if (clears_overlap(&items[i], &items[k]))
+                return i;
+    }
+    return count;
+}
+
+static void record_clears(struct pass_recorder *r, const struct work *items, uint32_t count)
+{
+    uint64_t written = 0;
+    for (uint32_t i = 0; i < count; i++)
+        written |= UINT64_C(1) << items[i].resource;
     sdfgi_pass_close(r);
-    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, UINT64_C(1) << work->resource);
-    gpu_fill(&r->gpu, &r->resources->buffers[work->resource], work->offset, work->bytes, 0);
+    gpu_use(&r->gpu, GPU_USAGE_TRANSFER, 0, written);
+    for (uint32_t i = 0; i < count; i++)
+        gpu_fill(&r->gpu, &r->resources->buffers[items[i].resource], items[i].offset, items[i].bytes, 0);
+}
+
+/* Items that a list begins with and that run side by side. */
+static uint32_t passes_at_once(const struct work *items, uint32_t count)
+{
+    uint32_t passes = 1;
+    while (passes < count && runs_beside(&items[0], &items[passes]))
+        passes++;
+    return passes;
+}
+
+/* One barrier for what any of them needs: a later one would have the next pass wait for the one before. */
+static void record_passes(struct pass_recorder *r, const struct work *items, uint32_t count)
+{
+    uint64_t reads = 0, writes = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        reads |= reads_of(&items[i]);
+        writes |= sdfgi_pass_row(items[i].pass)->writes;
+    }
+    gpu_order(&r->gpu, GPU_USAGE_INDIRECT, reads, writes);
+    for (uint32_t i = 0; i < count; i++)
+        sdfgi_pass_record(r, &items[i]);
+}
+
+uint32_t sdfgi_pass_record_at_once(struct pass_recorder *r, const struct work *items, uint32_t count)
+{
+    const bool clears = items->kind == WORK_CLEAR;
+    const uint32_t at_once = clears ? clears_at_once(items, count) : passes_at_once(items, count);
+    (clears ? record_clears : record_passes)(r, items, at_once);
+    return at_once;
 }

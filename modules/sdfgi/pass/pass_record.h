@@ -43,6 +43,8 @@ void sdfgi_pass_record(struct pass_recorder *r, const struct work *work);
 /* An item whose size a view's buffer holds, at `offset`. */
 void sdfgi_pass_record_indirect(struct pass_recorder *r, const struct work *work,
                                 const struct gpu_buffer *arguments, uint64_t offset);
-void sdfgi_pass_record_clear(struct pass_recorder *r, const struct work *work);
+/* Records the items that a list begins with and that run at once, without a barrier between them: clears that
+ * touch nothing in common, or passes that run side by side. Returns how many these are, at least 1. */
+uint32_t sdfgi_pass_record_at_once(struct pass_recorder *r, const struct work *items, uint32_t count);
 
 #endif

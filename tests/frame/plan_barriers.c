@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT
+ * Records plans with a device that only notes in which order commands come. */
+#include "plan_rules.h"
+
+#include "pass/pass_record.h"
+#include "require.h"
+
+#include <string.h>
+
+static struct {
+    uint32_t commands; /* of those that run at once, so far */
+    bool late;         /* a barrier came between two of them */
+} noted;
+
+static void VKAPI_CALL pipeline_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from,
+                                        VkPipelineStageFlags to, VkDependencyFlags flags,
+                                        uint32_t memory_count, const VkMemoryBarrier *memory,
+                                        uint32_t buffer_count, const VkBufferMemoryBarrier *buffers,
+                                        uint32_t image_count, const VkImageMemoryBarrier *images)
+{
+    (void)cmd, (void)from, (void)to, (void)flags, (void)memory_count, (void)memory, (void)buffer_count;
+    (void)buffers, (void)image_count, (void)images;
+    noted.late = noted.late || noted.commands > 0;
+}
+
+static void VKAPI_CALL fill_buffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset,
+                                   VkDeviceSize size, uint32_t value)
+{
+    (void)cmd, (void)buffer, (void)offset, (void)size, (void)value;
+    noted.commands++;
+}
+
+static void VKAPI_CALL dispatch(VkCommandBuffer cmd, uint32_t x, uint32_t y, uint32_t z)
+{
+    (void)cmd, (void)x, (void)y, (void)z;
+    noted.commands++;
+}
+
+static void VKAPI_CALL dispatch_indirect(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset)
+{
+    (void)cmd, (void)buffer, (void)offset;
+    noted.commands++;
+}
+
+static void VKAPI_CALL bind_pipeline(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline)
+{
+    (void)cmd, (void)point, (void)pipeline;
+}
+
+static void VKAPI_CALL bind_sets(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipelineLayout layout,
+                                 uint32_t first, uint32_t count, const VkDescriptorSet *sets,
+                                 uint32_t offset_count, const uint32_t *offsets)
+{
+    (void)cmd, (void)point, (void)layout, (void)first, (void)count, (void)sets, (void)offset_count;
+    (void)offsets;
+}
+
+static void VKAPI_CALL push_constants(VkCommandBuffer cmd, VkPipelineLayout layout, VkShaderStageFlags stages,
+                                      uint32_t offset, uint32_t size, const void *values)
+{
+    (void)cmd, (void)layout, (void)stages, (void)offset, (void)size, (void)values;
+}
+
+static void take_device(struct gpu_device *device)
+{
+    device->fn.CmdPipelineBarrier = pipeline_barrier;
+    device->fn.CmdFillBuffer = fill_buffer;
+    device->fn.CmdDispatch = dispatch;
+    device->fn.CmdDispatchIndirect = dispatch_indirect;
+    device->fn.CmdBindPipeline = bind_pipeline;
+    device->fn.CmdBindDescriptorSets = bind_sets;
+    device->fn.CmdPushConstants = push_constants;
+}
+
+/* Voxelisers need meshes of a device: no draw of theirs is recorded, but what it touches is. */
+static uint32_t record_some(struct pass_recorder *r, const struct work *items, uint32_t count)
+{
+    const struct pass_row *row = sdfgi_pass_row(items->pass);
+    if (items->kind == WORK_CLEAR || row->domain != DOMAIN_INSTANCES)
+        return sdfgi_pass_record_at_once(r, items, count);
+    gpu_use(&r->gpu, row->kind == PASS_KIND_COMPUTE ? GPU_USAGE_COMPUTE : GPU_USAGE_GRAPHICS, row->reads,
+            row->writes);
+    return 1;
+}
+
+void plan_rules_barriers(const struct drive *d, const struct frame *frame)
+{
+    static struct backend backend;
+    static struct resources resources;
+    static struct pass_recorder recorder;
+    const struct work_list *list = &frame->work;
+    take_device(&backend.device);
+    resources.extent = d->extent;
+    resources.timer.counts = resources.timer_counts;
+    sdfgi_pass_recorder_begin(&recorder, &backend, &resources, NULL, sdfgi_pass_stamps(list));
+    for (uint32_t i = 0; i < list->count;) {
+        const struct work *first = &list->items[i];
+        memset(&noted, 0, sizeof noted);
+        i += record_some(&recorder, first, list->count - i);
+        if (noted.late)
+            require_fail(__FILE__, __LINE__, "a barrier comes between %s and those beside it",
+                         first->kind == WORK_CLEAR ? "a clear" : sdfgi_pass_row(first->pass)->name);
+        if (i < list->count && first->group != 0)
+            REQUIRE_CMP(list->items[i].group, !=, first->group);
+    }
+    sdfgi_pass_recorder_end(&recorder);
+}
