@@ -6,9 +6,8 @@
 
 #include "shaders/shared/bindings.h"
 
-/* Timestamps: before each pass, and after the last one; tiles are cleared after `gather`, and the two runs of
- * the filter share theirs. */
-enum { STAMPS_ALONE = 2, STAMPS_REFLECTIONS = 6 };
+/* Timestamps: before each pass, and after the last one; the two runs of the filter share theirs. */
+enum { STAMPS_ALONE = 2, STAMPS_REFLECTIONS = 5 };
 
 static void begin(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view, uint32_t stamps)
 {
@@ -142,6 +141,14 @@ static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct 
     return result == VK_SUCCESS ? sdfgi_view_add_reflection(&gi->backend, view) : result;
 }
 
+/* Before the gather, which does not wait for it. */
+static void clear_tiles(struct sdfgi *gi, const struct sdfgi_view *view)
+{
+    struct gpu_recorder *rec = &gi->recorder.gpu;
+    gpu_use(rec, GPU_USAGE_TRANSFER, 0, VIEW_BIT(TILES));
+    gpu_fill(rec, &view->tiles, 0, sizeof(uint32_t) * SDFGI_TILES_HEADER, 0);
+}
+
 static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const struct work *gather)
 {
     struct pass_recorder *rec = &gi->recorder;
@@ -158,9 +165,6 @@ static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const 
         gpu_image_to_general(&rec->gpu, &view->filtered, 1);
     }
     view->reflection_ready = true;
-    sdfgi_pass_close(rec);
-    gpu_use(&rec->gpu, GPU_USAGE_TRANSFER, 0, VIEW_BIT(TILES));
-    gpu_fill(&rec->gpu, &view->tiles, 0, sizeof(uint32_t) * SDFGI_TILES_HEADER, 0);
     sdfgi_pass_record(rec, &tiles);
     sdfgi_pass_record_indirect(rec, &rays, &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
     for (int run = 0; run < 2; run++)
@@ -192,8 +196,10 @@ enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffe
     if (!view->diffuse_ready)
         gpu_image_to_general(&gi->recorder.gpu, &view->diffuse, 1);
     view->diffuse_ready = true;
-    sdfgi_pass_record(&gi->recorder, &work);
     view->reflects = wants_reflections(gi, desc);
+    if (view->reflects)
+        clear_tiles(gi, view);
+    sdfgi_pass_record(&gi->recorder, &work);
     if (view->reflects)
         record_reflections(gi, view, &work);
     sdfgi_pass_recorder_end(&gi->recorder);

@@ -241,9 +241,9 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at, uint open)
     return cage;
 }
 
-/* Light of the cells of an interpolation along a normal, times weight, in rgb; its weight in a. The axes
- * along which surfaces face are weighed by the squares of the normal's components. */
-vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal, uint what)
+/* Light that arrives at the cells of an interpolation along a normal, times weight, in rgb; its weight in a.
+ * The axes along which surfaces face are weighed by the squares of the normal's components. */
+vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal)
 {
     vec4 sum = vec4(0.0);
     for (uint major = 0u; major < 3u; major++) {
@@ -254,22 +254,79 @@ vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal, uint wh
         const uint axis = 2u * major + (along < 0.0 ? 1u : 0u);
         vec4 along_axis = vec4(0.0);
         for (uint i = 0u; i < 8u; i++)
-            along_axis += cage.weights[i] * sdfgi_cell_surface(cascade, cage.entries[i], axis, what);
+            along_axis +=
+                cage.weights[i] * sdfgi_cell_surface(cascade, cage.entries[i], axis, SDFGI_CELLS_ARRIVING);
         sum += along * along * along_axis;
     }
     return sum;
 }
 
-vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, uint open, vec3 normal, bool around, uint what)
+vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, uint open, vec3 normal, bool around)
 {
     const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, at, open);
     if (!around)
-        return sdfgi_cells_along(cascade, cage, normal, what);
+        return sdfgi_cells_along(cascade, cage, normal);
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < 8u; i++)
         if (cage.weights[i] > 0.0)
-            sum += cage.weights[i] * sdfgi_cell_around(cascade, cage.entries[i], normal, what);
+            sum +=
+                cage.weights[i] * sdfgi_cell_around(cascade, cage.entries[i], normal, SDFGI_CELLS_ARRIVING);
     return sum;
+}
+
+#ifdef SDFGI_REFLECTIONS
+
+/* The axis of a normal along an axis. */
+uint sdfgi_cells_axis(vec3 normal)
+{
+    const uint major = abs(normal.x) > 0.5 ? 0u : (abs(normal.y) > 0.5 ? 1u : 2u);
+    return 2u * major + (sdfgi_trace_component(normal, int(major)) < 0.0 ? 1u : 0u);
+}
+
+/* Light that leaves a surface which a ray hit, times weight, in rgb; its weight in a. `normal` is along an
+ * axis. Light cells before such a surface lie side by side, so the four around the point along the surface
+ * are all that there are where it is level. One of them that shares no face with the point's cell takes part
+ * if another one leads there. */
+vec4 sdfgi_cells_leaving(uint cascade, vec3 at, vec3 normal)
+{
+    const uint axis = sdfgi_cells_axis(normal);
+    const ivec3 own = ivec3(floor(at)), right = axis < 2u ? ivec3(0, 1, 0) : ivec3(1, 0, 0),
+                up = axis < 4u ? ivec3(0, 0, 1) : ivec3(0, 1, 0);
+    const vec3 off = at - vec3(own) - 0.5;
+    const ivec3 side = ivec3(sign(off));
+    const vec2 far = abs(vec2(dot(off, vec3(right)), dot(off, vec3(up))));
+    uint entries[4];
+    uint light = 0u; /* a bit per cell: it is a light cell */
+    for (uint i = 0u; i < 4u; i++) {
+        const ivec3 cell = own + side * (right * int(i & 1u) + up * int(i >> 1u));
+        light |= sdfgi_cell_entry(cascade, cell, entries[i]) ? 1u << i : 0u;
+    }
+    light &= (light & 6u) != 0u ? 15u : 1u;
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < 4u; i++) {
+        const bool counts = (light >> i & 1u) != 0u;
+        const vec2 near = mix(1.0 - far, far, bvec2(i & 1u, i & 2u));
+        sum += (counts ? near.x * near.y + SDFGI_CELLS_LEAST_WEIGHT : 0.0) *
+               sdfgi_cell_surface(cascade, counts ? entries[i] : 0u, axis, SDFGI_CELLS_LEAVING);
+    }
+    return sum;
+}
+
+#endif
+
+/* Of what a surface point reads around a place: see sdfgi_cells_lookup. */
+vec4 sdfgi_cells_read(uint cascade, vec3 at, uint open, vec3 normal, bool around, uint what)
+{
+#ifdef SDFGI_REFLECTIONS
+    uint entry;
+    if (what == SDFGI_CELLS_LEAVING && around)
+        return sdfgi_cell_entry(cascade, ivec3(floor(at)), entry)
+                   ? sdfgi_cell_around(cascade, entry, normal, what)
+                   : vec4(0.0);
+    if (what == SDFGI_CELLS_LEAVING)
+        return sdfgi_cells_leaving(cascade, at, normal);
+#endif
+    return sdfgi_cells_interpolate(cascade, at, open, normal, around);
 }
 
 /* Light of the surface at a point in the cell space of a cascade, times weight, in rgb, and its weight in a:
@@ -312,7 +369,7 @@ vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what
             found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
         }
         if (found)
-            sum = sdfgi_cells_interpolate(cascade, at, open, normal, i > 0, what);
+            sum = sdfgi_cells_read(cascade, at, open, normal, i > 0, what);
         if (sum.a > 0.0)
             break;
         at = first;
