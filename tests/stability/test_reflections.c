@@ -171,6 +171,87 @@ static void hard_69_views_of_one_row_reflect(void **state)
     HARD_CASE_AT_MOST(69, "reflections in pictures of one row or pixel, off by", worst, 0.002);
 }
 
+/* ---- What is mirrored looks like what is seen */
+
+/* A wall before the mirror, a lamp before the wall, and the way from the eye to the mirror. */
+struct lit_wall {
+    double low[3], high[3], lamp[3];
+    int axis; /* it faces against this axis */
+    float towards[3];
+};
+
+static const struct lit_wall lit_walls[] = {
+    { { 1.25, -1.5, -1.5 }, { 2, 1.5, 1.5 }, { -0.25, 0, -0.75 }, 0, { 1, -1, 0 } },
+    { { -1.5, 0, -1.5 }, { 1.75, 1, 1.5 }, { 0.5, -1.5, -0.75 }, 1, { 1, -1, 0 } },
+    { { -1.5, -1.5, 1.25 }, { 1.5, 1.5, 2 }, { -0.75, 0, -0.25 }, 2, { 0, -1, 1 } },
+};
+
+#define START_M (0.45 * 0.25) /* above the mirror, where its rays start */
+
+/* Light that the lamp, of 1 W/sr, sends by way of the wall, of albedo 0.5, to a place of the mirror. */
+static double light_by_wall(const struct lit_wall *wall, double x, double z)
+{
+    const double height = wall->low[wall->axis] - wall->lamp[wall->axis], from[3] = { x, -1 + START_M, z };
+    const double up[3] = { wall->towards[0], 1, wall->towards[2] };
+    const double length = (wall->low[wall->axis] - from[wall->axis]) / up[wall->axis];
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square += pow(from[i] + length * up[i] - wall->lamp[i], 2);
+    return 0.5 / PI * height / pow(square, 1.5);
+}
+
+enum { ROW = 24 };
+
+/* What a pixel shows over what it should. */
+static double share_shown(const struct lit_wall *wall, uint16_t (*texels)[4], int x, int z)
+{
+    const double half_m = (double)HALF_M;
+    return (double)gi_test_half(texels[ROW * z + x][1]) /
+           light_by_wall(wall, half_m * ((x + 0.5) / ROW * 2 - 1), half_m * ((z + 0.5) / ROW * 2 - 1));
+}
+
+/* Seen along the wall's `towards`. */
+static void look_along(struct mirror *mirror, const float towards[static 3])
+{
+    for (int i = 0; i < 3; i++) {
+        mirror->desc.inverse_view_projection[8 + i] = 2 * towards[i];
+        mirror->desc.inverse_view_projection[12 + i] = (float)-(i == 1) - towards[i];
+    }
+}
+
+/* Light falls off along both sides of the wall's cells, which are 6 pixels wide. A mirror that showed each
+ * cell by itself would have steps of 0.18 between pixels. */
+static void a_mirror_shows_no_cells_of_a_wall(void **state)
+{
+    struct gi_test *t = *state;
+    static uint16_t texels[ROW * ROW][4];
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    for (size_t k = 0; k < sizeof lit_walls / sizeof *lit_walls; k++) {
+        const struct lit_wall *wall = &lit_walls[k];
+        const struct sdfgi_light_desc lamp = light_point(wall->lamp[0], wall->lamp[1], wall->lamp[2], 1);
+        struct mirror mirror;
+        double off = 0, step = 0;
+        gi_test_restart(t, &settings);
+        light_add_box(t, wall->low, wall->high, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+        light_create(t, &lamp);
+        gi_test_converge(t, 400);
+        mirror_open(&mirror, t, ROW, ROW, HALF_M);
+        look_along(&mirror, wall->towards);
+        mirror_read(&mirror, texels);
+        mirror_close(&mirror);
+        for (int i = 0; i < (ROW - 1) * (ROW - 1); i++) {
+            const int x = i % (ROW - 1), z = i / (ROW - 1);
+            const double here = share_shown(wall, texels, x, z);
+            off = fmax(off, fabs(here - 1));
+            step = fmax(step, fabs(share_shown(wall, texels, x + 1, z) - here));
+            step = fmax(step, fabs(share_shown(wall, texels, x, z + 1) - here));
+        }
+        printf("a wall along axis %d in a mirror, off by %.4f, steps of %.4f\n", wall->axis, off, step);
+        REQUIRE_CMP(off, <=, 0.08);
+        REQUIRE_CMP(step, <=, 0.02);
+    }
+}
+
 /* ---- Metal in mirrors */
 
 /* The ray goes up to a wall and from there, mirrored again, up to the sky. As long as the wall is matt, the
@@ -254,6 +335,7 @@ TEST_GROUP(reflections)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hard_55_reflected_rays_cross_cascades),
         cmocka_unit_test(hard_69_views_of_one_row_reflect),
+        cmocka_unit_test(a_mirror_shows_no_cells_of_a_wall),
         cmocka_unit_test(metal_shows_in_a_mirror_what_it_reflects),
         cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
     };
