@@ -10,6 +10,8 @@
 static struct {
     uint32_t commands; /* of those that run at once, so far */
     bool late;         /* a barrier came between two of them */
+    bool waits;        /* the newest command is a barrier */
+    bool late_stamp;   /* a timestamp came after their barrier */
 } noted;
 
 static void VKAPI_CALL pipeline_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from,
@@ -21,25 +23,32 @@ static void VKAPI_CALL pipeline_barrier(VkCommandBuffer cmd, VkPipelineStageFlag
     (void)cmd, (void)from, (void)to, (void)flags, (void)memory_count, (void)memory, (void)buffer_count;
     (void)buffers, (void)image_count, (void)images;
     noted.late = noted.late || noted.commands > 0;
+    noted.waits = true;
+}
+
+static void command(void)
+{
+    noted.commands++;
+    noted.waits = false;
 }
 
 static void VKAPI_CALL fill_buffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset,
                                    VkDeviceSize size, uint32_t value)
 {
     (void)cmd, (void)buffer, (void)offset, (void)size, (void)value;
-    noted.commands++;
+    command();
 }
 
 static void VKAPI_CALL dispatch(VkCommandBuffer cmd, uint32_t x, uint32_t y, uint32_t z)
 {
     (void)cmd, (void)x, (void)y, (void)z;
-    noted.commands++;
+    command();
 }
 
 static void VKAPI_CALL dispatch_indirect(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset)
 {
     (void)cmd, (void)buffer, (void)offset;
-    noted.commands++;
+    command();
 }
 
 static void VKAPI_CALL bind_pipeline(VkCommandBuffer cmd, VkPipelineBindPoint point, VkPipeline pipeline)
@@ -61,6 +70,18 @@ static void VKAPI_CALL push_constants(VkCommandBuffer cmd, VkPipelineLayout layo
     (void)cmd, (void)layout, (void)stages, (void)offset, (void)size, (void)values;
 }
 
+static void VKAPI_CALL reset_queries(VkCommandBuffer cmd, VkQueryPool pool, uint32_t first, uint32_t count)
+{
+    (void)cmd, (void)pool, (void)first, (void)count;
+}
+
+static void VKAPI_CALL write_timestamp(VkCommandBuffer cmd, VkPipelineStageFlagBits stage, VkQueryPool pool,
+                                       uint32_t query)
+{
+    (void)cmd, (void)stage, (void)pool, (void)query;
+    noted.late_stamp = noted.late_stamp || noted.waits;
+}
+
 static void take_device(struct gpu_device *device)
 {
     device->fn.CmdPipelineBarrier = pipeline_barrier;
@@ -70,6 +91,8 @@ static void take_device(struct gpu_device *device)
     device->fn.CmdBindPipeline = bind_pipeline;
     device->fn.CmdBindDescriptorSets = bind_sets;
     device->fn.CmdPushConstants = push_constants;
+    device->fn.CmdResetQueryPool = reset_queries;
+    device->fn.CmdWriteTimestamp = write_timestamp;
 }
 
 /* Voxelisers need meshes of a device: no draw of theirs is recorded, but what it touches is. */
@@ -91,15 +114,19 @@ void plan_rules_barriers(const struct drive *d, const struct frame *frame)
     const struct work_list *list = &frame->work;
     take_device(&backend.device);
     resources.extent = d->extent;
+    resources.timer.pool = (VkQueryPool)(uintptr_t)1;
+    resources.timer.tags = resources.timer_tags;
     resources.timer.counts = resources.timer_counts;
+    gpu_timer_begin_frame(&resources.timer, 0);
     sdfgi_pass_recorder_begin(&recorder, &backend, &resources, NULL, sdfgi_pass_stamps(list));
     for (uint32_t i = 0; i < list->count;) {
         const struct work *first = &list->items[i];
         memset(&noted, 0, sizeof noted);
         i += record_some(&recorder, first, list->count - i);
-        if (noted.late)
-            require_fail(__FILE__, __LINE__, "a barrier comes between %s and those beside it",
-                         first->kind == WORK_CLEAR ? "a clear" : sdfgi_pass_row(first->pass)->name);
+        if (noted.late || noted.late_stamp)
+            require_fail(__FILE__, __LINE__, "a barrier comes between %s and %s",
+                         first->kind == WORK_CLEAR ? "a clear" : sdfgi_pass_row(first->pass)->name,
+                         noted.late ? "those beside it" : "its time");
         if (i < list->count && first->group != 0)
             REQUIRE_CMP(list->items[i].group, !=, first->group);
     }

@@ -196,7 +196,8 @@ static uint32_t passes_at_once(const struct work *items, uint32_t count)
     return passes;
 }
 
-/* One barrier for what any of them needs: a later one would have the next pass wait for the one before. */
+/* One barrier for what any of them needs: a later one would have the next pass wait for the one before. It
+ * comes after the stamp, because software drivers take the time when they wait. */
 static void record_passes(struct pass_recorder *r, const struct work *items, uint32_t count)
 {
     uint64_t reads = 0, writes = 0;
@@ -204,6 +205,7 @@ static void record_passes(struct pass_recorder *r, const struct work *items, uin
         reads |= reads_of(&items[i]);
         writes |= sdfgi_pass_row(items[i].pass)->writes;
     }
+    sdfgi_pass_open(r, items);
     gpu_order(&r->gpu, GPU_USAGE_INDIRECT, reads, writes);
     for (uint32_t i = 0; i < count; i++)
         sdfgi_pass_record(r, &items[i]);
