@@ -12,6 +12,12 @@ static struct {
     bool late;         /* a barrier came between two of them */
     bool waits;        /* the newest command is a barrier */
     bool late_stamp;   /* a timestamp came after their barrier */
+    bool overlaps;     /* fills write the same without a barrier between them */
+    struct {
+        VkBuffer buffer;
+        VkDeviceSize offset, end;
+    } fills[SDFGI_MAX_WORK]; /* since the newest barrier */
+    uint32_t fill_count;
 } noted;
 
 static void VKAPI_CALL pipeline_barrier(VkCommandBuffer cmd, VkPipelineStageFlags from,
@@ -24,6 +30,7 @@ static void VKAPI_CALL pipeline_barrier(VkCommandBuffer cmd, VkPipelineStageFlag
     (void)buffers, (void)image_count, (void)images;
     noted.late = noted.late || noted.commands > 0;
     noted.waits = true;
+    noted.fill_count = 0;
 }
 
 static void command(void)
@@ -35,7 +42,14 @@ static void command(void)
 static void VKAPI_CALL fill_buffer(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset,
                                    VkDeviceSize size, uint32_t value)
 {
-    (void)cmd, (void)buffer, (void)offset, (void)size, (void)value;
+    (void)cmd, (void)value;
+    for (uint32_t i = 0; i < noted.fill_count; i++)
+        noted.overlaps =
+            noted.overlaps || (noted.fills[i].buffer == buffer && noted.fills[i].offset < offset + size &&
+                               offset < noted.fills[i].end);
+    noted.fills[noted.fill_count].buffer = buffer;
+    noted.fills[noted.fill_count].offset = offset;
+    noted.fills[noted.fill_count++].end = offset + size;
     command();
 }
 
@@ -113,6 +127,9 @@ void plan_rules_barriers(const struct drive *d, const struct frame *frame)
     static struct pass_recorder recorder;
     const struct work_list *list = &frame->work;
     take_device(&backend.device);
+    memset(&noted, 0, sizeof noted);
+    for (uint32_t i = 0; i < RESOURCE_COUNT; i++)
+        resources.buffers[i].handle = (VkBuffer)(uintptr_t)(i + 1);
     resources.extent = d->extent;
     resources.timer.pool = (VkQueryPool)(uintptr_t)1;
     resources.timer.tags = resources.timer_tags;
@@ -121,12 +138,14 @@ void plan_rules_barriers(const struct drive *d, const struct frame *frame)
     sdfgi_pass_recorder_begin(&recorder, &backend, &resources, NULL, sdfgi_pass_stamps(list));
     for (uint32_t i = 0; i < list->count;) {
         const struct work *first = &list->items[i];
-        memset(&noted, 0, sizeof noted);
+        noted.commands = 0;
+        noted.late = noted.late_stamp = noted.waits = false;
         i += record_some(&recorder, first, list->count - i);
         if (noted.late || noted.late_stamp)
             require_fail(__FILE__, __LINE__, "a barrier comes between %s and %s",
                          first->kind == WORK_CLEAR ? "a clear" : sdfgi_pass_row(first->pass)->name,
                          noted.late ? "those beside it" : "its time");
+        REQUIRE_TRUE(!noted.overlaps);
         if (i < list->count && first->group != 0)
             REQUIRE_CMP(list->items[i].group, !=, first->group);
     }

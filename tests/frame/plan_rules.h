@@ -13,7 +13,7 @@ void plan_rules_reasons(const struct frame *frame);
 /* Items of a group are neighbours, and none touches what another one writes. */
 void plan_rules_groups(const struct work_list *work);
 /* A barrier comes before a group or after it: none has a pass wait for those beside it, nor a clear for
- * others that touch something else. Times begin before the barrier. */
+ * others that touch something else. One comes between clears that overlap. Times begin before the barrier. */
 void plan_rules_barriers(const struct drive *d, const struct frame *frame);
 /* Voxels and distances keep to the budget. */
 void plan_rules_budget(const struct frame *frame, const struct sdfgi_settings *settings);

@@ -205,6 +205,29 @@ static void eight_cascades_that_are_edited_everywhere_fit_the_list(void **state)
     printf("eight cascades are edited: %u items\n", walk.d.frame.work.count);
 }
 
+/* ---- Clears */
+
+/* Where something begins to emit in the frame in which the light lists grow, rays are cleared twice. */
+static void clears_that_overlap_have_a_barrier_between_them(void **state)
+{
+    (void)state;
+    const struct sdfgi_settings settings = drive_settings(2, 32);
+    walk_begin(&walk, &settings, 0);
+    drive_add_box(&walk.d, (double[]){ -1, -1, -1 }, (double[]){ 1, 1, 1 }, SDFGI_STATIC);
+    drive_frames(&walk.d, 40);
+    drive_set_emission(&walk.d, 1);
+    walk.d.list_grew = true;
+    drive_begin_frame(&walk.d);
+    REQUIRE_TRUE(walk.d.emitters_added);
+    take_frame();
+    uint32_t clears = 0;
+    for (uint32_t i = 0; i < walk.d.frame.work.count; i++) {
+        const struct work *work = &walk.d.frame.work.items[i];
+        clears += work->kind == WORK_CLEAR && work->resource == RESOURCE_RAYS;
+    }
+    REQUIRE_CMP(clears, ==, 3u);
+}
+
 int main(void)
 {
 #define WALK(name) cmocka_unit_test_teardown(name, clean_up)
@@ -218,6 +241,7 @@ int main(void)
         WALK(plans_keep_the_rules_at_the_highest_resolution),
         WALK(eight_cascades_that_scroll_along_all_axes_fit_the_list),
         WALK(eight_cascades_that_are_edited_everywhere_fit_the_list),
+        WALK(clears_that_overlap_have_a_barrier_between_them),
     };
 #undef WALK
     return cmocka_run_group_tests_name("walks", tests, NULL, NULL);
