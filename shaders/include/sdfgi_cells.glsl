@@ -312,19 +312,25 @@ vec4 sdfgi_cells_leaving(uint cascade, vec3 at, vec3 normal)
     return sum;
 }
 
+/* The same at a thing smaller than a cell: of all surfaces of the point's cell. */
+vec4 sdfgi_cells_leaving_around(uint cascade, vec3 at, vec3 normal)
+{
+    uint entry;
+    return sdfgi_cell_entry(cascade, ivec3(floor(at)), entry)
+               ? sdfgi_cell_around(cascade, entry, normal, SDFGI_CELLS_LEAVING)
+               : vec4(0.0);
+}
+
 #endif
 
-/* Of what a surface point reads around a place: see sdfgi_cells_lookup. */
+/* What a lookup reads around a place: light that arrives, or light that leaves. `around`: from all surfaces
+ * that do not face away. */
 vec4 sdfgi_cells_read(uint cascade, vec3 at, uint open, vec3 normal, bool around, uint what)
 {
 #ifdef SDFGI_REFLECTIONS
-    uint entry;
-    if (what == SDFGI_CELLS_LEAVING && around)
-        return sdfgi_cell_entry(cascade, ivec3(floor(at)), entry)
-                   ? sdfgi_cell_around(cascade, entry, normal, what)
-                   : vec4(0.0);
     if (what == SDFGI_CELLS_LEAVING)
-        return sdfgi_cells_leaving(cascade, at, normal);
+        return around ? sdfgi_cells_leaving_around(cascade, at, normal)
+                      : sdfgi_cells_leaving(cascade, at, normal);
 #endif
     return sdfgi_cells_interpolate(cascade, at, open, normal, around);
 }

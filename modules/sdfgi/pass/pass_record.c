@@ -213,8 +213,12 @@ static void record_passes(struct pass_recorder *r, const struct work *items, uin
 
 uint32_t sdfgi_pass_record_at_once(struct pass_recorder *r, const struct work *items, uint32_t count)
 {
-    const bool clears = items->kind == WORK_CLEAR;
-    const uint32_t at_once = clears ? clears_at_once(items, count) : passes_at_once(items, count);
-    (clears ? record_clears : record_passes)(r, items, at_once);
-    return at_once;
+    if (items->kind == WORK_CLEAR) {
+        const uint32_t clears = clears_at_once(items, count);
+        record_clears(r, items, clears);
+        return clears;
+    }
+    const uint32_t passes = passes_at_once(items, count);
+    record_passes(r, items, passes);
+    return passes;
 }
