@@ -31,21 +31,14 @@ struct sdfgi_trace_hit {
 
 /* What a ray needs to find the cells of a cascade. A ray loads this once per cascade, not once per step. */
 struct sdfgi_trace_volume {
-    ivec3 valid_low, valid_high; /* valid region, counted from the ray's base cell */
-    ivec3 wrap;                  /* texel of the base cell */
-    uint first;                  /* index of the cascade's first cell */
+    ivec3 wrap; /* texel of the ray's base cell */
+    uint first; /* index of the cascade's first cell */
 };
 
 sdfgi_trace_volume sdfgi_trace_volume_of(uint cascade, ivec3 base)
 {
-    return sdfgi_trace_volume(
-        sdfgi_frame.cascades[cascade].valid_low - base, sdfgi_frame.cascades[cascade].valid_high - base,
-        sdfgi_frame.cascades[cascade].wrap + base, cascade << (3u * sdfgi_frame.resolution_log2));
-}
-
-bool sdfgi_trace_is_valid(sdfgi_trace_volume volume, ivec3 cell)
-{
-    return all(greaterThanEqual(cell, volume.valid_low)) && all(lessThan(cell, volume.valid_high));
+    return sdfgi_trace_volume(sdfgi_frame.cascades[cascade].wrap + base,
+                              cascade << (3u * sdfgi_frame.resolution_log2));
 }
 
 uint sdfgi_trace_cell_index(sdfgi_trace_volume volume, ivec3 cell)
@@ -53,12 +46,12 @@ uint sdfgi_trace_cell_index(sdfgi_trace_volume volume, ivec3 cell)
     return sdfgi_texel_index(uvec3(cell + volume.wrap) & (sdfgi_frame.resolution - 1u)) | volume.first;
 }
 
-/* The parameter at which a ray leaves the valid region; below 0 if it starts beyond it. */
-float sdfgi_trace_border(sdfgi_trace_volume volume, vec3 origin, vec3 inv_dir)
+/* The parameter at which a ray that begins in the valid region leaves it. `origin` counts from `base`. */
+float sdfgi_trace_border(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir)
 {
-    const vec3 far =
-        (mix(vec3(volume.valid_low), vec3(volume.valid_high), greaterThan(inv_dir, vec3(0.0))) - origin) *
-        inv_dir;
+    const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low - base),
+               high = vec3(sdfgi_frame.cascades[cascade].valid_high - base),
+               far = (mix(low, high, greaterThan(inv_dir, vec3(0.0))) - origin) * inv_dir;
     return min(far.x, min(far.y, far.z));
 }
 
@@ -82,35 +75,46 @@ struct sdfgi_trace_state {
     uint cascade;
     ivec3 base;
     sdfgi_trace_volume volume;
-    vec3 origin;    /* where the ray entered this cascade, in cells from `base`: t = 0 */
-    float border;   /* parameter at which it leaves the valid region */
-    bool at_border; /* a step of the distance field has reached that, or nothing is left before it */
+    vec3 origin;  /* where the ray entered this cascade, in cells from `base`: t = 0 */
+    float border; /* parameter at which nothing is left for it in this cascade; the cell counts before it */
     float t;
     ivec3 cell; /* that holds the ray at t */
     int axis;   /* along which the ray entered the cell or the sub-voxel, if it walked there */
     uint steps; /* of the march */
 };
 
-void sdfgi_trace_enter_cascade(uint cascade, ivec3 base, vec3 origin, inout sdfgi_trace_state ray)
+/* Length of a ray so far, in cell widths of the first cascade. */
+float sdfgi_trace_length(sdfgi_trace_state ray)
+{
+    return ray.travelled + ray.t * ray.scale;
+}
+
+/* A ray that begins beyond the valid region finds nothing in this cascade. One that crosses cells up to the
+ * border is there exactly when it leaves the region: both parameters are computed alike. */
+void sdfgi_trace_enter_cascade(uint cascade, ivec3 base, vec3 origin, float range,
+                               inout sdfgi_trace_state ray)
 {
     ray.cascade = cascade;
     ray.base = base;
     ray.origin = origin;
     ray.t = 0.0;
     ray.volume = sdfgi_trace_volume_of(cascade, base);
-    ray.border = sdfgi_trace_border(ray.volume, origin, ray.inv_dir);
-    ray.at_border = false;
     /* A ray that begins on the far face of the valid region, as those of probes there do, and leads back into
      * it begins in the last cell. */
-    ray.cell = ivec3(floor(origin)) -
-               ivec3(equal(origin, vec3(ray.volume.valid_high))) * ivec3(lessThan(ray.dir, vec3(0.0)));
+    ray.cell =
+        ivec3(floor(origin)) - ivec3(equal(origin, vec3(sdfgi_frame.cascades[cascade].valid_high - base))) *
+                                   ivec3(lessThan(ray.dir, vec3(0.0)));
+    const float border =
+        min(sdfgi_trace_border(cascade, base, origin, ray.inv_dir), (range - ray.travelled) / ray.scale);
+    ray.border = sdfgi_cell_is_valid(cascade, ray.cell + base) ? border : 0.0;
 }
 
-/* Distances do not include what lies beyond the cascade, so no step leads further than the border. */
+/* Distances do not include what lies beyond the cascade, so no step leads further than the border. Rounding
+ * could put a place just before the border beyond it. */
 void sdfgi_trace_leap(float step_length, inout sdfgi_trace_state ray)
 {
-    ray.t = min(ray.t + step_length, ray.border);
-    ray.at_border = ray.t >= ray.border;
+    const float t = ray.t + step_length;
+    ray.t = t < ray.border - SDFGI_TRACE_EDGE ? t : ray.border;
     ray.cell = ivec3(floor(ray.origin + ray.dir * ray.t));
 }
 
@@ -128,8 +132,9 @@ void sdfgi_trace_skip_empty(uint last_cascade, inout sdfgi_trace_state ray)
     if (leaves <= max(enters, 0.0))
         ray.cascade = last_cascade;
     ray.border = min(ray.border, leaves);
-    ray.at_border = enters >= ray.border || leaves <= 0.0;
-    if (enters > 0.0 && !ray.at_border)
+    if (enters >= ray.border)
+        ray.border = 0.0;
+    else if (enters > 0.0)
         sdfgi_trace_leap(enters, ray);
 }
 
@@ -143,7 +148,7 @@ sdfgi_trace_state sdfgi_trace_start(sdfgi_trace_query query)
     ray.travelled = 0.0;
     ray.axis = 0;
     ray.steps = 0u;
-    sdfgi_trace_enter_cascade(query.cascade, query.base, query.pos, ray);
+    sdfgi_trace_enter_cascade(query.cascade, query.base, query.pos, query.range, ray);
     if (query.skips_empty)
         sdfgi_trace_skip_empty(query.last_cascade, ray);
     return ray;
@@ -155,7 +160,7 @@ void sdfgi_trace_enter_coarser(sdfgi_trace_query query, inout sdfgi_trace_state 
     ray.scale *= 2.0;
     const vec3 first = sdfgi_first_from_cascade(ray.cascade, ray.origin + ray.dir * ray.t + vec3(ray.base));
     sdfgi_trace_enter_cascade(ray.cascade + 1u, ivec3(0), sdfgi_cascade_from_first(ray.cascade + 1u, first),
-                              ray);
+                              query.range, ray);
     if (query.skips_empty)
         sdfgi_trace_skip_empty(query.last_cascade, ray);
 }
@@ -178,17 +183,23 @@ bool sdfgi_trace_cross_cell(uint index, float distance, inout sdfgi_trace_state 
     uvec2 bits = uvec2(0u);
     if (distance < SDFGI_TRACE_OCCUPIED_DISTANCE)
         bits = sdfgi_bits_at(index) & sdfgi_trace_bits_near_ray(ray.cell, ray.origin, ray.dir, ray.t, t_exit);
-    if (bits != uvec2(0u))
-        return sdfgi_trace_walk_subvoxels(bits, ray.cell, ray.origin, ray.dir, ray.inv_dir, ray.t, ray.axis);
+    if (bits != uvec2(0u) &&
+        sdfgi_trace_walk_subvoxels(bits, ray.cell, ray.origin, ray.dir, ray.inv_dir, ray.t, ray.axis))
+        return true;
     ray.axis = exit_axis;
     ray.t = t_exit;
     return false;
 }
 
-/* Length of a ray so far, in cell widths of the first cascade. */
-float sdfgi_trace_length(sdfgi_trace_state ray)
+/* True if nothing is left for a ray where it stands: it goes on in the next cascade, or ends. */
+bool sdfgi_trace_is_at_border(sdfgi_trace_state ray)
 {
-    return ray.travelled + ray.t * ray.scale;
+    return !(ray.t < ray.border);
+}
+
+bool sdfgi_trace_goes_on(sdfgi_trace_query query, sdfgi_trace_state ray)
+{
+    return ray.cascade < query.last_cascade && sdfgi_trace_length(ray) < query.range;
 }
 
 /* How a ray ends. */
@@ -226,13 +237,9 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
     do {
         goes_on = false;
         while (ray.steps < SDFGI_TRACE_STEP_CAP) {
-            if (sdfgi_trace_length(ray) >= query.range) {
-                end = SDFGI_TRACE_MISS;
-                break;
-            }
             ray.steps++;
-            if (ray.at_border || !sdfgi_trace_is_valid(ray.volume, ray.cell)) {
-                goes_on = ray.cascade < query.last_cascade;
+            if (sdfgi_trace_is_at_border(ray)) {
+                goes_on = sdfgi_trace_goes_on(query, ray);
                 end = goes_on ? end : SDFGI_TRACE_MISS;
                 break;
             }
@@ -253,11 +260,9 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
     const ivec3 signs = sdfgi_trace_signs(ray.dir);
     for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
-        if (sdfgi_trace_length(ray) >= query.range)
-            return SDFGI_TRACE_MISS;
         ray.steps++;
-        if (ray.at_border || !sdfgi_trace_is_valid(ray.volume, ray.cell)) {
-            if (ray.cascade >= query.last_cascade)
+        if (sdfgi_trace_is_at_border(ray)) {
+            if (!sdfgi_trace_goes_on(query, ray))
                 return SDFGI_TRACE_MISS;
             sdfgi_trace_enter_coarser(query, ray);
             continue;

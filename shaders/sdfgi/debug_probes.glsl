@@ -39,7 +39,7 @@ debug_walk debug_walk_from(uint cascade, vec3 first, vec3 dir, float way_m)
     const vec3 at = walk.origin + walk.dir * walk.t;
     walk.probe = ivec3(floor(at / float(SDFGI_PROBE_SPACING) + 0.5));
     walk.end = sdfgi_cell_is_valid(cascade, ivec3(floor(at)))
-                   ? sdfgi_trace_border(sdfgi_trace_volume_of(cascade, ivec3(0)), walk.origin, walk.inv_dir)
+                   ? sdfgi_trace_border(cascade, ivec3(0), walk.origin, walk.inv_dir)
                    : walk.t;
     return walk;
 }
