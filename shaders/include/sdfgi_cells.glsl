@@ -22,8 +22,9 @@
 /* Cell widths from a surface to the middle of what is interpolated. The light cells before a level surface
  * are then always among the cells around. */
 #define SDFGI_CELLS_MIDDLE 0.5
-/* Places from which a surface point tries to read, after that. */
-#define SDFGI_CELLS_TRIES 3
+/* That place, and the number of those from which a surface point tries to read after it. */
+#define SDFGI_CELLS_MOVING -1
+#define SDFGI_CELLS_TRIES  3
 /* A bit for each face of a cell. */
 #define SDFGI_CELLS_ALL_FACES 63u
 /* Added to each weight, so that a cell that is alone counts although the point lies on the edge of its
@@ -335,6 +336,37 @@ vec4 sdfgi_cells_read(uint cascade, vec3 at, uint open, vec3 normal, bool around
     return sdfgi_cells_interpolate(cascade, at, open, normal, around);
 }
 
+/* A place near a surface point that sdfgi_cells_lookup reads around. `i`: SDFGI_CELLS_MOVING, or the number
+ * of the place. `in_air`: no set sub-voxel is in the point's cell, as places before have found. */
+vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, int i, inout bool in_air)
+{
+    const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
+               high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
+    const vec3 off = sdfgi_cells_from_metric(sdfgi_frame.normal_bias * normal),
+               surface = clamp(pos, low, high), middle = clamp(pos + SDFGI_CELLS_MIDDLE * off, low, high);
+    const float place = in_air ? 0.0 : float(max(i, 0));
+    const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
+    vec3 at = clamp(pos + sdfgi_cells_from_metric(towards) + (place + 1.0) * (SDFGI_CELLS_OFF_SURFACE * off),
+                    low, high);
+    const uvec2 surface_bits = sdfgi_cell_bits(cascade, ivec3(floor(surface))),
+                middle_bits = sdfgi_cell_bits(cascade, ivec3(floor(middle)));
+    uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
+    in_air = surface_bits == uvec2(0u);
+    if (in_air && bits != uvec2(0u)) {
+        at = surface;
+        bits = surface_bits;
+    }
+    uint open = SDFGI_CELLS_ALL_FACES;
+    bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
+    if (found && i < 0 && !in_air) {
+        open = bits == uvec2(0u) ? open : sdfgi_cells_open_faces(bits, at);
+        sdfgi_cells_move(middle, middle_bits, at, open);
+    } else if (found) {
+        found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
+    }
+    return found ? sdfgi_cells_read(cascade, at, open, normal, i > 0, what) : vec4(0.0);
+}
+
 /* Light of the surface at a point in the cell space of a cascade, times weight, in rgb, and its weight in a:
  * radiance, or irradiance over pi, times exposure. The weight is 0 if no light cell on the point's side of
  * the surface is near. `eye` leads towards the viewer, in cell widths, and is at most SDFGI_CELLS_REACH long.
@@ -344,48 +376,17 @@ vec4 sdfgi_cells_read(uint cascade, vec3 at, uint open, vec3 normal, bool around
  * it tries the light cell that it leaves into, and in a niche or at a small thing places farther off and
  * nearer to the viewer. A point in the air has no other places: what is near it need not be on its side of a
  * wall, and its normal may lead into one. But the surfaces around stand for one that the air's cell does not
- * know. */
+ * know. Each place is computed anew: what a loop keeps costs all threads registers, and few go round twice.
+ */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
 {
-    const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
-               high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
-    const vec3 off = sdfgi_cells_from_metric(sdfgi_frame.normal_bias * normal),
-               above = SDFGI_CELLS_OFF_SURFACE * off, surface = clamp(pos, low, high),
-               middle = clamp(pos + SDFGI_CELLS_MIDDLE * off, low, high);
-    vec3 at = clamp(pos + above, low, high);
-    const uvec2 surface_bits = sdfgi_cell_bits(cascade, ivec3(floor(surface))),
-                middle_bits = sdfgi_cell_bits(cascade, ivec3(floor(middle)));
-    uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-    const bool at_surface = surface_bits != uvec2(0u);
-    if (!at_surface && bits != uvec2(0u)) {
-        at = surface;
-        bits = surface_bits;
-    }
-    const vec3 first = at;
-    const uvec2 first_bits = bits;
-    const int tries = at_surface ? SDFGI_CELLS_TRIES : 2;
     vec4 sum = vec4(0.0);
-    for (int i = at_surface && what == SDFGI_CELLS_ARRIVING ? -1 : 0; i < tries; i++) {
-        uint open = SDFGI_CELLS_ALL_FACES;
-        bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
-        if (found && i < 0) {
-            open = bits == uvec2(0u) ? open : sdfgi_cells_open_faces(bits, at);
-            sdfgi_cells_move(middle, middle_bits, at, open);
-        } else if (found) {
-            found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
-        }
-        if (found)
-            sum = sdfgi_cells_read(cascade, at, open, normal, i > 0, what);
-        if (sum.a > 0.0)
+    bool in_air = false;
+    for (int i = what == SDFGI_CELLS_ARRIVING ? SDFGI_CELLS_MOVING : 0; i < SDFGI_CELLS_TRIES; i++) {
+        sum = sdfgi_cells_try(cascade, pos, normal, eye, what, i, in_air);
+        i = in_air ? max(i, 0) : i;
+        if (sum.a > 0.0 || (in_air && i > 0))
             break;
-        at = first;
-        bits = first_bits;
-        if (at_surface && i >= 0) {
-            const float place = float(i + 1);
-            const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
-            at = clamp(pos + sdfgi_cells_from_metric(towards) + (place + 1.0) * above, low, high);
-            bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-        }
     }
     return sum;
 }
