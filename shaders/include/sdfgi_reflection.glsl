@@ -40,8 +40,7 @@ struct sdfgi_reflection_ray {
 float sdfgi_reflection_handover(uint cascade, vec3 pos, vec3 dir)
 {
     const float band = float(SDFGI_PROBE_SPACING) + 1.0;
-    const vec3 cells = sdfgi_cells_from_metric(dir),
-               inv_dir = 1.0 / mix(cells, vec3(1e-20), lessThan(abs(cells), vec3(1e-20)));
+    const vec3 inv_dir = 1.0 / sdfgi_trace_cells_direction(dir);
     const vec3 far = (mix(sdfgi_frame.cascades[cascade].blend_low + band,
                           sdfgi_frame.cascades[cascade].blend_high - band, greaterThan(inv_dir, vec3(0.0))) -
                       pos) *

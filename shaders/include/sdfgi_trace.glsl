@@ -118,31 +118,42 @@ void sdfgi_trace_leap(float step_length, inout sdfgi_trace_state ray)
     ray.cell = ivec3(floor(ray.origin + ray.dir * ray.t));
 }
 
+/* The box around all geometry, as a ray meets it. */
+struct sdfgi_trace_content {
+    float enters, leaves; /* parameters */
+    bool misses;          /* the ray meets nothing in any cascade */
+};
+
+sdfgi_trace_content sdfgi_trace_content_of(uint cascade, ivec3 base, vec3 origin, vec3 inv_dir)
+{
+    const bvec3 forward = greaterThan(inv_dir, vec3(0.0));
+    const vec3 low = vec3(sdfgi_frame.cascades[cascade].content_low - base),
+               high = vec3(sdfgi_frame.cascades[cascade].content_high - base);
+    const vec3 near = (mix(high, low, forward) - origin) * inv_dir,
+               far = (mix(low, high, forward) - origin) * inv_dir;
+    const float enters = max(near.x, max(near.y, near.z)), leaves = min(far.x, min(far.y, far.z));
+    return sdfgi_trace_content(enters, leaves, leaves <= max(enters, 0.0));
+}
+
 /* Goes on to the box around all geometry. A ray leaves the cascade where it leaves that box, or at once if
- * the box lies beyond the cascade: in coarser ones it goes on from there. A ray that does not meet the box
- * meets nothing in any cascade. */
+ * the box lies beyond the cascade: in coarser ones it goes on from there. */
 void sdfgi_trace_skip_empty(uint last_cascade, inout sdfgi_trace_state ray)
 {
-    const bvec3 forward = greaterThan(ray.inv_dir, vec3(0.0));
-    const vec3 low = vec3(sdfgi_frame.cascades[ray.cascade].content_low - ray.base),
-               high = vec3(sdfgi_frame.cascades[ray.cascade].content_high - ray.base);
-    const vec3 near = (mix(high, low, forward) - ray.origin) * ray.inv_dir,
-               far = (mix(low, high, forward) - ray.origin) * ray.inv_dir;
-    const float enters = max(near.x, max(near.y, near.z)), leaves = min(far.x, min(far.y, far.z));
-    if (leaves <= max(enters, 0.0))
+    const sdfgi_trace_content content =
+        sdfgi_trace_content_of(ray.cascade, ray.base, ray.origin, ray.inv_dir);
+    if (content.misses)
         ray.cascade = last_cascade;
-    ray.border = min(ray.border, leaves);
-    if (enters >= ray.border)
+    ray.border = min(ray.border, content.leaves);
+    if (content.enters >= ray.border)
         ray.border = 0.0;
-    else if (enters > 0.0)
-        sdfgi_trace_leap(enters, ray);
+    else if (content.enters > 0.0)
+        sdfgi_trace_leap(content.enters, ray);
 }
 
 sdfgi_trace_state sdfgi_trace_start(sdfgi_trace_query query)
 {
     sdfgi_trace_state ray;
-    const vec3 dir = sdfgi_cells_from_metric(query.dir);
-    ray.dir = mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
+    ray.dir = sdfgi_trace_cells_direction(query.dir);
     ray.inv_dir = 1.0 / ray.dir;
     ray.scale = 1.0;
     ray.travelled = 0.0;

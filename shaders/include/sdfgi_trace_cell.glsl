@@ -55,6 +55,13 @@ float sdfgi_trace_component(vec3 v, int axis)
     return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
 }
 
+/* A metric direction in cell space, without a component that is 0. */
+vec3 sdfgi_trace_cells_direction(vec3 dir)
+{
+    const vec3 cells = sdfgi_cells_from_metric(dir);
+    return mix(cells, vec3(1e-20), lessThan(abs(cells), vec3(1e-20)));
+}
+
 /* 1 or -1 per axis of a direction. */
 ivec3 sdfgi_trace_signs(vec3 dir)
 {

@@ -30,10 +30,9 @@ struct debug_walk {
 debug_walk debug_walk_from(uint cascade, vec3 first, vec3 dir, float way_m)
 {
     debug_walk walk;
-    const vec3 cells = sdfgi_cells_from_metric(dir);
     walk.cascade = cascade;
     walk.origin = sdfgi_cascade_from_first(cascade, first);
-    walk.dir = mix(cells, vec3(1e-20), lessThan(abs(cells), vec3(1e-20)));
+    walk.dir = sdfgi_trace_cells_direction(dir);
     walk.inv_dir = 1.0 / walk.dir;
     walk.t = way_m / sdfgi_frame.cascades[cascade].cell_m;
     const vec3 at = walk.origin + walk.dir * walk.t;

@@ -118,14 +118,14 @@ void reflect_pixel(ivec2 pixel)
     if (!picture_reflects(pixel, s, roughness))
         return;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
-    const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
     const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
     bool even;
     const vec3 face = face_normal(pixel, s, even), of_lobe = ray_direction(point, s, roughness),
                dir = off_face(of_lobe, face);
-    const reflect_found found =
-        reflect_trace(sdfgi_first_from_position(s.pos), face, dir, fract(5.0 * point));
     const float share = (even ? open_share(of_lobe, face) : 1.0) * facet_share(s, roughness, dir);
+    const reflect_found found =
+        reflect_trace(sdfgi_first_from_position(s.pos), face, dir, packUnorm2x16(fract(5.0 * point)));
+    const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
     const vec3 light = scale * share * reflect_light(found, rough);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), found.length_m));
 }
