@@ -84,8 +84,8 @@
       R(IRRADIANCE) | R(SEEN) | R(INDIRECT) | R(DIRECT), R(LIGHT) | R(SURFACES) | R(GATHERED) |              \
       R(COUNTERS))                                                                                           \
     X(RAY_LIST, COMPUTE, ray_list, RAYS, RAYS, RAYS, CREATED,                                                \
-      ALL_RAYS, none, SDFGI_LISTED_RAYS * SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(RAYS) | R(EMITTERS),         \
-      R(SCRATCH) | R(INDIRECT))                                                                              \
+      ALL_RAYS, none, SDFGI_LISTED_RAYS * SDFGI_GROUP_RAYS, NONE, R(PROBES) | R(EMITTERS),                   \
+      R(RAYS) | R(SCRATCH) | R(INDIRECT))                                                                    \
     X(VISIT_LIST, COMPUTE, visit_list, LIGHT_CELLS, CELLS, OWN, CREATED,                                     \
       SEEN_WORDS, visit_list, SDFGI_GROUP_VISITS, NONE, 0, R(SEEN))                                          \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \

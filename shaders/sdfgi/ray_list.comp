@@ -12,11 +12,21 @@
 #include "emitter_samples.glsl"
 #include "ray_cache.glsl"
 #include "ray_queue.glsl"
+#include "../include/sdfgi_trace.glsl"
 
 layout(local_size_x = SDFGI_GROUP_RAYS) in;
 
 shared uint group_count; /* rays that the workgroup lists */
 shared uint group_first; /* index of the first of them in the queue */
+
+/* True if a ray meets nothing, as probe_trace would find. */
+bool misses_content(uint cascade, ivec3 probe, uint slot, uint s)
+{
+    float solid_angle;
+    const vec3 pos = sdfgi_probe_position(probe, sdfgi_probes_at(slot)),
+               dir = probe_sample_direction(cascade, probe, s, solid_angle);
+    return sdfgi_trace_content_of(cascade, ivec3(0), pos, 1.0 / sdfgi_trace_cells_direction(dir)).misses;
+}
 
 /* Whether the n-th ray of a cascade must be traced; its index in the ray cache. */
 bool needs_tracing(uint cascade, uint n, out uint ray)
@@ -35,8 +45,17 @@ bool needs_tracing(uint cascade, uint n, out uint ray)
         ray = emitter_sample_word(slot, emitter_first_of_frame() + n % rays - at_random);
         return !emitter_sample_is_known(ray);
     }
-    ray = slot * emitter_cache_stride() + sdfgi_frame.first_sample + n % rays;
-    return !ray_is_cached(sdfgi_rays_at(ray));
+    const uint s = sdfgi_frame.first_sample + n % rays;
+    ray = slot * emitter_cache_stride() + s;
+    bool traced = !ray_is_cached(sdfgi_rays_at(ray)), unknown = traced;
+    /* A loop, which software drivers leave out where no thread needs it. */
+    while (unknown) {
+        unknown = false;
+        traced = !misses_content(cascade, probe, slot, s);
+        if (!traced)
+            sdfgi_rays[ray] = SDFGI_RAY_SKY;
+    }
+    return traced;
 }
 
 const uint RAYS = uint(SDFGI_LISTED_RAYS); /* that a thread looks at: loads overlap */

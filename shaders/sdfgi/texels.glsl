@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * How passes read the buffers of the WORK set: as ../include/sdfgi_texels.glsl does those of LOOKUP. A pass
- * may write words of GATHERED, SUMS and PREVIOUS, and still read texels of them, as long as no thread reads a
- * word that has been written in the same dispatch. A texel is read for all threads of a group, even if few of
- * them ask. */
+ * may write words of GATHERED, RAYS, SUMS and PREVIOUS, and still read texels of them, as long as no thread
+ * reads a word that has been written in the same dispatch. A texel is read for all threads of a group, even
+ * if few of them ask. */
 #ifndef SDFGI_WORK_TEXELS_GLSL
 #define SDFGI_WORK_TEXELS_GLSL
 
