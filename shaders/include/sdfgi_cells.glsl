@@ -23,7 +23,7 @@
  * are then always among the cells around. */
 #define SDFGI_CELLS_MIDDLE 0.5
 /* That place, and the number of those from which a surface point tries to read after it. */
-#define SDFGI_CELLS_MOVING -1
+#define SDFGI_CELLS_MOVING (-1)
 #define SDFGI_CELLS_TRIES  3
 /* A bit for each face of a cell. */
 #define SDFGI_CELLS_ALL_FACES 63u
