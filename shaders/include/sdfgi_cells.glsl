@@ -376,14 +376,14 @@ vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, i
  * it tries the light cell that it leaves into, and in a niche or at a small thing places farther off and
  * nearer to the viewer. A point in the air has no other places: what is near it need not be on its side of a
  * wall, and its normal may lead into one. But the surfaces around stand for one that the air's cell does not
- * know. Each place is computed anew: what a loop keeps costs all threads registers, and few go round twice.
- */
+ * know. The loop keeps no place: that would cost all threads registers, and few go round twice. */
 vec4 sdfgi_cells_lookup(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what)
 {
     vec4 sum = vec4(0.0);
     bool in_air = false;
     for (int i = what == SDFGI_CELLS_ARRIVING ? SDFGI_CELLS_MOVING : 0; i < SDFGI_CELLS_TRIES; i++) {
         sum = sdfgi_cells_try(cascade, pos, normal, eye, what, i, in_air);
+        /* In the air the place that moves was the first one. */
         i = in_air ? max(i, 0) : i;
         if (sum.a > 0.0 || (in_air && i > 0))
             break;

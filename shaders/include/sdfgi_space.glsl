@@ -31,6 +31,12 @@ vec3 sdfgi_cells_from_metric(vec3 v)
     return vec3(v.x, v.y / sdfgi_space_y_scale(), v.z);
 }
 
+/* A direction without a component that is 0: each can be divided by. */
+vec3 sdfgi_nonzero(vec3 dir)
+{
+    return mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
+}
+
 /* Unit vector of axis 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z. */
 ivec3 sdfgi_axis_direction(uint axis)
 {

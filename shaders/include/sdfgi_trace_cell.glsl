@@ -58,8 +58,7 @@ float sdfgi_trace_component(vec3 v, int axis)
 /* A metric direction in cell space, without a component that is 0. */
 vec3 sdfgi_trace_cells_direction(vec3 dir)
 {
-    const vec3 cells = sdfgi_cells_from_metric(dir);
-    return mix(cells, vec3(1e-20), lessThan(abs(cells), vec3(1e-20)));
+    return sdfgi_nonzero(sdfgi_cells_from_metric(dir));
 }
 
 /* 1 or -1 per axis of a direction. */

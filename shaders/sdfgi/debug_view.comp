@@ -50,8 +50,7 @@ vec3 start_in_cascades(pixel_ray ray)
     const uint last = sdfgi_frame.cascade_count - 1u;
     const float cell_m = sdfgi_frame.cascades[last].cell_m;
     const vec3 at = sdfgi_cascade_from_first(last, sdfgi_first_from_position(ray.start)),
-               cells = sdfgi_cells_from_metric(ray.dir),
-               inv_dir = 1.0 / mix(cells, vec3(1e-20), lessThan(abs(cells), vec3(1e-20))),
+               inv_dir = 1.0 / sdfgi_trace_cells_direction(ray.dir),
                low = (vec3(sdfgi_frame.cascades[last].valid_low) - at) * inv_dir,
                high = (vec3(sdfgi_frame.cascades[last].valid_high) - at) * inv_dir, near = min(low, high);
     const float enters = max(near.x, max(near.y, near.z));

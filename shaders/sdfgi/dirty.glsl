@@ -48,7 +48,7 @@ float dirty_distance(uint cascade, vec3 pos, float margin)
  * before parameter `end`. */
 bool dirty_crosses(uint cascade, vec3 pos, vec3 dir, float end, float margin)
 {
-    const vec3 inv_dir = 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20)));
+    const vec3 inv_dir = 1.0 / sdfgi_nonzero(dir);
     for (int i = 0; i < dirty_count(cascade); i++) {
         const vec3 a = (vec3(sdfgi_frame.cascades[cascade].dirty[i].low) - margin - pos) * inv_dir;
         const vec3 b = (vec3(sdfgi_frame.cascades[cascade].dirty[i].high) + margin - pos) * inv_dir;

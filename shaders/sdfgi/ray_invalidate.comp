@@ -68,7 +68,7 @@ bounds_box box_around(bounds_box a, bounds_box b)
 
 bounds_ray make_ray(vec3 start, vec3 dir, float end)
 {
-    return bounds_ray(start, dir, 1.0 / mix(dir, vec3(1e-20), lessThan(abs(dir), vec3(1e-20))), end);
+    return bounds_ray(start, dir, 1.0 / sdfgi_nonzero(dir), end);
 }
 
 /* Parameters between which a ray is inside a box: empty if x > y. */
