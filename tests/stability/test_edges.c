@@ -172,37 +172,34 @@ static void hard_68_light_fades_to_the_sky_over_one_probe(void **state)
 
 /* ---- Slits */
 
-/* A wall before x = 0 with an upright slit of half a cell, and a panel that glows before it. */
+/* A wall before x = 0 with an upright slit, half a cell wide, and a panel that glows before it. */
 static void build_slit(struct gi_test *t, double depth_m)
 {
     const struct sdfgi_settings settings = light_cell_settings(32, 0.25f);
     const float black[3] = { 0, 0, 0 };
     gi_test_restart(t, &settings);
     light_add_box(t, (double[]){ -2, -3, -3 }, (double[]){ -depth_m, 3, 3 }, black, 0);
-    for (int side = 0; side < 2; side++)
-        light_add_box(t, (double[]){ -2, -3, side ? 0.06 : -3 }, (double[]){ 0, 3, side ? 3 : -0.06 }, black,
-                      0);
+    light_add_box(t, (double[]){ -2, -3, -3 }, (double[]){ 0, 3, -0.06 }, black, 0);
+    light_add_box(t, (double[]){ -2, -3, 0.06 }, (double[]){ 0, 3, 3 }, black, 0);
     light_add_box(t, (double[]){ 0.6, -0.4, -0.4 }, (double[]){ 0.8, 0.4, 0.4 }, black, 1);
     gi_test_update(t, 40);
 }
 
-/* At the bottom of a slit no light cell is near. Places nearer to the viewer answer as the wall beside it
- * does. With one place alone the bottom of the deeper slit is black. */
+/* At the bottom of a slit no light cell is near. A place nearer to the viewer answers, from the
+ * light cells that the wall beside the slit reads, too, and at most a tenth of a metre off: 0.002 of it. With
+ * one place alone the bottom is black. */
 static void the_bottom_of_a_slit_reads_the_light_before_it(void **state)
 {
-    static const double depths_m[] = { 0.27, 0.55 };
-    for (int i = 0; i < 2; i++) {
-        const struct gi_test_point points[2] = { { { (float)-depths_m[i], 0.1f, 0 }, { 1, 0, 0 } },
-                                                 { { 0, 0.1f, 0.1f }, { 1, 0, 0 } } };
-        float found[2][3];
-        build_slit(*state, depths_m[i]);
-        gi_test_irradiance_from(*state, (float[]){ 5, 0.1f, 0 }, points, 2, found);
-        const double share = (double)found[0][1] / (double)found[1][1];
-        printf("slit of %.1f cells: %.4f, wall beside it %.4f\n", depths_m[i] / 0.25, (double)found[0][1],
-               (double)found[1][1]);
-        REQUIRE_CMP((double)found[1][1], >, 0.5);
-        REQUIRE_CMP(fabs(share - 1), <=, 0.15);
-    }
+    const double depth_m = 0.55;
+    const struct gi_test_point points[2] = { { { (float)-depth_m, 0.1f, 0 }, { 1, 0, 0 } },
+                                             { { 0, 0.1f, 0.1f }, { 1, 0, 0 } } };
+    float found[2][3];
+    build_slit(*state, depth_m);
+    gi_test_irradiance_from(*state, (float[]){ 5, 0.1f, 0 }, points, 2, found);
+    const double bottom = (double)found[0][1], beside = (double)found[1][1];
+    printf("bottom of a slit: %.4f, wall beside it %.4f\n", bottom, beside);
+    REQUIRE_CMP(beside, >, 0.5);
+    REQUIRE_CMP(fabs(bottom / beside - 1), <=, 0.02);
 }
 
 /* ---- Extremes */
