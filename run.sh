@@ -66,28 +66,18 @@ finish() {
     done
 }
 
-render() { # render VIEW off|on [OPTION...]
-    local view=$1 gi=$2
-    shift 2
-    build/sdfgi render "$out/world.glb" --view "$out/views/$view.view.json" --size "$size" --gi "$gi" "$@" \
-        --report "$out/reports/$view.$gi.json" --out "$out/pictures/$view.$gi.png" \
-        >"$out/reports/$view.$gi.log" 2>&1 || {
-        tail -n 5 "$out/reports/$view.$gi.log" >&2
-        die "rendering $view with GI $gi failed; all of it is in $out/reports/$view.$gi.log"
-    }
-}
-
-render_pair() { # on first: its exposure is used for both, so that the two can be compared
-    local view=$1 number=$2 options=() setting exposure
+render_pair() { # both pictures of a view have the exposure of the one with GI, so that they can be compared
+    local view=$1 number=$2 options=() setting
     say "[$number/${#views[@]}, $SECONDS s] $view"
     for setting in $settings; do
         options+=(--set "$setting")
     done
-    render "$view" on --frames "$frames" "${options[@]}"
-    exposure=$(sed -n 's/^[[:space:]]*"exposure":[[:space:]]*\([-+.0-9eE]*\),$/\1/p' \
-        "$out/reports/$view.on.json")
-    [ -n "$exposure" ] || die "$out/reports/$view.on.json names no exposure"
-    render "$view" off --frames 1 --exposure "$exposure"
+    build/sdfgi render "$out/world.glb" --view "$out/views/$view.view.json" --size "$size" --frames "$frames" \
+        "${options[@]}" --report "$out/reports/$view.json" --out "$out/pictures/$view.on.png" \
+        --off "$out/pictures/$view.off.png" >"$out/reports/$view.log" 2>&1 || {
+        tail -n 5 "$out/reports/$view.log" >&2
+        die "rendering $view failed; all of it is in $out/reports/$view.log"
+    }
     build/samples/contact_sheet "$out/$view.png" 2 1 \
         "$out/pictures/$view.off.png" "$out/pictures/$view.on.png"
 }
@@ -130,7 +120,7 @@ begin take_walk
 render_all
 
 reports=("${views[@]/#/$out/reports/}")
-build/samples/pass_table "${reports[@]/%/.on.json}"
+build/samples/pass_table "${reports[@]/%/.json}"
 say "done in $((SECONDS / 60)) min $((SECONDS % 60)) s:
    GI off on the left, on on the right, in $out/contact_sheet.png; the walk, off above on,
    in $out/walk/contact_sheet.png, with times and work in walk.svg and report.json there"

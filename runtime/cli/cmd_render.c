@@ -19,7 +19,7 @@ enum { AOV_NAME_BYTES = 32, FRAMES_IN_FLIGHT = 2, FRAMES_OFF = 5 };
 struct options {
     struct run_scene from;
     struct run_common common;
-    const char *frames, *out, *debug_name;
+    const char *frames, *out, *off, *debug_name;
     struct run_lookup_names lookup_names;
     struct cli_size size;
     bool gi;
@@ -65,6 +65,22 @@ static bool parse_frames(struct options *options)
     return true;
 }
 
+/* The picture without GI has the exposure of the other one, so both are of 8 bits. */
+static bool check_off(const struct options *options)
+{
+    if (!options->off)
+        return true;
+    if (!options->gi)
+        cli_error("render: --off is the picture without GI beside the one with it, and GI is off");
+    else if (image_format_from_path(options->out) != IMAGE_PNG)
+        cli_error("render: --off needs the exposure of a PNG, and --out is \"%s\"", options->out);
+    else if (image_format_from_path(options->off) != IMAGE_PNG)
+        cli_error("render: --off is \"%s\", expected a name that ends in .png", options->off);
+    else
+        return true;
+    return false;
+}
+
 /* Splits "NAME=FILE"; prints what is wrong with it. */
 static const char *split_aov(const char *pair, enum host_aov *aov)
 {
@@ -89,16 +105,19 @@ static bool check_outputs(const struct options *options)
                   image_format_list());
         return false;
     }
-    struct output_name names[CLI_LIST_MAX + 2] = { { options->out, "--out", NULL },
-                                                   { options->common.report, "--report", NULL } };
+    if (!check_off(options))
+        return false;
+    struct output_name names[CLI_LIST_MAX + 3] = { { options->out, "--out", NULL },
+                                                   { options->common.report, "--report", NULL },
+                                                   { options->off, "--off", NULL } };
     for (uint32_t i = 0; i < options->aov.count; i++) {
         enum host_aov aov;
         const char *pair = options->aov.values[i], *path = split_aov(pair, &aov);
         if (!path)
             return false;
-        names[2 + i] = (struct output_name){ path, "--aov", pair };
+        names[3 + i] = (struct output_name){ path, "--aov", pair };
     }
-    return run_check_outputs(names, 2 + options->aov.count);
+    return run_check_outputs(names, 3 + options->aov.count);
 }
 
 static bool resolve_options(struct options *options)
@@ -149,6 +168,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "exposure", CLI_FLOAT, &o->exposure, "X", .help = "factor for PNG; 0, the default: automatic",
           .minimum = 0, .maximum = 1e12 },
         { "seed", CLI_UINT, &o->seed, "N", .help = "of the random sequence; 0" },
+        { "off", CLI_TEXT, &o->off, "FILE", .help = "the picture without GI, with the same exposure: .png" },
         { "out", CLI_TEXT, &o->out, "FILE", .help = "picture: .png, .exr, .hdr or .pfm", .required = true },
     };
     const struct cli_positional positionals[] = { { "SCENE", &o->from.scene, true } };
@@ -281,23 +301,33 @@ static bool write_float(struct run *run, const struct options *options, enum hos
     return written;
 }
 
-static bool write_png(struct run *run, const struct options *options)
+static bool write_png(struct run *run, const struct options *options, const struct host_picture_desc *desc,
+                      const char *path)
 {
     char error[CLI_ERROR_BYTES] = "";
     uint8_t *rgba = malloc((size_t)4 * options->size.width * options->size.height);
-    const struct host_picture_desc desc = { .exposure = (float)options->exposure,
-                                            .exposure_out = &run->exposure,
-                                            .debug = &options->debug };
-    bool written = rgba && host_renderer_read_picture(run->renderer, &desc, rgba);
+    bool written = rgba && host_renderer_read_picture(run->renderer, desc, rgba);
     if (!written)
-        snprintf(error, sizeof error, "%s: %s", options->out,
+        snprintf(error, sizeof error, "%s: %s", path,
                  rgba ? host_device_error(run->device) : "out of memory");
-    written = written && image_write_png(options->out, rgba, options->size.width, options->size.height, 3,
-                                         error, sizeof error);
+    written = written &&
+              image_write_png(path, rgba, options->size.width, options->size.height, 3, error, sizeof error);
     free(rgba);
     if (!written)
         cli_error("%s", error);
     return written;
+}
+
+/* The picture, and the one without GI. */
+static bool write_pngs(struct run *run, const struct options *options)
+{
+    const struct host_picture_desc on = { .exposure = (float)options->exposure,
+                                          .exposure_out = &run->exposure,
+                                          .debug = &options->debug };
+    if (!write_png(run, options, &on, options->out))
+        return false;
+    const struct host_picture_desc off = { .exposure = run->exposure, .without_gi = true };
+    return !options->off || write_png(run, options, &off, options->off);
 }
 
 static bool write_run_report(struct run *run, const struct options *options)
@@ -350,7 +380,7 @@ static bool write_outputs(struct run *run, const struct options *options)
 {
     const bool png = image_format_from_path(options->out) == IMAGE_PNG;
     const enum host_aov shown = options->debug < SDFGI_DEBUG_VIEW_COUNT ? HOST_AOV_COUNT : HOST_AOV_COLOR;
-    bool written = png ? write_png(run, options) : write_float(run, options, shown, options->out);
+    bool written = png ? write_pngs(run, options) : write_float(run, options, shown, options->out);
     for (uint32_t i = 0; written && i < options->aov.count; i++) {
         enum host_aov aov;
         const char *path = split_aov(options->aov.values[i], &aov);

@@ -205,6 +205,7 @@ struct host_picture_desc {
     float exposure;                     /* factor on radiance; 0: found from the picture */
     float *exposure_out;                /* the factor that was used; may be NULL */
     const enum sdfgi_debug_view *debug; /* drawn instead; NULL or SDFGI_DEBUG_VIEW_COUNT: none */
+    bool without_gi;                    /* the frame is drawn again without update and lookup */
 };
 
 /* Tone-maps the colour of the last frame: width * height * 4 bytes, sRGB. Debug views have the colours of the

@@ -124,10 +124,23 @@ static bool debug_draw(struct host_renderer *renderer, enum sdfgi_debug_view vie
     return host_commands_finish(renderer->device, cmd) && recorded;
 }
 
-/* Draws the picture to find its exposure, unless one is given. */
-static bool expose(struct host_renderer *renderer, float given, float *exposure)
+/* Draws the last frame as it would be without GI. */
+static bool draw_without_gi(struct host_renderer *renderer)
 {
-    if (!ensure_shown(renderer, HOST_AOV_COLOR) || !picture_draw(renderer, false, given))
+    if (!renderer->has_frame)
+        return host_fail(renderer->device, "nothing has been rendered yet");
+    renderer->without_gi = true;
+    const bool drawn = draw_again(renderer, HOST_AOV_COLOR);
+    renderer->without_gi = false;
+    renderer->shown = HOST_AOV_COUNT;
+    return drawn;
+}
+
+/* Draws the picture to find its exposure, unless one is given. */
+static bool expose(struct host_renderer *renderer, bool without_gi, float given, float *exposure)
+{
+    const bool drawn = without_gi ? draw_without_gi(renderer) : ensure_shown(renderer, HOST_AOV_COLOR);
+    if (!drawn || !picture_draw(renderer, false, given))
         return false;
     *exposure = given;
     if (!(given > 0.0f))
@@ -140,7 +153,7 @@ bool host_renderer_read_picture(struct host_renderer *renderer, const struct hos
 {
     const bool debug = desc->debug && *desc->debug < SDFGI_DEBUG_VIEW_COUNT;
     float exposure;
-    if (!expose(renderer, desc->exposure, &exposure) ||
+    if (!expose(renderer, desc->without_gi, desc->exposure, &exposure) ||
         (debug && (!debug_draw(renderer, *desc->debug, exposure) || !picture_draw(renderer, true, 0.0f))) ||
         !host_image_download(renderer->device, &renderer->targets.picture, 4, rgba))
         return false;
@@ -152,6 +165,6 @@ bool host_renderer_read_picture(struct host_renderer *renderer, const struct hos
 bool host_renderer_read_debug(struct host_renderer *renderer, enum sdfgi_debug_view view, float exposure,
                               float *rgba)
 {
-    return expose(renderer, exposure, &exposure) && debug_draw(renderer, view, exposure) &&
+    return expose(renderer, false, exposure, &exposure) && debug_draw(renderer, view, exposure) &&
            eyes_read(renderer, true, rgba);
 }

@@ -2,44 +2,14 @@
  * Bad input to the program: one line on stderr that says what and where, an exit code other than 0, no file.
  */
 #include "files.h"
+#include "program_run.h"
 #include "unit.h"
 
-#include "image/image.h"
-#include "image/tone.h"
-
-#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-
-static const char *program;
-
-/* Pixels along a side of pictures. Where a test draws with a power of two, software drivers compile once
- * more. */
-enum { PICTURE = 24 };
-
-struct run {
-    int code;
-    char out[8192], err[8192];
-};
-
-/* Runs the program inside the folder, with `environment` before its name. */
-static struct run run_program(const char *environment, const char *arguments)
-{
-    static struct run run;
-    char command[2048];
-    snprintf(command, sizeof command, "cd %s && %s '%s' %s >out.txt 2>err.txt", files_path(""), environment,
-             program, arguments);
-    const int status = system(command);
-    assert_true(WIFEXITED(status));
-    run.code = WEXITSTATUS(status);
-    files_take_text("out.txt", run.out, sizeof run.out);
-    files_take_text("err.txt", run.err, sizeof run.err);
-    return run;
-}
 
 static int make_files(void **state)
 {
@@ -93,6 +63,11 @@ static const char *const bad_input[][2] = {
     { "view none.glb --eyes 0.1", "--eyes needs --stereo" },
     { "render none.glb --out a.png --debug voxels", "--debug is \"voxels\"" },
     { "render none.glb --out a.png --debug solid --gi off", "GI is off" },
+    { "render none.glb --out a.png --off b.exr", "--off is \"b.exr\"" },
+    { "render none.glb --out a.exr --off b.png", "--out is \"a.exr\"" },
+    { "render none.glb --out a.png --off b.png --gi off", "GI is off" },
+    { "render none.glb --out a.png --off ./a.png", "--out and --off" },
+    { "render none.glb --out a.png --off none/b.png", "none/b.png" },
     { "render none.glb --out a.png --size 10000x10000 --ssaa 4", "--ssaa" },
     { "walk --out w", "out/world.glb" },
     { "walk none.glb --out w", "views/walk.json" },
@@ -144,7 +119,7 @@ static void bad_input_gives_one_line_and_no_file(void **state)
     (void)state;
     const int before = files_count();
     for (size_t i = 0; i < sizeof bad_input / sizeof bad_input[0]; i++) {
-        const struct run run = run_program("", bad_input[i][0]);
+        const struct program_run run = run_program("", bad_input[i][0]);
         if (run.code == 0 || !strstr(run.err, bad_input[i][1]) || strncmp(run.err, "sdfgi: ", 7) != 0 ||
             strchr(run.err, '\n') != run.err + strlen(run.err) - 1 || run.out[0])
             fail_msg("%s: code %d, stderr \"%s\", stdout \"%s\"", bad_input[i][0], run.code, run.err,
@@ -156,7 +131,8 @@ static void bad_input_gives_one_line_and_no_file(void **state)
 static void without_a_vulkan_device_info_says_so(void **state)
 {
     (void)state;
-    const struct run run = run_program("VK_ICD_FILENAMES=/none.json VK_DRIVER_FILES=/none.json", "info");
+    const struct program_run run =
+        run_program("VK_ICD_FILENAMES=/none.json VK_DRIVER_FILES=/none.json", "info");
     assert_int_not_equal(run.code, 0);
     assert_non_null(strstr(run.err, "Vulkan"));
     assert_ptr_equal(strchr(run.err, '\n'), run.err + strlen(run.err) - 1);
@@ -168,7 +144,7 @@ static void without_a_vulkan_device_info_says_so(void **state)
 static void listing_devices_leaves_nothing_behind(void **state)
 {
     (void)state;
-    const struct run run = run_program("SDFGI_VALIDATION=1", "info");
+    const struct program_run run = run_program("SDFGI_VALIDATION=1", "info");
     if (run.code != 0)
         skip();
     assert_string_equal(run.err, "");
@@ -177,7 +153,7 @@ static void listing_devices_leaves_nothing_behind(void **state)
 static void every_command_has_help(void **state)
 {
     (void)state;
-    const struct run list = run_program("", "--help");
+    const struct program_run list = run_program("", "--help");
     assert_int_equal(list.code, 0);
     int commands = 0;
     char name[32];
@@ -185,7 +161,7 @@ static void every_command_has_help(void **state)
         char arguments[64];
         assert_int_equal(sscanf(line, " %31s", name), 1);
         snprintf(arguments, sizeof arguments, "%s --help", name);
-        const struct run run = run_program("", arguments);
+        const struct program_run run = run_program("", arguments);
         assert_int_equal(run.code, 0);
         assert_non_null(strstr(run.out, "usage: sdfgi"));
         assert_non_null(strstr(run.out, name));
@@ -202,16 +178,9 @@ static void every_command_has_help(void **state)
 static void a_picture_compared_with_itself_has_no_error(void **state)
 {
     (void)state;
-    const struct run run = run_program("", "compare two.pfm two.pfm --json");
+    const struct program_run run = run_program("", "compare two.pfm two.pfm --json");
     assert_int_equal(run.code, 0);
     assert_non_null(strstr(run.out, "\"flip\":\t0"));
-}
-
-static void run_in_folder(const char *command)
-{
-    char line[512];
-    snprintf(line, sizeof line, "cd %s && %s", files_path(""), command);
-    assert_int_equal(system(line), 0);
 }
 
 /* Commands that print something, and what their reports hold. */
@@ -235,7 +204,7 @@ static void quiet_commands_print_nothing_and_report(void **state)
         if (!has_device && (strcmp(rows[i][0], "info") == 0 || strncmp(rows[i][0], "walk", 4) == 0))
             continue;
         snprintf(arguments, sizeof arguments, "%s --quiet --report report.json", rows[i][0]);
-        const struct run run = run_program("", arguments);
+        const struct program_run run = run_program("", arguments);
         assert_int_equal(run.code, 0);
         assert_string_equal(run.out, "");
         assert_string_equal(run.err, "");
@@ -252,7 +221,7 @@ static void assert_traces(const char *arguments, const char *picture)
     char line[256];
     snprintf(line, sizeof line, "reference tiny.gltf --quiet --size 8x8 --spp 2 --out %s %s", picture,
              arguments);
-    const struct run run = run_program("", line);
+    const struct program_run run = run_program("", line);
     assert_string_equal(run.err, "");
     assert_int_equal(run.code, 0);
 }
@@ -294,7 +263,7 @@ static void wrong_parts_of_a_view_are_named(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char arguments[256];
         snprintf(arguments, sizeof arguments, "reference tiny.gltf --out r.pfm %s", rows[i][0]);
-        const struct run run = run_program("", arguments);
+        const struct program_run run = run_program("", arguments);
         if (run.code == 0 || !strstr(run.err, rows[i][1]) ||
             strchr(run.err, '\n') != run.err + strlen(run.err) - 1)
             fail_msg("%s: \"%s\"", rows[i][0], run.err);
@@ -303,182 +272,11 @@ static void wrong_parts_of_a_view_are_named(void **state)
 }
 #endif
 
-static void assert_renders(const char *environment, const char *picture)
-{
-    char arguments[256];
-    snprintf(arguments, sizeof arguments,
-             "render tiny.gltf --gi off --size 24x24 --frames 1 --quiet --out %s", picture);
-    /* Mesa keeps compiled shaders too, and does so apart: only the first picture has to wait for them. */
-    setenv("MESA_SHADER_CACHE_DIR", files_path("mesa"), 1);
-    const struct run run = run_program(environment, arguments);
-    unsetenv("MESA_SHADER_CACHE_DIR");
-    assert_string_equal(run.err, "");
-    assert_int_equal(run.code, 0);
-}
-
-static void a_picture_needs_no_cache_and_a_damaged_one_is_no_harm(void **state)
-{
-    (void)state;
-    if (run_program("", "info").code != 0)
-        skip();
-    files_write_triangle("tiny.gltf");
-    assert_renders("XDG_CACHE_HOME=$PWD/cache", "first.png");
-    run_in_folder("test $(ls cache/sdfgi | wc -l) = 1");
-    run_in_folder("echo rubbish >$(ls -d cache/sdfgi/*)");
-    assert_renders("XDG_CACHE_HOME=$PWD/cache", "second.png");
-    run_in_folder("test $(ls cache/sdfgi | wc -l) = 1 && ! grep -q rubbish cache/sdfgi/*");
-    run_in_folder("rm -r cache && mkdir cache && touch cache/sdfgi");
-    assert_renders("XDG_CACHE_HOME=$PWD/cache", "third.png");
-    assert_renders("env -u HOME -u XDG_CACHE_HOME", "fourth.png");
-    run_in_folder("cmp first.png second.png && cmp first.png third.png && cmp first.png fourth.png");
-    run_in_folder("rm -rf cache mesa *.png tiny.gltf");
-}
-
-/* The triangle stands where the default camera looks, and faces +z. */
-static struct image render_debug(const char *picture)
-{
-    char arguments[256], error[256];
-    snprintf(
-        arguments, sizeof arguments,
-        "render tiny.gltf --size 24x24 --frames 1 --quiet --set cascades=1 --set resolution=32 --debug solid "
-        "--out %s",
-        picture);
-    const struct run run = run_program("SDFGI_VALIDATION=1", arguments);
-    assert_string_equal(run.err, "");
-    assert_int_equal(run.code, 0);
-    struct image image;
-    assert_true(image_read(&image, files_path(picture), error, sizeof error));
-    return image;
-}
-
-static void a_debug_view_is_written_instead_of_the_picture(void **state)
-{
-    (void)state;
-    if (run_program("", "info").code != 0)
-        skip();
-    files_write_triangle("tiny.gltf");
-    struct image linear = render_debug("linear.pfm"), encoded = render_debug("encoded.png");
-    int solid = 0;
-    for (int i = 0; i < 4 * PICTURE * PICTURE; i++) {
-        const float value = i % 4 == 3 ? 1 : tone_srgb_encode(linear.rgba[i]);
-        assert_true(fabsf(encoded.rgba[i] - value) < 0.003f);
-        solid += i % 4 == 0 && fabsf(linear.rgba[i] - 0.75f) < 0.001f;
-        assert_true(i % 4 != 0 || linear.rgba[i] > 0.3f || linear.rgba[i] < 0.02f);
-    }
-    assert_in_range(solid, PICTURE * PICTURE / 16, PICTURE * PICTURE * 3 / 4);
-    image_finish(&linear);
-    image_finish(&encoded);
-    run_in_folder("rm -f linear.pfm encoded.png tiny.gltf");
-}
-
-/* ---- Skies */
-
-static const float upper_half[3] = { 2, 1, 0.5f },
-                   lower_half[3] = { 0.25f, 0.5f, 1 }; /* exact in all formats */
-
-static void write_environment(const char *name)
-{
-    enum { WIDTH = 8, HEIGHT = 4 };
-    float rgba[HEIGHT][WIDTH][4];
-    char error[256];
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            memcpy(rgba[y][x], y < HEIGHT / 2 ? upper_half : lower_half, sizeof upper_half);
-            rgba[y][x][3] = 1;
-        }
-    assert_true(image_write_float(files_path(name), rgba[0][0], WIDTH, HEIGHT, 3, error, sizeof error));
-}
-
-static struct image render_under(const char *environment)
-{
-    char arguments[256], error[256];
-    write_environment(environment);
-    snprintf(arguments, sizeof arguments,
-             "render tiny.gltf --view near.json --environment %s --size 24x24 --frames 1 --quiet "
-             "--set cascades=1 --set resolution=32 --out sky.pfm",
-             environment);
-    const struct run run = run_program("SDFGI_VALIDATION=1", arguments);
-    assert_string_equal(run.err, "");
-    assert_int_equal(run.code, 0);
-    struct image image;
-    assert_true(image_read(&image, files_path("sky.pfm"), error, sizeof error));
-    return image;
-}
-
-static void assert_color(const float *rgba, const float color[static 3], float tolerance)
-{
-    for (int k = 0; k < 3; k++)
-        if (fabsf(rgba[k] - color[k]) > tolerance * color[k])
-            fail_msg("%g %g %g instead of %g %g %g", (double)rgba[0], (double)rgba[1], (double)rgba[2],
-                     (double)color[0], (double)color[1], (double)color[2]);
-}
-
-/* The sky is drawn, and lights the upright triangle, which sees as much of its upper half as of the lower. */
-static void pictures_of_skies_are_shown_and_light(void **state)
-{
-    (void)state;
-    static const char *const files[] = { "sky.hdr", "sky.exr" };
-    if (run_program("", "info").code != 0)
-        skip();
-    files_write_triangle("tiny.gltf");
-    files_write_text("near.json", "{\"camera\":{\"position\":[0.3,0.3,1.5],\"look_at\":[0.3,0.3,0]}}");
-    for (int i = 0; i < 2; i++) {
-        struct image image = render_under(files[i]);
-        assert_color(image.rgba, upper_half, 0.02f);
-        assert_color(image.rgba + 4 * PICTURE * (PICTURE - 1), lower_half, 0.02f);
-        const float *lit = image.rgba + 4 * (PICTURE * PICTURE / 2 + PICTURE / 2 - 1);
-        float mean[3];
-        for (int k = 0; k < 3; k++) /* only the ratio of channels: the material is not quite white */
-            mean[k] = (upper_half[k] + lower_half[k]) * lit[1] / (upper_half[1] + lower_half[1]);
-        assert_true(lit[1] > 0.4f && lit[1] < 0.75f);
-        assert_color(lit, mean, 0.05f);
-        image_finish(&image);
-    }
-    run_in_folder("rm -f sky.* near.json tiny.gltf");
-}
-
-/* ---- Exposure */
-
-/* The darkest pixel of a triangle under a dim sky, over that sky. */
-static float darkest_under_sky(float sky, const char *hint)
-{
-    char arguments[320], error[256];
-    struct image image;
-    snprintf(arguments, sizeof arguments,
-             "render tiny.gltf --quiet --size 24x24 --frames 6 --sun none --sky %g --gi-exposure %s "
-             "--out dim.pfm --set sdfgi_resolution=32 --set sdfgi_cascades=1 --set sdfgi_min_cell_size=0.2",
-             (double)sky, hint);
-    assert_int_equal(run_program("", arguments).code, 0);
-    assert_true(image_read(&image, files_path("dim.pfm"), error, sizeof error));
-    float darkest = image.rgba[0];
-    for (uint32_t i = 0; i < 4 * image.width * image.height; i += 4)
-        darkest = fminf(darkest, image.rgba[i]);
-    image_finish(&image);
-    return darkest / sky;
-}
-
-/* Under a sky of 1e-7 the smallest steps of half floats are more than half of the light: stored as it is, it
- * is a seventh too bright. With a hint that fits it is not; what is left is the picture's own rounding. */
-static void the_exposure_for_the_library_arrives_there(void **state)
-{
-    (void)state;
-    if (run_program("", "info").code != 0)
-        skip();
-    files_write_triangle("tiny.gltf");
-    const float bright = darkest_under_sky(1, "1"), fits = darkest_under_sky(1e-7f, "1e7"),
-                none = darkest_under_sky(1e-7f, "1");
-    printf("# a triangle under a sky: %.4f of it; of 1e-7 %.4f, without a hint %.4f\n", (double)bright,
-           (double)fits, (double)none);
-    assert_true(fabsf(fits / bright - 1) < 0.07f);
-    assert_true(fabsf(none / bright - 1) > 0.1f);
-    run_in_folder("rm -f dim.pfm tiny.gltf");
-}
-
 int main(int argc, char **argv)
 {
     if (argc < 2)
         return EXIT_FAILURE;
-    program = argv[1]; /* an absolute path */
+    program_set(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_input_gives_one_line_and_no_file),
         cmocka_unit_test(without_a_vulkan_device_info_says_so),
@@ -490,10 +288,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(options_go_over_the_view_file),
         cmocka_unit_test(wrong_parts_of_a_view_are_named),
 #endif
-        cmocka_unit_test(a_picture_needs_no_cache_and_a_damaged_one_is_no_harm),
-        cmocka_unit_test(a_debug_view_is_written_instead_of_the_picture),
-        cmocka_unit_test(pictures_of_skies_are_shown_and_light),
-        cmocka_unit_test(the_exposure_for_the_library_arrives_there),
     };
     return cmocka_run_group_tests(tests, make_files, files_teardown);
 }
