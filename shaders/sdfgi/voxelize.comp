@@ -76,7 +76,8 @@ uint owner_of(uint column)
     return low;
 }
 
-/* Stores the columns [first, last), which are all of one triangle. */
+/* Stores the columns [first, last), one or more, which are all of one triangle. Loops test at their end:
+ * software drivers go through a loop that tests at its beginning once more than is needed. */
 void store_columns(uint group, uint owner, uint first, uint last)
 {
     const ivec4 range = ranges[owner];
@@ -86,8 +87,12 @@ void store_columns(uint group, uint owner, uint first, uint last)
     triangle_take(triangle_of(group, owner), v, t.index);
     t.axis = range.w;
     triangle_setup(t, v);
-    for (uint i = first - begin; i < last - begin; i++)
-        triangle_store_column(t, range.xy + ivec2(i % uint(range.z), i / uint(range.z)));
+    ivec2 at = ivec2(int(first - begin) % range.z, int(first - begin) / range.z);
+    uint i = first;
+    do {
+        triangle_store_column(t, range.xy + at);
+        at = at.x + 1 < range.z ? ivec2(at.x + 1, at.y) : ivec2(0, at.y + 1);
+    } while (++i < last);
 }
 
 void main()
@@ -100,11 +105,13 @@ void main()
 
     const uint total = ends[SDFGI_GROUP_TRIANGLE - 1], threads = args.slices * uint(SDFGI_GROUP_TRIANGLE);
     const uint per_thread = (total + threads - 1u) / threads;
-    const uint first = (gl_WorkGroupID.y * uint(SDFGI_GROUP_TRIANGLE) + thread) * per_thread,
-               last = min(first + per_thread, total);
-    for (uint i = first; i < last;) {
+    uint i = (gl_WorkGroupID.y * uint(SDFGI_GROUP_TRIANGLE) + thread) * per_thread;
+    const uint last = min(i + per_thread, total);
+    if (i >= last)
+        return;
+    do {
         const uint owner = owner_of(i), next = min(ends[owner], last);
         store_columns(group, owner, i, next);
         i = next;
-    }
+    } while (i < last);
 }

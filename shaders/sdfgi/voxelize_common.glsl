@@ -48,6 +48,7 @@ struct triangle {
     bool tiny;     /* smaller than a sub-voxel: always sets the one that its centre lies in */
     float inset;   /* along the dominant axis, negative if the front faces down */
     float area2;   /* twice its area in the plane of the columns, in sub-voxels^2 */
+    triangle_material material;
 };
 
 vec3 permute(vec3 p, int axis)
@@ -115,7 +116,8 @@ void triangle_setup(inout triangle t, vec3 v[3])
     /* Back to metric lengths, because cells may be flat, and to the mesh's front side. */
     const vec3 metric = normal / vec3(1.0, sdfgi_space_y_scale(), 1.0);
     t.normal = normalize(metric) * (drawn.reversed ? -1.0 : 1.0);
-    const bool emits = sdfgi_materials[drawn.material].emission != vec3(0.0);
+    t.material = material_load(t.index, t.area2);
+    const bool emits = t.material.params.emission != vec3(0.0);
     t.inset = sign(t.normal[t.axis]) * (TIE_BIAS + (emits ? 0.0 : INSET));
     t.tiny = all(lessThan(max(v[0], max(v[1], v[2])) - min(v[0], min(v[1], v[2])), vec3(1.0)));
 }
@@ -221,7 +223,7 @@ surface_sample triangle_sample(triangle t, ivec2 column)
     const vec2 p = vec2(column) + 0.5;
     vec3 bary = clamp(t.bary_0 + p.x * t.bary_x + p.y * t.bary_y, 0.0, 1.0);
     bary /= max(bary.x + bary.y + bary.z, 1e-20);
-    return material_sample(t.index, bary, t.area2);
+    return material_sample(t.material, bary);
 }
 
 voxel_part drawn_part()
@@ -416,7 +418,7 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
  * its rim misses centres. */
 void triangle_store_column(triangle t, ivec2 column)
 {
-    const bool emits = emission_is_kept() && sdfgi_materials[drawn.material].emission != vec3(0.0);
+    const bool emits = emission_is_kept() && t.material.params.emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
     covered_part part = covered_part(0.0, vec2(column) + 0.5);
@@ -429,7 +431,7 @@ void triangle_store_column(triangle t, ivec2 column)
     if (first > last && !emits_here)
         return;
     const surface_sample s = triangle_sample(t, column);
-    if (s.albedo.a < sdfgi_materials[drawn.material].alpha_cutoff)
+    if (s.albedo.a < t.material.params.alpha_cutoff)
         return;
     const ivec3 emitting = unpermute(ivec3(column, level), t.axis);
     if (emits_here)

@@ -46,31 +46,53 @@ vec4 texel_decode(vec4 texel, bool encoded)
 }
 #endif
 
-/* The material at a point of a triangle. `area2` is twice the area of its projection along an axis, in
- * sub-voxels^2: as many points of it are sampled. */
-surface_sample material_sample(uint index[3], vec3 bary, float area2)
-{
-    const sdfgi_material_params m = sdfgi_materials[drawn.material];
-    surface_sample s = surface_sample(vec4(m.albedo, m.alpha), m.emission, m.flags);
-    if (args.color_fetch != 0u)
-        s.albedo *= mesh_color(index, bary);
+/* What a triangle's points share of its material. It is loaded once: loads take most of the time that a
+ * point takes. */
+struct triangle_material {
+    sdfgi_material_params params;
+    vec4 colors[3]; /* of its corners, if the mesh has any */
 #ifdef SDFGI_VOXELIZE_TEXTURED
-    const vec2 corners[3] = corner_uvs(index);
-    const vec2 uv = bary[0] * corners[0] + bary[1] * corners[1] + bary[2] * corners[2];
-    if ((m.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u) {
-        const float level = texture_level(corners, area2, m.albedo_uv, vec2(textureSize(albedo_texture, 0)));
-        s.albedo *= texel_decode(textureLod(albedo_texture, texture_uv(m.albedo_uv, uv), level),
-                                 (m.flags & SDFGI_MATERIAL_ALBEDO_SRGB) != 0u);
-    }
-    if ((m.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u) {
-        const float level =
-            texture_level(corners, area2, m.emission_uv, vec2(textureSize(emission_texture, 0)));
-        s.emission *= texel_decode(textureLod(emission_texture, texture_uv(m.emission_uv, uv), level),
-                                   (m.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u)
-                          .rgb;
-    }
+    vec2 uvs[3]; /* of its corners */
+    float albedo_level, emission_level;
 #endif
-    s.albedo.rgb += m.specular_albedo;
+};
+
+/* `area2` is twice the area of the triangle's projection along an axis, in sub-voxels^2: as many points of it
+ * are sampled. */
+triangle_material material_load(uint index[3], float area2)
+{
+    triangle_material m;
+    m.params = sdfgi_materials[drawn.material];
+    m.colors = corner_colors(index);
+#ifdef SDFGI_VOXELIZE_TEXTURED
+    m.uvs = corner_uvs(index);
+    m.albedo_level = texture_level(m.uvs, area2, m.params.albedo_uv, vec2(textureSize(albedo_texture, 0)));
+    m.emission_level =
+        texture_level(m.uvs, area2, m.params.emission_uv, vec2(textureSize(emission_texture, 0)));
+#endif
+    return m;
+}
+
+/* The material at a point of the triangle. */
+surface_sample material_sample(triangle_material m, vec3 bary)
+{
+    surface_sample s =
+        surface_sample(vec4(m.params.albedo, m.params.alpha), m.params.emission, m.params.flags);
+    if (args.color_fetch != 0u)
+        s.albedo *= bary[0] * m.colors[0] + bary[1] * m.colors[1] + bary[2] * m.colors[2];
+#ifdef SDFGI_VOXELIZE_TEXTURED
+    const vec2 uv = bary[0] * m.uvs[0] + bary[1] * m.uvs[1] + bary[2] * m.uvs[2];
+    if ((s.flags & SDFGI_MATERIAL_ALBEDO_TEXTURE) != 0u)
+        s.albedo *=
+            texel_decode(textureLod(albedo_texture, texture_uv(m.params.albedo_uv, uv), m.albedo_level),
+                         (s.flags & SDFGI_MATERIAL_ALBEDO_SRGB) != 0u);
+    if ((s.flags & SDFGI_MATERIAL_EMISSION_TEXTURE) != 0u)
+        s.emission *=
+            texel_decode(textureLod(emission_texture, texture_uv(m.params.emission_uv, uv), m.emission_level),
+                         (s.flags & SDFGI_MATERIAL_EMISSION_SRGB) != 0u)
+                .rgb;
+#endif
+    s.albedo.rgb += m.params.specular_albedo;
     return s;
 }
 

@@ -129,16 +129,16 @@ vec2[3] corner_uvs(uint index[3])
     return at;
 }
 
-vec4 mesh_color(uint index[3], vec3 bary)
+vec4[3] corner_colors(uint index[3])
 {
-    vec4 color = vec4(0.0);
-    for (int i = 0; i < 3; i++) {
+    vec4 at[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+    const uint count = args.color_fetch != 0u ? 3u : 0u;
+    for (uint i = 0u; i < count; i++) {
         const vec4 v =
             fetch_color(args.color_fetch, vertex_byte(args.color_fetch, args.color_stride, index[i]));
-        color +=
-            bary[i] * vec4(sdfgi_finite_color(v.rgb, MAX_COLOR), sdfgi_finite_clamp(v.a, 0.0, MAX_COLOR));
+        at[i] = vec4(sdfgi_finite_color(v.rgb, MAX_COLOR), sdfgi_finite_clamp(v.a, 0.0, MAX_COLOR));
     }
-    return color;
+    return at;
 }
 
 #endif
