@@ -25,6 +25,7 @@ struct visited_cell {
     ivec3 cell;
     uint entry;
     gathered_state state; /* with which the visit begins */
+    bool woken;           /* what it has gathered so far is outdated */
     float importance;     /* of all emitters, for the cell */
     bool watched;         /* what its rays hit is marked */
 };
@@ -38,6 +39,8 @@ struct visit_notes {
 
 visited_cell cell_of(uint own);
 visit_notes notes_of(uint own);
+/* A ray of the cell has met what has changed. */
+void wake(uint own);
 /* The larger value of each note stays. */
 void note(uint own, visit_notes found);
 
@@ -105,6 +108,42 @@ ray_source source_of(uint cascade, uint surface)
                       gather_cycle_visits_before(cell_of(own).state), shift);
 }
 
+/* ---- Changes */
+
+/* True if rays of a cell tell whether a change reaches it. */
+bool looks_for_changes(uint own)
+{
+    return gathered_changes_are_local() && !cell_of(own).woken &&
+           gathered_epochs_behind(cell_of(own).state) > 0u;
+}
+
+/* True if a ray, of so many cells of its cascade, crosses a place where geometry has changed. */
+bool crosses_edit(uint cascade, vec3 from, vec3 dir, float range)
+{
+    const vec3 low = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited_low) - from,
+               high = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited_high) - from,
+               inv_dir = 1.0 / sdfgi_nonzero(sdfgi_cells_from_metric(dir));
+    const vec3 a = low * inv_dir, b = high * inv_dir, near = min(a, b), far = max(a, b);
+    const float enters = max(max(near.x, near.y), max(near.z, 0.0)), leaves = min(far.x, min(far.y, far.z));
+    return sdfgi_frame.edited_low.x <= sdfgi_frame.edited_high.x && enters <= min(leaves, range + 1.0);
+}
+
+/* Wakes a cell if its ray crosses such a place. */
+void wake_by_edit(uint cascade, uint own, vec3 from, vec3 dir, float range)
+{
+    if (looks_for_changes(own) && crosses_edit(cascade, from, dir, range))
+        wake(own);
+}
+
+/* Wakes a cell if its ray has hit a surface whose direct light has changed. */
+void wake_by_light(ray_source source, uint cascade, uint entry)
+{
+    if (looks_for_changes(source.own) &&
+        gathered_is_behind(cell_of(source.own).state,
+                           sdfgi_gathered_at(gathered_word(cascade, GATHERED_CHANGED, entry))))
+        wake(source.own);
+}
+
 /* ---- Emitters */
 
 /* How much of an emitter's light rays towards emitters bring; the others bring the rest. The balance
@@ -131,6 +170,7 @@ vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
     const emitter_way way = emitter_way_to(source.pos, point.face);
     /* Rays at random start in the open, too: what they cannot meet does not count here either. */
     const float cosine = dot(source.normal, way.dir);
+    wake_by_edit(cascade, source.own, source.pos, way.dir, way.range);
     if (light == vec3(0.0) || cosine <= 0.0 || !emitter_is_seen(cascade, chosen, source.pos, way))
         return vec4(0.0);
     const float share = share_of_emitter_rays(chosen, chance, way.dir, way.range, cosine);
@@ -197,6 +237,8 @@ vec4 send_random_ray(uint cascade, ray_source source, uint index)
     sdfgi_trace_hit hit;
     for (uint i = 0u; i < 2u; i++) {
         hit = sdfgi_trace_ray(in_cascade, sdfgi_frame.cascade_count - 1u, from, dir, 1e9);
+        if (i == 0u)
+            wake_by_edit(cascade, source.own, from, dir, hit.hit ? hit.distance : 1e9);
         if (!hit.hit)
             return vec4(light + share * sdfgi_sky_towards(dir), 1.0);
         light += share * hit_emission(cascade, source, dir, hit, i > 0u);
@@ -212,6 +254,7 @@ vec4 send_random_ray(uint cascade, ray_source source, uint index)
     if (!hit.has_cell || !sdfgi_cell_entry(hit.cascade, hit.cell, entry))
         return vec4(0.0);
     mark_hit(source, index, hit.cascade, entry);
+    wake_by_light(source, hit.cascade, entry);
     const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(hit.cascade, entry, hit.axis)));
     return vec4(light + share * leaving, 1.0);
 }
@@ -265,25 +308,39 @@ vec4 visit_mean(visit_light found)
             variance_of_mean(sdfgi_light_luminance(found.emitters), found.squares.y, float(EMITTER_RAYS)));
 }
 
-/* The state with which a visit begins: under new lights a cycle begins anew. */
-gathered_state state_of_visit(uint cascade, uint entry)
+bool is_new(gathered_state state)
 {
-    const gathered_state state = gathered_load_state(cascade, entry);
-    if (state.epoch == args.epoch)
-        return state;
-    const bool knows = state.mean != GATHERED_NOTHING || state.visits > 0u;
-    return gathered_state(0u, knows ? GATHERED_OUTDATED : GATHERED_NOTHING, args.epoch, state.mark);
+    return state.mean == GATHERED_NOTHING && state.visits == 0u;
 }
 
-/* Sum and mean with which a visit begins. What was gathered under other lights becomes the mean. */
-gathered_light load_light(uint cascade, uint entry, uint axis)
+/* The state of a cell that is woken: a cycle begins anew. */
+gathered_state state_woken(gathered_state state)
 {
-    const gathered_state stored = gathered_load_state(cascade, entry);
-    gathered_light light = gathered_load(cascade, entry, axis);
-    if (stored.epoch == args.epoch)
+    return gathered_state(0u, is_new(state) ? GATHERED_NOTHING : GATHERED_OUTDATED,
+                          sdfgi_frame.epoch & EPOCH_MASK, state.mark);
+}
+
+/* The state with which a visit begins, as far as it is known before the rays. */
+gathered_state state_of_visit(uint cascade, uint entry, out bool woken)
+{
+    gathered_state state = gathered_load_state(cascade, entry);
+    woken = is_new(state) || gathered_is_behind(state, sdfgi_frame.epoch_of_all) ||
+            gathered_epochs_behind(state) > EPOCHS_BACK;
+    /* Visited cells alone lie back for long. */
+    state.epoch = sdfgi_frame.epoch - min(gathered_epochs_behind(state), EPOCHS_BACK / 2u) & EPOCH_MASK;
+    if (woken)
+        state = state_woken(state);
+    return state;
+}
+
+/* Sum and mean with which a visit begins. What a woken cell has shown becomes the mean. */
+gathered_light load_light(uint cascade, visited_cell own, uint axis)
+{
+    gathered_light light = gathered_load(cascade, own.entry, axis);
+    if (!own.woken)
         return light;
     vec3 shown;
-    if (gathered_irradiance(stored, light, vec4(0.0), shown))
+    if (gathered_irradiance(gathered_load_state(cascade, own.entry), light, vec4(0.0), shown))
         light.mean = shown;
     light.sum = vec3(0.0);
     return light;
@@ -302,7 +359,7 @@ void add_visit(uint cascade, uint surface, vec4 light)
 {
     const visited_cell own = cell_of(surface / 6u);
     const uint axis = surface % 6u;
-    gathered_light gathered = load_light(cascade, own.entry, axis);
+    gathered_light gathered = load_light(cascade, own, axis);
     gathered.sum = gathered_add(own.state, gathered, light.rgb);
     const float shown =
         sdfgi_light_luminance(own.state.mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
@@ -341,8 +398,8 @@ void end_visit(uint cascade, uint number)
     gathered_store_noise(cascade, own.entry, gathered_add_noise(state, noise, found.noise, cycle.ends));
     state.visits++;
     if (cycle.ends)
-        state = gathered_state(0u, gather_cycle_mean(cycle, own.state, found.change), state.epoch,
-                               next_mark(cascade, own.state, found.light));
+        state = gathered_state(0u, gather_cycle_mean(cycle, own.state, found.change),
+                               sdfgi_frame.epoch & EPOCH_MASK, next_mark(cascade, own.state, found.light));
     gathered_store_state(cascade, own.entry, state);
     if (found.change != 0.0)
         atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_CHANGE + cascade)],

@@ -30,6 +30,11 @@ void note(uint own, visit_notes found)
                         max(notes.noise, found.noise));
 }
 
+void wake(uint own)
+{
+    visited.woken = true;
+}
+
 bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
 {
     return choose_among(cascade, visited, 0u, emitter_count(cascade), place * visited.importance, place,
@@ -61,13 +66,19 @@ void visit_cell(uint cascade)
     if (facing == 0u)
         return;
     notes = visit_notes(0.0, 0.0, 0.0);
-    visited.state = state_of_visit(cascade, visited.entry);
+    visited.state = state_of_visit(cascade, visited.entry, visited.woken);
     visited.watched = watched_holds(cascade, visited.entry);
     visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
+    const bool woken_before = visited.woken;
+    vec4 light[6];
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint surface = uint(findLSB(left));
-        add_visit(cascade, surface, send_rays(cascade, source_of(cascade, surface)));
+        light[surface] = send_rays(cascade, source_of(cascade, surface));
     }
+    if (visited.woken && !woken_before)
+        visited.state = state_woken(visited.state);
+    for (uint left = facing; left != 0u; left &= left - 1u)
+        add_visit(cascade, uint(findLSB(left)), light[findLSB(left)]);
     end_visit(cascade, 0u);
 }
 

@@ -14,6 +14,7 @@ const uint PARTS = 32u; /* of a list of emitters, so that threads share it and f
 
 shared visited_cell cells[CELLS];
 shared uvec3 notes[CELLS];        /* float bits of visit_notes */
+shared bool wakes[CELLS];         /* a ray has met what has changed */
 shared uint facing[CELLS];        /* a bit per axis; 0 for a cell that is not there */
 shared uint surfaces[6u * CELLS]; /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
@@ -36,6 +37,11 @@ void note(uint own, visit_notes found)
     atomicMax(notes[own].x, floatBitsToUint(found.change));
     atomicMax(notes[own].y, floatBitsToUint(found.light));
     atomicMax(notes[own].z, floatBitsToUint(found.noise));
+}
+
+void wake(uint own)
+{
+    wakes[own] = true;
 }
 
 /* ---- Emitters */
@@ -121,8 +127,9 @@ void find_surfaces(uint cascade)
         cells[own].entry = entry;
         notes[own] = uvec3(0u);
         facing[own] = 0u;
+        wakes[own] = false;
         if (there) {
-            cells[own].state = state_of_visit(cascade, entry);
+            cells[own].state = state_of_visit(cascade, entry, cells[own].woken);
             cells[own].watched = watched_holds(cascade, entry);
         }
     }
@@ -141,6 +148,15 @@ void find_surfaces(uint cascade)
         surface_count = n;
 }
 
+/* Wakes the cell of a number if its rays have met what has changed. */
+void wake_cell(uint own)
+{
+    if (own >= CELLS || !wakes[own])
+        return;
+    cells[own].state = state_woken(cells[own].state);
+    cells[own].woken = true;
+}
+
 void visit()
 {
     const uint word = visit_word(CELLS * workgroup_index());
@@ -157,6 +173,10 @@ void visit()
     barrier();
     send_rays(cascade, rays);
     barrier();
+    if (gathered_changes_are_local()) {
+        wake_cell(lane);
+        barrier();
+    }
     for (uint i = lane; i < surface_count; i += THREADS)
         add_visit(cascade, surfaces[i], light_of_rays(i * rays, rays));
     barrier();

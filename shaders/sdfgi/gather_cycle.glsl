@@ -21,9 +21,10 @@ gather_cycle gather_cycle_of(uint cascade, uint entry, gathered_state state, uin
     gather_cycle cycle;
     cycle.ahead = sdfgi_frame.cascades[cascade].watched_first < sdfgi_frame.cascades[cascade].watched_end &&
                   seen_holds(cascade, entry);
-    const bool is_long = state.mean >= GATHERED_GOES_ON, is_first = state.mean < GATHERED_FIRST;
-    const uint visits = is_long ? gathered_long_visits()
-                                : (cycle.ahead && !is_first ? sdfgi_frame.cycle_visits : others_visits);
+    const bool is_long = state.mean >= GATHERED_GOES_ON, is_first = state.mean < GATHERED_FIRST,
+               is_complete = state.mean == GATHERED_COMPLETE || cycle.ahead && !is_first;
+    const uint visits =
+        is_long ? gathered_long_visits() : (is_complete ? sdfgi_frame.cycle_visits : others_visits);
     cycle.ends = state.visits + 1u >= visits;
     cycle.mean = is_long                              ? GATHERED_LONG
                  : visits >= sdfgi_frame.cycle_visits ? GATHERED_COMPLETE

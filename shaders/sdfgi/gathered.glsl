@@ -22,9 +22,9 @@
 
 /* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
  * S and P, 48 bits each (lib/rgb48.glsl); the packed gathered_state; and per axis the irradiance before it is
- * filtered, and between the two runs of the filter, as the surfaces' of sdfgi_resources.glsl; and its noise.
- * Sums count a visit as 1 / gathered_long_visits(). Behind them stand the counters from
- * SDFGI_COUNTER_GATHER on. */
+ * filtered, and between the two runs of the filter, as the surfaces' of sdfgi_resources.glsl; its noise; and
+ * the epoch in which the direct light on its surfaces was seen to change. Sums count a visit as 1 /
+ * gathered_long_visits(). Behind them stand the counters from SDFGI_COUNTER_GATHER on. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
 {
     uint sdfgi_gathered[];
@@ -39,6 +39,8 @@ const float GATHERED_PRIOR_VISITS = 0.5;
 const vec2 GATHERED_RECENT = vec2(0.6, 0.3);
 /* A mean of such a cycle is as noisy as one of so many visits that count alike. */
 const float GATHERED_FIRST_VISITS = 4.2;
+/* And one in which the newest counts GATHERED_RECENT.x. */
+const float GATHERED_RECENT_VISITS = 2.3;
 
 /* What P is. */
 const uint GATHERED_NOTHING = 0u;  /* there is none: the cell is new */
@@ -54,7 +56,7 @@ const uint GATHERED_MOST_VISITS = 128u; /* in a cycle */
 struct gathered_state {
     uint visits; /* in this cycle, less than GATHERED_MOST_VISITS */
     uint mean;   /* GATHERED_NOTHING to _LONG */
-    uint epoch;  /* of the lights that S and P belong to; 8 bits */
+    uint epoch;  /* whose changes S and P have taken in; 8 bits */
     uint mark;   /* P when it was last marked, as gathered_mark tells; 14 bits */
 };
 
@@ -82,7 +84,8 @@ uint gathered_counter(uint counter)
     return gathered_word(sdfgi_frame.cascade_count, 0u, 0u) + counter - uint(SDFGI_COUNTER_GATHER);
 }
 
-const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u, GATHERED_BETWEEN = 25u, GATHERED_NOISE = 31u;
+const uint GATHERED_STATE = 18u, GATHERED_RAW = 19u, GATHERED_BETWEEN = 25u, GATHERED_NOISE = 31u,
+           GATHERED_CHANGED = 32u;
 
 gathered_state gathered_load_state(uint cascade, uint entry)
 {
@@ -94,6 +97,30 @@ void gathered_store_state(uint cascade, uint entry, gathered_state state)
 {
     sdfgi_gathered[gathered_word(cascade, GATHERED_STATE, entry)] =
         state.visits | state.mean << 7u | state.epoch << 10u | state.mark << 18u;
+}
+
+/* ---- Epochs: times in which something has changed. A change wakes the cells that it reaches: what they show
+ * is outdated. */
+
+/* What a cell keeps of an epoch; and how many epochs it may lie back: later its number comes again. */
+const uint EPOCH_MASK = 0xffu, EPOCHS_BACK = 64u;
+
+/* Epochs that a cell has not taken in. */
+uint gathered_epochs_behind(gathered_state state)
+{
+    return sdfgi_frame.epoch - state.epoch & EPOCH_MASK;
+}
+
+/* True if an epoch has come of late, and the cell has not taken in what changed in it. */
+bool gathered_is_behind(gathered_state state, uint epoch)
+{
+    return sdfgi_frame.epoch - epoch < min(gathered_epochs_behind(state), EPOCHS_BACK);
+}
+
+/* True if something has changed for some cells alone: else no ray needs to look for changes. */
+bool gathered_changes_are_local()
+{
+    return sdfgi_frame.next_epoch != sdfgi_frame.epoch_of_all;
 }
 
 /* Noise: variance over the square of what the cell shows, of the axis with the most of it. */

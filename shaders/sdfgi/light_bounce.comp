@@ -70,6 +70,50 @@ surface_light light_arriving(uint cascade, uint entry, ivec3 cell, uint axis, ve
     return light;
 }
 
+/* Of outgoing light: so much has to change at least if cells that see a surface are to be woken. Rounding
+ * makes less of what is stored. */
+const float CHANGED = 1.0 / 32.0;
+
+float brightest_channel(vec3 light)
+{
+    return max(light.r, max(light.g, light.b));
+}
+
+/* What direct light on a surface has become since its outgoing light was added up: what is not bounced of
+ * that was direct light. */
+vec3 direct_change(uint cascade, uint entry, uint axis, vec3 direct, vec3 gain)
+{
+    const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(cascade, entry, axis)));
+    const uint arriving = sdfgi_gathered_at(gathered_word(cascade, GATHERED_RAW + axis, entry));
+    const vec3 bounced = arriving < SDFGI_SURFACE_UNKNOWN ? gain * sdfgi_rgbe_decode(arriving) : vec3(0.0);
+    return abs(direct - (leaving - bounced));
+}
+
+/* By how much a woken cell has found more light or less than it showed before, if that is no noise: more than
+ * three deviations. In its first cycle the newest visits count most. */
+vec3 bounce_change(uint cascade, uint entry, uint axis, vec3 gain)
+{
+    const gathered_state state = gathered_load_state(cascade, entry);
+    const gathered_light gathered = gathered_load(cascade, entry, axis);
+    const float visits = float(state.visits),
+                noise = gathered_load_noise(cascade, entry).sum / max(visits, 1.0);
+    const vec3 change = abs(gathered.sum - gathered.mean);
+    const bool sure = state.mean == GATHERED_OUTDATED && visits > 1.0 &&
+                      brightest_channel(change) > 3.0 * sqrt(noise / GATHERED_RECENT_VISITS) *
+                                                      brightest_channel(max(gathered.sum, gathered.mean));
+    return sure ? gain * change : vec3(0.0);
+}
+
+/* True if the cells that see a surface are to be woken. */
+bool wakes_others(uint cascade, uint entry, uint axis, vec3 direct, vec3 gain, vec3 leaving)
+{
+    if (!gathers() || !gathered_changes_are_local())
+        return false;
+    const vec3 change =
+        direct_change(cascade, entry, axis, direct, gain) + bounce_change(cascade, entry, axis, gain);
+    return brightest_channel(change) > CHANGED * (brightest_channel(leaving) + sdfgi_frame.dark);
+}
+
 uint packed_light(surface_light light)
 {
     return light.known ? min(sdfgi_rgbe_encode(light.displayed), SDFGI_SURFACE_UNKNOWN - 1u)
@@ -95,6 +139,7 @@ void bounce(uint cascade, uint entry, bool asks)
      * at as many as one of them has, and software drivers run what is under a condition in any case. Most
      * have one: a loop that asks at its beginning goes round once more there, for nothing. */
     uint left = facing;
+    bool changed = false;
     do {
         if (left == 0u)
             break;
@@ -102,8 +147,10 @@ void bounce(uint cascade, uint entry, bool asks)
         const uint block = sdfgi_block_index(cascade, cell - sdfgi_axis_direction(axis));
         const surface_light light =
             light_arriving(cascade, entry, cell, axis, surface_normal(block, axis), asks);
-        const vec3 leaving =
-            sdfgi_light_unpack_axis(direct, axis) + bounce_gain(surface_albedo(block, axis)) * light.estimate;
+        const vec3 gain = bounce_gain(surface_albedo(block, axis)),
+                   unbounced = sdfgi_light_unpack_axis(direct, axis),
+                   leaving = unbounced + gain * light.estimate;
+        changed = changed || wakes_others(cascade, entry, axis, unbounced, gain, leaving);
         if (any(greaterThan(leaving, vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
         for (uint a = 0u; a < 6u; a++) {
@@ -112,6 +159,8 @@ void bounce(uint cascade, uint entry, bool asks)
         }
         left &= left - 1u;
     } while (left != 0u);
+    if (changed && gathered_load_state(cascade, entry).mean != GATHERED_NOTHING)
+        sdfgi_gathered[gathered_word(cascade, GATHERED_CHANGED, entry)] = sdfgi_frame.next_epoch;
     for (uint a = 0u; a < 6u; a++) {
         if (gathers())
             sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + a, entry)] = arriving[a];

@@ -107,10 +107,9 @@ SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 48);
 
 struct sdfgi_cell_gather_args {
     uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */
-    uint epoch;                      /* of the lights, 8 bits: it changes with them */
     uint marks;                      /* a bit per cascade: its cells mark how much light they have */
 };
-SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 40);
+SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 36);
 
 struct sdfgi_cell_filter_args {
     uint visited, end[SDFGI_MAX_CASCADES]; /* as in sdfgi_light_bounce_args */

@@ -62,7 +62,7 @@
 #define SDFGI_SURFACE_NONE    0xffffffffu
 #define SDFGI_SURFACE_UNKNOWN 0xfffffffeu
 /* Words of what a light cell has gathered: see sdfgi/gathered.glsl. */
-#define SDFGI_GATHERED_WORDS 32
+#define SDFGI_GATHERED_WORDS 33
 /* Words of a light cell that are kept when the light list is written again: its direct light; its outgoing
  * light and its irradiance along six axes each; and what it has gathered. */
 #define SDFGI_LIGHT_KEPT_WORDS (2 + 6 + 6 + SDFGI_GATHERED_WORDS)

@@ -62,6 +62,11 @@ struct sdfgi_frame_params {
     uint up_axis; /* enum sdfgi_up_axis. Bit 0: up is along Z, not Y; bit 1: against it */
     vec3 sky_ground;
     uint has_metal; /* 1: a material is metal that reflects what it sees */
+    /* Around geometry that has changed in the last epochs, in cell space of cascade 0; low > high: none. */
+    vec3 edited_low;
+    uint epoch; /* changes of a time: see sdfgi/gathered.glsl */
+    vec3 edited_high;
+    uint epoch_of_all; /* the last one that changed the light of all light cells */
     float y_scale;  /* height of a cell over its width */
     float exposure;
     float exposure_inverse; /* 1 / exposure */
@@ -86,9 +91,11 @@ struct sdfgi_frame_params {
     float dark;            /* light times exposure that counts as dark */
     float rays_blend;      /* roughness from which on reflections blend into irradiance */
     float rays_end;        /* roughness from which on they are irradiance; above rays_blend */
+    uint next_epoch;       /* to which belongs what changes in this frame */
+    uint padding_0, padding_1, padding_2;
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 18 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 21 * 16);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

@@ -332,6 +332,44 @@ static void lights_that_change_in_every_frame_begin_an_epoch_now_and_then(void *
     REQUIRE_CMP(s.gathering.epoch, ==, 1u);
 }
 
+/* Frames until an epoch begins, at most. */
+static void begin_epoch(struct scene *s)
+{
+    const uint32_t epoch = s->gathering.epoch;
+    for (uint64_t frame = 0; s->gathering.epoch == epoch; frame++) {
+        REQUIRE_CMP(frame, <=, UINT64_C(20));
+        REQUIRE_CMP(sdfgi_gathering_next_epoch(&s->gathering), ==, epoch + 1);
+        sdfgi_gathering_begin(&s->gathering, 0);
+    }
+    REQUIRE_CMP(sdfgi_gathering_next_epoch(&s->gathering), ==, s->gathering.epoch);
+}
+
+static void a_local_change_begins_an_epoch_for_those_that_it_reaches(void **state)
+{
+    (void)state;
+    struct scene s;
+    const struct box here = { { 0, 0, 0 }, { 1, 1, 1 } }, there = { { 4, 0, 0 }, { 5, 1, 1 } };
+    open_scene(&s);
+    sdfgi_gathering_outdate(&s.gathering);
+    begin_epoch(&s);
+    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
+    sdfgi_gathering_change(&s.gathering, NULL);
+    begin_epoch(&s);
+    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
+    REQUIRE_TRUE(s.gathering.edited_last.min[0] > s.gathering.edited_last.max[0]);
+    sdfgi_gathering_change(&s.gathering, &here);
+    sdfgi_gathering_change(&s.gathering, &there);
+    begin_epoch(&s);
+    const struct box both = { { 0, 0, 0 }, { 5, 1, 1 } };
+    REQUIRE_BYTES(&s.gathering.edited_last, &both, sizeof both);
+    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
+    sdfgi_gathering_change(&s.gathering, &here);
+    sdfgi_gathering_outdate(&s.gathering);
+    begin_epoch(&s);
+    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 4u);
+    REQUIRE_BYTES(&s.gathering.edited_last, &here, sizeof here);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -349,6 +387,7 @@ int main(void)
         cmocka_unit_test(settled_cells_get_no_rays_until_light_changes),
         cmocka_unit_test(one_cascade_that_has_settled_leaves_its_share_to_others),
         cmocka_unit_test(lights_that_change_in_every_frame_begin_an_epoch_now_and_then),
+        cmocka_unit_test(a_local_change_begins_an_epoch_for_those_that_it_reaches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

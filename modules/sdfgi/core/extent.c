@@ -9,8 +9,8 @@
 #define LIGHT_CELL_QUARTER_LAYERS 23
 
 /* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades. With the defaults a
- * cascade takes just under 64 MiB, scratch included, and 99 MiB with the longest list. */
-#define LIGHT_CELL_SHARE (31.0 / 256)
+ * cascade takes just under 64 MiB, scratch included, and just under 100 MiB with the longest list. */
+#define LIGHT_CELL_SHARE (61.0 / 512)
 
 double sdfgi_settings_y_scale(const struct sdfgi_settings *settings)
 {

@@ -184,7 +184,6 @@ static void gather(const struct plan_stage *stage)
     if (!work)
         return;
     struct sdfgi_cell_gather_args *args = &work->args.cell_gather;
-    args->epoch = frame->next.gathering.epoch;
     run_over_visits(stage, work, SDFGI_VISITS_GATHER);
     for (uint32_t i = 0; i < frame->gather_count; i++) {
         const struct gather_range *range = &frame->gathers[i];

@@ -95,7 +95,7 @@ float sdfgi_scene_brightest(const struct scene *scene, bool reads_sky)
 
 /* ---- Materials */
 
-static bool emits(const struct sdfgi_material_desc *desc)
+bool sdfgi_scene_emits(const struct sdfgi_material_desc *desc)
 {
     return desc->emission[0] > 0 || desc->emission[1] > 0 || desc->emission[2] > 0;
 }
@@ -153,7 +153,7 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
         sdfgi_pool_remove(&scene->materials, id);
         return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
     }
-    scene->emissive += emits(desc);
+    scene->emissive += sdfgi_scene_emits(desc);
     scene->metals += sdfgi_scene_metal_kind(desc) > 0;
     scene->smoothest = fmaxf(scene->smoothest, desc->smoothness);
     out->id = id;
@@ -181,7 +181,7 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
     if (material->users > 0)
         return still_used(scene, handle);
     sdfgi_scene_sets_retire(scene, material->set);
-    scene->emissive -= emits(&material->desc);
+    scene->emissive -= sdfgi_scene_emits(&material->desc);
     scene->metals -= sdfgi_scene_metal_kind(&material->desc) > 0;
     const bool was_smoothest = material->desc.smoothness >= scene->smoothest;
     sdfgi_pool_remove(&scene->materials, handle.id);
@@ -236,5 +236,7 @@ enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double b
     memcpy(box.min, box_min, sizeof box.min);
     memcpy(box.max, box_max, sizeof box.max);
     sdfgi_journal_add_box(scene->journals, &box);
+    if (scene->emissive > 0)
+        sdfgi_journal_note(scene->journals, JOURNAL_FAR);
     return SDFGI_OK;
 }

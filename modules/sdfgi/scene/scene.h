@@ -117,6 +117,8 @@ bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
  * emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material that is
  * brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised anew for
  * that. */
+/* True if a material emits light. */
+bool sdfgi_scene_emits(const struct sdfgi_material_desc *desc);
 void sdfgi_scene_material_shown(struct scene *scene, const struct sdfgi_material_desc *desc);
 /* The kind of metal from which rays go on towards what it reflects: 1 for mirrors, to 3; 0 for all else. */
 uint32_t sdfgi_scene_metal_kind(const struct sdfgi_material_desc *desc);

@@ -131,6 +131,15 @@ static struct box transformed_bounds(const struct mesh *mesh, const struct sdfgi
     return box;
 }
 
+/* The volumes hold something else where an instance is. */
+static void instance_changed(struct scene *scene, const struct instance *instance)
+{
+    const struct material *material = sdfgi_pool_get(&scene->materials, instance->desc.material.id);
+    sdfgi_journal_add_box(scene->journals, &instance->bounds);
+    if (material && sdfgi_scene_emits(&material->desc))
+        sdfgi_journal_note(scene->journals, JOURNAL_FAR);
+}
+
 /* The instance is, or is no longer, what volumes hold where its bounds are. */
 static void enter_volumes(struct scene *scene, uint32_t slot)
 {
@@ -140,7 +149,7 @@ static void enter_volumes(struct scene *scene, uint32_t slot)
     instance->revision = ++scene->revision;
     link_first(scene, &scene->newest, slot, offsetof(struct instance, by_revision));
     sdfgi_tree_add(&scene->tree, slot, &instance->bounds);
-    sdfgi_journal_add_box(scene->journals, &instance->bounds);
+    instance_changed(scene, instance);
 }
 
 static void leave_volumes(struct scene *scene, uint32_t slot)
@@ -150,7 +159,7 @@ static void leave_volumes(struct scene *scene, uint32_t slot)
         return;
     unlink_from(scene, &scene->newest, slot, offsetof(struct instance, by_revision));
     sdfgi_tree_remove(&scene->tree, slot);
-    sdfgi_journal_add_box(scene->journals, &instance->bounds);
+    instance_changed(scene, instance);
 }
 
 /* ---- Life */

@@ -12,9 +12,11 @@ static struct sdfgi_light_desc resolved(const struct sdfgi_light_desc *desc)
     return light;
 }
 
-static void lights_changed(struct scene *scene)
+static void light_changed(struct scene *scene, const struct sdfgi_light_desc *desc)
 {
     sdfgi_journal_note(scene->journals, JOURNAL_LIGHTS);
+    if (desc->type == SDFGI_LIGHT_DIRECTIONAL)
+        sdfgi_journal_note(scene->journals, JOURNAL_FAR);
 }
 
 enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
@@ -28,7 +30,7 @@ enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdf
     if (!light)
         return sdfgi_check_out_of_slots(scene, "sdfgi_light_create", SDFGI_MAX_LIGHTS);
     light->desc = resolved(desc);
-    lights_changed(scene);
+    light_changed(scene, &light->desc);
     out->id = id;
     return SDFGI_OK;
 }
@@ -46,17 +48,19 @@ enum sdfgi_result sdfgi_scene_light_update(struct scene *scene, sdfgi_light hand
     const struct sdfgi_light_desc new_desc = resolved(desc);
     if (sdfgi_same_light(&light->desc, &new_desc))
         return SDFGI_OK;
+    light_changed(scene, &light->desc);
     light->desc = new_desc;
-    lights_changed(scene);
+    light_changed(scene, &light->desc);
     return SDFGI_OK;
 }
 
 enum sdfgi_result sdfgi_scene_light_destroy(struct scene *scene, sdfgi_light handle)
 {
-    if (!sdfgi_pool_get(&scene->lights, handle.id))
+    const struct light *light = sdfgi_pool_get(&scene->lights, handle.id);
+    if (!light)
         return sdfgi_check_unknown_handle(scene, "sdfgi_light_destroy", handle.id);
+    light_changed(scene, &light->desc);
     sdfgi_pool_remove(&scene->lights, handle.id);
-    lights_changed(scene);
     return SDFGI_OK;
 }
 

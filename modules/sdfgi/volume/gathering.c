@@ -13,7 +13,9 @@
 
 void sdfgi_gathering_init(struct gathering *gathering)
 {
-    *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
+    *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES,
+                                     .edited = sdfgi_box_nothing(),
+                                     .edited_last = sdfgi_box_nothing() };
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
         gathering->at[c].cycle = 1;
         gathering->at[c].rough = true;
@@ -24,6 +26,19 @@ void sdfgi_gathering_init(struct gathering *gathering)
 void sdfgi_gathering_outdate(struct gathering *gathering)
 {
     gathering->epoch_over = true;
+    gathering->all_over = true;
+}
+
+void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited)
+{
+    gathering->epoch_over = true;
+    if (edited)
+        gathering->edited = sdfgi_box_around(&gathering->edited, edited);
+}
+
+uint32_t sdfgi_gathering_next_epoch(const struct gathering *gathering)
+{
+    return gathering->epoch + gathering->epoch_over;
 }
 
 /* Cycles are rough at first, as long as light changes much; and further, as long as many cells change, as in
@@ -53,9 +68,13 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
     gathering->epoch_frames += gathering->epoch_frames < EPOCH_FRAMES;
     if (!gathering->epoch_over || gathering->epoch_frames < EPOCH_FRAMES)
         return;
-    gathering->epoch = (gathering->epoch + 1) & 0xffu;
+    gathering->epoch++;
+    if (gathering->all_over)
+        gathering->epoch_of_all = gathering->epoch;
     gathering->epoch_frames = 0;
-    gathering->epoch_over = false;
+    gathering->epoch_over = gathering->all_over = false;
+    gathering->edited_last = gathering->edited;
+    gathering->edited = sdfgi_box_nothing();
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
         gathering->at[c].rough = true;
         gathering->at[c].rough_cycles = 0;

@@ -12,6 +12,7 @@
 #define SDFGI_GATHERING_H
 
 #include "accumulation.h"
+#include "core/box.h"
 #include "relight.h"
 
 struct gather_cursor {
@@ -32,9 +33,13 @@ struct gather_cursor {
 struct gathering {
     struct gather_cursor at[SDFGI_MAX_CASCADES];
     uint64_t invalidations;  /* of the light, as far as they are taken in */
-    uint32_t epoch;          /* of the lights */
+    uint32_t epoch;          /* changes of a time: of lights and of geometry */
     uint32_t epoch_frames;   /* since it began */
-    bool epoch_over;         /* the lights have changed since */
+    bool epoch_over;         /* something has changed since, */
+    bool all_over;           /* and changes the light of all cells */
+    uint32_t epoch_of_all;   /* the last one that did */
+    struct box edited;       /* around geometry that has changed since, */
+    struct box edited_last;  /* and around what changed before that */
     uint32_t seen_frames;    /* since it was forgotten which cells were seen */
     uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
@@ -57,8 +62,11 @@ struct gather_change {
 };
 
 void sdfgi_gathering_init(struct gathering *gathering);
-/* The lights are others: what cells have gathered is outdated. */
+/* What all cells have gathered is outdated: sun or sky is another one, or everything. */
 void sdfgi_gathering_outdate(struct gathering *gathering);
+/* Some have to gather anew: those whose rays meet what a lamp lights otherwise than before; or, if geometry
+ * has changed in a box, those whose rays cross it. NULL: none has. */
+void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited);
 /* Begins a frame. `invalidations` counts those of the light so far: after one no cascade is settled. */
 void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations);
 /* Takes a frame's part of `cells` cells at most; returns how many ranges it filled in. */
@@ -77,6 +85,8 @@ uint32_t sdfgi_gathering_hit_bits(const struct gathering *gathering, uint32_t ca
 /* A cycle that ended came back from the GPU. */
 void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle,
                                const struct gather_change *change);
+/* The epoch in which what changes in this frame is taken in. */
+uint32_t sdfgi_gathering_next_epoch(const struct gathering *gathering);
 /* True if the cells of all cascades have settled. */
 bool sdfgi_gathering_has_settled(const struct gathering *gathering, uint32_t cascades);
 

@@ -165,6 +165,37 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->rays_per_frame = keep ? old->rays_per_frame : rays;
 }
 
+/* Where geometry has changed, in cell space of cascade 0. */
+static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state *state)
+{
+    const struct cascade *first = &state->cascades.at[0];
+    const struct box edited = sdfgi_box_around(&state->gathering.edited, &state->gathering.edited_last);
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        const double cell = first->cell_size[i], origin = (double)first->origin[i];
+        low[i] = fmin(fmax(floor(edited.min[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
+        high[i] = fmin(fmax(ceil(edited.max[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
+    }
+    p->edited_low = point_of(low);
+    p->edited_high = point_of(high);
+}
+
+/* What has changed. It stays once light has converged, as in fill_cycle. */
+static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *state)
+{
+    const struct gathering *gathering = &state->gathering;
+    const struct sdfgi_frame_params *old = &state->params;
+    const bool keep = state->accumulation.phase == LIGHTING_CONVERGED;
+    fill_edited(p, state);
+    if (keep) {
+        p->edited_low = old->edited_low;
+        p->edited_high = old->edited_high;
+    }
+    p->epoch = keep ? old->epoch : gathering->epoch;
+    p->epoch_of_all = keep ? old->epoch_of_all : gathering->epoch_of_all;
+    p->next_epoch = keep ? old->next_epoch : sdfgi_gathering_next_epoch(gathering);
+}
+
 static float emission_scale(const struct scene *scene, float exposure)
 {
     return scene->emissive > 0 ? fminf(scene->emission_unit * exposure, BRIGHTEST) : 0;
@@ -190,6 +221,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     p->emitter_samples = (uint32_t)sdfgi_extent_emitter_samples(input->extent);
     p->has_metal = input->scene->metals > 0;
     p->seed = state->seed;
+    fill_epoch(p, state);
     fill_cycle(p, state, input->settings);
 }
 

@@ -72,18 +72,23 @@ void sdfgi_volume_invalidate(struct volume *volume)
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state)
 {
     bool invalidates = journal->notes & (JOURNAL_LIGHTS | JOURNAL_SKY | JOURNAL_EVERYTHING);
+    const bool reaches_all = journal->notes & (JOURNAL_SKY | JOURNAL_EVERYTHING | JOURNAL_FAR);
     for (uint32_t c = 0; c < state->cascades.count; c++) {
         struct cascade *cascade = &state->cascades.at[c];
         if (journal->notes & JOURNAL_EVERYTHING)
             sdfgi_cascade_outdate(cascade);
         for (uint32_t i = 0; i < journal->box_count; i++)
-            if (sdfgi_cascade_add_edit(cascade, state->cascades.resolution, &journal->boxes[i]))
+            if (sdfgi_cascade_add_edit(cascade, state->cascades.resolution, &journal->boxes[i])) {
+                sdfgi_gathering_change(&state->gathering, &journal->boxes[i]);
                 invalidates = true;
+            }
     }
     if (!invalidates)
         return;
     sdfgi_accumulation_invalidate(&state->accumulation);
-    sdfgi_gathering_outdate(&state->gathering);
+    sdfgi_gathering_change(&state->gathering, NULL);
+    if (reaches_all)
+        sdfgi_gathering_outdate(&state->gathering);
 }
 
 void sdfgi_volume_note_content(const struct scene *scene, struct volume_state *state)

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT
+ * A change wakes the light cells that it reaches, and no others: in a closed room light stays as it is while
+ * a lamp in the next one flickers, and while something moves there. Round corners light follows soon. */
+#include "light_scene.h"
+#include "require.h"
+#include "test_group.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Closed rooms of 2.4 m side by side, 0.6 m apart, with a lamp in each. Cells of 0.2 m. */
+#define HALF_M  1.2
+#define HERE_M  -1.5
+#define THERE_M 1.5
+
+enum { SIDE = 8, POINTS = SIDE * SIDE, SETTLE = 120, WATCHED = 40, PERIOD = 4 };
+
+struct stage {
+    struct gi_test t;
+    sdfgi_light lamp;   /* there */
+    sdfgi_instance box; /* there; 0: none */
+    float before[POINTS][3], now[POINTS][3];
+};
+
+static struct stage stage;
+
+static void add_room(struct stage *s, double x)
+{
+    const double centre[] = { x, 0, 0 }, half[] = { HALF_M, HALF_M, HALF_M };
+    light_add(&s->t, test_mesh_room(centre, half, 0.3, test_rotation_none), 0.5f, 0);
+}
+
+static struct sdfgi_light_desc lamp_at(double x, float intensity)
+{
+    return light_point(x + 0.5, 0.6, 0.4, intensity);
+}
+
+static void open_rooms(struct stage *s)
+{
+    const struct sdfgi_light_desc here = lamp_at(HERE_M, 4), there = lamp_at(THERE_M, 4);
+    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = 16 * SDFGI_VISIT_RAYS; /* a complete cycle in 16 frames */
+    gi_test_open(&s->t, &settings);
+    add_room(s, HERE_M);
+    add_room(s, THERE_M);
+    light_create(&s->t, &here);
+    s->lamp = light_create(&s->t, &there);
+    gi_test_update(&s->t, SETTLE);
+}
+
+/* Irradiance of a room's floor. */
+static void look(struct stage *s, double x, float (*irradiance)[3])
+{
+    struct gi_test_point points[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        const double step = 1.6 * HALF_M / (SIDE - 1);
+        points[i] = (struct gi_test_point){ { (float)(x - 0.8 * HALF_M + step * (i % SIDE)), -(float)HALF_M,
+                                              (float)(-0.8 * HALF_M + step * (i / SIDE)) },
+                                            { 0, 1, 0 } };
+    }
+    gi_test_irradiance(&s->t, points, POINTS, irradiance);
+    for (int i = 0; i < POINTS; i++)
+        REQUIRE_TRUE(irradiance[i][1] > 0.01f);
+}
+
+/* The largest relative change of a point since `before`. */
+static double change(const struct stage *s)
+{
+    double most = 0;
+    for (int i = 0; i < POINTS; i++)
+        most = fmax(most, fabs((double)s->now[i][1] / (double)s->before[i][1] - 1));
+    return most;
+}
+
+static void set_lamp(struct stage *s, float intensity)
+{
+    const struct sdfgi_light_desc desc = lamp_at(THERE_M, intensity);
+    REQUIRE_CMP((int)sdfgi_light_update(s->t.gi, s->lamp, &desc), ==, (int)SDFGI_OK);
+}
+
+/* Where the box stands, there. */
+static void place_box(struct stage *s, double z)
+{
+    if (s->box.id)
+        REQUIRE_CMP((int)sdfgi_instance_destroy(s->t.gi, s->box), ==, (int)SDFGI_OK);
+    s->box = light_add_box(&s->t, (double[]){ THERE_M - 0.9, -HALF_M, z },
+                           (double[]){ THERE_M - 0.3, 0, z + 0.5 }, (float[]){ 0.7f, 0.2f, 0.1f }, 0);
+}
+
+static void flicker(struct stage *s, int step)
+{
+    set_lamp(s, step % 2 ? 4 : 1);
+}
+
+static void move(struct stage *s, int step)
+{
+    place_box(s, step % 2 ? -0.9 : 0.3);
+}
+
+/* Watches this room while the other one changes. Returns by how much light has changed here at most. */
+static double watch(struct stage *s, const char *name, void (*disturb)(struct stage *, int))
+{
+    double most = 0, last = 0;
+    look(s, HERE_M, s->before);
+    for (int i = 0; i < WATCHED; i++) {
+        if (i % PERIOD == 0)
+            disturb(s, i / PERIOD);
+        gi_test_update(&s->t, 1);
+        look(s, HERE_M, s->now);
+        last = change(s);
+        most = fmax(most, last);
+    }
+    printf("%s next door: light here changes by %.5f at most, by %.5f at last\n", name, most, last);
+    return most;
+}
+
+static void a_lamp_that_flickers_next_door_changes_nothing_here(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(watch(&stage, "a lamp that flickers", flicker), <=, 0.004);
+}
+
+static void what_moves_next_door_changes_nothing_here(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(watch(&stage, "a box that moves", move), <=, 0.004);
+    REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, stage.box), ==, (int)SDFGI_OK);
+}
+
+/* The same lamp is seen at once where it is. */
+static void the_lamp_is_seen_at_once_where_it_is(void **state)
+{
+    (void)state;
+    set_lamp(&stage, 4);
+    gi_test_update(&stage.t, SETTLE);
+    look(&stage, THERE_M, stage.before);
+    set_lamp(&stage, 1);
+    gi_test_update(&stage.t, 10);
+    look(&stage, THERE_M, stage.now);
+    double mean = 0;
+    for (int i = 0; i < POINTS; i++)
+        mean += (double)stage.now[i][1] / (double)stage.before[i][1] / POINTS;
+    printf("a lamp with a quarter of its power: %.4f of the light after ten frames\n", mean);
+    REQUIRE_CMP(mean, <=, 0.325);
+}
+
+/* ---- Round corners: a room of 4.8 m with walls across, and a lamp at one end */
+
+#define WIDE_M 2.4
+
+static struct sdfgi_light_desc far_lamp(float intensity)
+{
+    return light_point(-1.8, 0.6, -1.8, intensity);
+}
+
+static sdfgi_instance add_wall(struct stage *s, double x, double from_z, double to_z)
+{
+    return light_add_box(&s->t, (double[]){ x, -HALF_M, from_z }, (double[]){ x + 0.3, HALF_M, to_z },
+                         (float[]){ 0.6f, 0.6f, 0.6f }, 0);
+}
+
+static void open_wide_room(struct stage *s)
+{
+    const double centre[] = { 0, 0, 0 }, half[] = { WIDE_M, HALF_M, WIDE_M };
+    const struct sdfgi_light_desc lamp = far_lamp(6);
+    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = 32 * SDFGI_VISIT_RAYS;
+    gi_test_restart(&s->t, &settings);
+    light_add(&s->t, test_mesh_room(centre, half, 0.3, test_rotation_none), 0.6f, 0);
+    s->lamp = light_create(&s->t, &lamp);
+}
+
+/* Irradiance of the floor at the other end. */
+static double light_at_the_end(struct stage *s)
+{
+    double sum = 0;
+    for (int i = 0; i < 4; i++)
+        sum += light_white_at(
+            &s->t, (struct gi_test_point){ { 1.8f, -(float)HALF_M, 0.5f + 0.3f * (float)i }, { 0, 1, 0 } });
+    return sum;
+}
+
+/* Rays that cross the place where a wall was wake their cells, though nothing has changed where they end. */
+static void light_comes_at_once_where_a_wall_was(void **state)
+{
+    (void)state;
+    open_wide_room(&stage);
+    const sdfgi_instance wall = add_wall(&stage, -1, -WIDE_M, WIDE_M);
+    gi_test_update(&stage.t, 60);
+    REQUIRE_CMP(light_at_the_end(&stage), ==, 0);
+    REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, wall), ==, (int)SDFGI_OK);
+    gi_test_update(&stage.t, 10);
+    const double soon = light_at_the_end(&stage);
+    gi_test_update(&stage.t, 50);
+    const double later = light_at_the_end(&stage);
+    printf("where a wall was: %.4f W/m^2 after ten frames, %.4f after sixty\n", soon, later);
+    REQUIRE_CMP(later, >, 0.5);
+    REQUIRE_CMP(fabs(soon / later - 1), <=, 0.1);
+}
+
+/* What is woken wakes others once its light is sure to have changed. If all cells are woken at once, nine
+ * tenths are shown after 80 frames; if those that see the lamp's light are alone, after 245. */
+static void light_goes_soon_round_two_corners(void **state)
+{
+    (void)state;
+    open_wide_room(&stage);
+    add_wall(&stage, 0.5, -1.4, WIDE_M);
+    add_wall(&stage, -1, -WIDE_M, 1.4);
+    gi_test_update(&stage.t, 200);
+    const struct sdfgi_light_desc dim = far_lamp(1.5f);
+    const double before = light_at_the_end(&stage);
+    REQUIRE_CMP((int)sdfgi_light_update(stage.t.gi, stage.lamp, &dim), ==, (int)SDFGI_OK);
+    gi_test_update(&stage.t, 100);
+    const double share = (1 - light_at_the_end(&stage) / before) / 0.75;
+    printf("round two corners: %.4f of a change after a hundred frames\n", share);
+    REQUIRE_CMP(share, >=, 0.9);
+    REQUIRE_CMP(share, <=, 1.05);
+}
+
+TEST_GROUP(neighbours)
+{
+    if (!gpu_test_available())
+        return GPU_TEST_SKIP;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lamp_that_flickers_next_door_changes_nothing_here),
+        cmocka_unit_test(what_moves_next_door_changes_nothing_here),
+        cmocka_unit_test(the_lamp_is_seen_at_once_where_it_is),
+        cmocka_unit_test(light_comes_at_once_where_a_wall_was),
+        cmocka_unit_test(light_goes_soon_round_two_corners),
+    };
+    open_rooms(&stage);
+    const int failed = cmocka_run_group_tests_name("neighbours", tests, NULL, NULL);
+    gi_test_close(&stage.t);
+    return failed;
+}
