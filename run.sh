@@ -12,8 +12,8 @@ seed=${RUN_SEED:-1}               # of the world
 out=out
 
 # What is rendered, and how well. A GPU takes all defaults, 240 frames, and walks at 30 frames a
-# second. A software driver gets all cascades and cells, but two fifths of the rays of twenty frames, in four that
-# make a ring; light bounces once a frame. It walks all the way in 34 frames, 6.7 m from one to the next.
+# second. A software driver gets all cascades and cells, but two fifths of the rays of twenty frames, in four
+# that make a ring; light bounces once a frame. It walks all the way in 34 frames, 6.7 m from one to the next.
 # Its threads wait for each other a quarter of the time, so it does two things at once; the times that it
 # reports are longer for that.
 choose_quality() {

@@ -65,7 +65,7 @@ static bool parse_frames(struct options *options)
     return true;
 }
 
-/* The picture without GI has the exposure of the other one, so both are of 8 bits. */
+/* The picture without GI has the exposure of the other one: both are PNGs. */
 static bool check_off(const struct options *options)
 {
     if (!options->off)

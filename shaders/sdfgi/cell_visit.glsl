@@ -135,7 +135,7 @@ void wake_by_edit(uint cascade, uint own, vec3 from, vec3 dir, float range)
         wake(own);
 }
 
-/* Wakes a cell if its ray has hit a surface whose direct light has changed. */
+/* Wakes a cell if its ray has hit a surface whose light has changed. */
 void wake_by_light(ray_source source, uint cascade, uint entry)
 {
     if (looks_for_changes(source.own) &&

@@ -23,8 +23,9 @@
 /* Per cascade SDFGI_GATHERED_WORDS planes with a word per entry of the light list: three words per axis with
  * S and P, 48 bits each (lib/rgb48.glsl); the packed gathered_state; and per axis the irradiance before it is
  * filtered, and between the two runs of the filter, as the surfaces' of sdfgi_resources.glsl; its noise; and
- * the epoch in which the direct light on its surfaces was seen to change. Sums count a visit as 1 /
- * gathered_long_visits(). Behind them stand the counters from SDFGI_COUNTER_GATHER on. */
+ * the last epoch in which its outgoing light changed so much that cells which see it are to be woken. Sums
+ * count a visit as 1 / gathered_long_visits(). Behind them stand the counters from SDFGI_COUNTER_GATHER on.
+ */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_GATHERED) buffer sdfgi_gathered_buffer
 {
     uint sdfgi_gathered[];

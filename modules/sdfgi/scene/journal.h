@@ -12,7 +12,7 @@ enum journal_note {
     JOURNAL_MATERIALS = 2, /* constants of materials that are shown */
     JOURNAL_SKY = 4,
     JOURNAL_EVERYTHING = 8, /* all that was voxelised is out of date */
-    JOURNAL_FAR = 16,       /* of these or of geometry, what lights all: a sun, or something that emits */
+    JOURNAL_FAR = 16,       /* a sun has changed, or something that emits: its light may reach all */
 };
 
 struct journal {
