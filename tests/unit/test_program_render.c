@@ -47,21 +47,25 @@ static void a_picture_needs_no_cache_and_a_damaged_one_is_no_harm(void **state)
     run_in_folder("rm -rf cache mesa *.png tiny.gltf");
 }
 
-/* The triangle stands where the default camera looks, and faces +z. */
-static struct image render_debug(const char *picture)
+/* Renders the triangle with no message, and reads the picture. */
+static struct image render_tiny(const char *arguments, const char *picture)
 {
-    char arguments[256], error[256];
-    snprintf(
-        arguments, sizeof arguments,
-        "render tiny.gltf --size 24x24 --frames 1 --quiet --set cascades=1 --set resolution=32 --debug solid "
-        "--out %s",
-        picture);
-    const struct program_run run = run_program("SDFGI_VALIDATION=1", arguments);
+    char line[512], error[256];
+    snprintf(line, sizeof line,
+             "render tiny.gltf --size 24x24 --quiet --set cascades=1 --set resolution=32 --out %s %s",
+             picture, arguments);
+    const struct program_run run = run_program("SDFGI_VALIDATION=1", line);
     assert_string_equal(run.err, "");
     assert_int_equal(run.code, 0);
     struct image image;
     assert_true(image_read(&image, files_path(picture), error, sizeof error));
     return image;
+}
+
+/* The triangle stands where the default camera looks, and faces +z. */
+static struct image render_debug(const char *picture)
+{
+    return render_tiny("--frames 1 --debug solid", picture);
 }
 
 static void a_debug_view_is_written_instead_of_the_picture(void **state)
@@ -94,19 +98,11 @@ static double mean_of(const struct image *image)
     return sum / (3 * image->width * image->height);
 }
 
-static struct image render_pair_part(const char *arguments, const char *picture)
+static struct image render_lit(const char *arguments, const char *picture)
 {
-    char line[512], error[256];
-    struct image image;
-    snprintf(line, sizeof line,
-             "render tiny.gltf --quiet --size 24x24 --frames 6 --sky 2 --sun 0,-1,-1,1,1,1 "
-             "--set resolution=32 --set cascades=1 --out %s %s",
-             picture, arguments);
-    const struct program_run run = run_program("SDFGI_VALIDATION=1", line);
-    assert_string_equal(run.err, "");
-    assert_int_equal(run.code, 0);
-    assert_true(image_read(&image, files_path(picture), error, sizeof error));
-    return image;
+    char line[256];
+    snprintf(line, sizeof line, "--frames 6 --sky 2 --sun 0,-1,-1,1,1,1 %s", arguments);
+    return render_tiny(line, picture);
 }
 
 static double reported_exposure(void)
@@ -127,9 +123,9 @@ static void both_pictures_have_the_same_exposure(void **state)
     if (run_program("", "info").code != 0)
         skip();
     files_write_triangle("tiny.gltf");
-    struct image on = render_pair_part("--off off.png --report r.json", "on.png"), off;
+    struct image on = render_lit("--off off.png --report r.json", "on.png"), off;
     snprintf(arguments, sizeof arguments, "--gi off --exposure %.17g", reported_exposure());
-    struct image alone = render_pair_part(arguments, "alone.png");
+    struct image alone = render_lit(arguments, "alone.png");
     assert_true(image_read(&off, files_path("off.png"), error, sizeof error));
     assert_memory_equal(off.rgba, alone.rgba, sizeof(float[4 * PICTURE * PICTURE]));
     printf("# mean %.4f with GI, %.4f without\n", mean_of(&on), mean_of(&off));
@@ -160,18 +156,10 @@ static void write_environment(const char *name)
 
 static struct image render_under(const char *environment)
 {
-    char arguments[256], error[256];
+    char arguments[256];
     write_environment(environment);
-    snprintf(arguments, sizeof arguments,
-             "render tiny.gltf --view near.json --environment %s --size 24x24 --frames 1 --quiet "
-             "--set cascades=1 --set resolution=32 --out sky.pfm",
-             environment);
-    const struct program_run run = run_program("SDFGI_VALIDATION=1", arguments);
-    assert_string_equal(run.err, "");
-    assert_int_equal(run.code, 0);
-    struct image image;
-    assert_true(image_read(&image, files_path("sky.pfm"), error, sizeof error));
-    return image;
+    snprintf(arguments, sizeof arguments, "--frames 1 --view near.json --environment %s", environment);
+    return render_tiny(arguments, "sky.pfm");
 }
 
 static void assert_color(const float *rgba, const float color[static 3], float tolerance)

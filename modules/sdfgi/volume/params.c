@@ -185,15 +185,18 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
 {
     const struct gathering *gathering = &state->gathering;
     const struct sdfgi_frame_params *old = &state->params;
-    const bool keep = state->accumulation.phase == LIGHTING_CONVERGED;
-    fill_edited(p, state);
-    if (keep) {
+    if (state->accumulation.phase == LIGHTING_CONVERGED) {
         p->edited_low = old->edited_low;
         p->edited_high = old->edited_high;
+        p->epoch = old->epoch;
+        p->epoch_of_all = old->epoch_of_all;
+        p->next_epoch = old->next_epoch;
+        return;
     }
-    p->epoch = keep ? old->epoch : gathering->epoch;
-    p->epoch_of_all = keep ? old->epoch_of_all : gathering->epoch_of_all;
-    p->next_epoch = keep ? old->next_epoch : sdfgi_gathering_next_epoch(gathering);
+    fill_edited(p, state);
+    p->epoch = gathering->epoch;
+    p->epoch_of_all = gathering->epoch_of_all;
+    p->next_epoch = sdfgi_gathering_next_epoch(gathering);
 }
 
 static float emission_scale(const struct scene *scene, float exposure)

@@ -86,9 +86,10 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
     if (!invalidates)
         return;
     sdfgi_accumulation_invalidate(&state->accumulation);
-    sdfgi_gathering_change(&state->gathering, NULL);
     if (reaches_all)
         sdfgi_gathering_outdate(&state->gathering);
+    else
+        sdfgi_gathering_change(&state->gathering, NULL);
 }
 
 void sdfgi_volume_note_content(const struct scene *scene, struct volume_state *state)
