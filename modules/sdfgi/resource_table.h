@@ -80,10 +80,11 @@
     X(SEEN,        STORAGE, U32,             LISTS,   VOLUME, WORK,   SEEN_COUNT(e),                DERIVED) \
     X(SEARCH,      STORAGE, U32,             SCRATCH, VOLUME, WORK,   e->search,                    SCRATCH) \
     X(INSTANCES,   STORAGE, U8,              LISTS,   VOLUME, WORK,   INSTANCES_BYTES(e),           DERIVED) \
-    X(DIRECT,      STORAGE, U32X2,           LISTS,   VOLUME, WORK,   ENTRY_COUNT(e),               DERIVED)
+    X(DIRECT,      STORAGE, U32,             LISTS,   VOLUME, WORK,   DIRECT_COUNT(e),              DERIVED)
 /* clang-format on */
 
-#define ENTRY_COUNT(e) ((e)->light_cells * (e)->cascades)
+#define ENTRY_COUNT(e)  ((e)->light_cells * (e)->cascades)
+#define DIRECT_COUNT(e) (SDFGI_DIRECT_WORDS * ENTRY_COUNT(e))
 /* None where light cells read probes alone; a binding needs a word. */
 #define GATHERED_COUNT(e) \
     ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) + SDFGI_COUNTER_COUNT - SDFGI_COUNTER_GATHER : 1)

@@ -64,7 +64,8 @@ uint light_row_slot(uint row)
     return sdfgi_scratch_light_rows(sdfgi_frame.resolution_log2) + 2u * row;
 }
 
-const uint LIGHT_KEPT_DIRECT = 0u, LIGHT_KEPT_LIGHT = 2u, LIGHT_KEPT_SURFACES = 8u, LIGHT_KEPT_GATHERED = 14u;
+const uint LIGHT_KEPT_DIRECT = 0u, LIGHT_KEPT_LIGHT = uint(SDFGI_DIRECT_WORDS),
+           LIGHT_KEPT_SURFACES = LIGHT_KEPT_LIGHT + 6u, LIGHT_KEPT_GATHERED = LIGHT_KEPT_SURFACES + 6u;
 
 /* Word `k` of what an entry of the previous list held, from LIGHT_KEPT_* on. Threads that follow one another
  * take entries that do. */

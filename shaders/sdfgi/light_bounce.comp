@@ -127,7 +127,7 @@ void bounce(uint cascade, uint entry, bool asks)
     if (!sdfgi_cell_is_valid(cascade, cell))
         return;
     const uint facing = light_cell_facing(cascade, cell);
-    const uvec2 direct = sdfgi_direct_at(slot);
+    const uvec2 direct = direct_load(cascade, entry);
 
     vec3 axes[6];
     uint arriving[6];
@@ -185,12 +185,20 @@ const uint BLOCKS = uint(SDFGI_BOUNCE_BLOCKS);
 const uint BLOCKS = 1u;
 #endif
 
+/* True if the dispatch is for a cell, or for all. */
+bool was_lit(uint cascade, uint entry)
+{
+    const uint lights = sdfgi_direct_at(direct_word(cascade, DIRECT_LIGHTS, entry));
+    return args.lit == 0u || direct_lit(lights) == args.lit;
+}
+
 /* The cell of a thread in the k-th block of its workgroup. A thread has one dirty cell at most. */
 bool cell_of_block(uint k, out uint cascade, out uint entry)
 {
     if (args.only_dirty == 0u)
         return visit_or_entry((workgroup_index() * BLOCKS + k) * gl_WorkGroupSize.x + gl_LocalInvocationIndex,
-                              cascade, entry);
+                              cascade, entry) &&
+               was_lit(cascade, entry);
     cascade = args.cascade;
     return k == 0u && dirty_entry(entry);
 }

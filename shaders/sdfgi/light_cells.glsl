@@ -17,9 +17,11 @@ layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHT_CELLS) buffer
     uint sdfgi_light_cells[];
 };
 
+/* Per cascade SDFGI_DIRECT_WORDS planes with a word per entry of the light list: two of direct light, as
+ * lib/light_pack.glsl packs it, and the lights that it comes from. */
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_DIRECT) buffer sdfgi_direct_buffer
 {
-    uvec2 sdfgi_direct[];
+    uint sdfgi_direct[];
 };
 
 uint light_cell_count(uint cascade)
@@ -51,6 +53,46 @@ vec3 light_cell_place(uint cascade, ivec3 cell)
 uint light_cell_slot(uint cascade, uint entry)
 {
     return cascade * sdfgi_frame.light_cell_room + entry;
+}
+
+/* Word `plane` of the direct light of an entry. */
+uint direct_word(uint cascade, uint plane, uint entry)
+{
+    return (cascade * uint(SDFGI_DIRECT_WORDS) + plane) * sdfgi_frame.light_cell_room + entry;
+}
+
+const uint DIRECT_LIGHTS = 2u;
+
+uvec2 direct_load(uint cascade, uint entry)
+{
+    return uvec2(sdfgi_direct_at(direct_word(cascade, 0u, entry)),
+                 sdfgi_direct_at(direct_word(cascade, 1u, entry)));
+}
+
+#ifdef SDFGI_WRITES_DIRECT
+void direct_store(uint cascade, uint entry, uvec2 direct, uint lights)
+{
+    sdfgi_direct[direct_word(cascade, 0u, entry)] = direct.x;
+    sdfgi_direct[direct_word(cascade, 1u, entry)] = direct.y;
+    sdfgi_direct[direct_word(cascade, DIRECT_LIGHTS, entry)] = lights;
+}
+#endif
+
+/* The lights whose direct light a cell has, in SDFGI_LIGHT_BITS bits; and above them the number of the change
+ * of lights in which it was lit, 0 if that was none. */
+uint direct_lights_pack(uint lights, uint lit)
+{
+    return lights | lit << uint(SDFGI_LIGHT_BITS);
+}
+
+uint direct_lights(uint packed)
+{
+    return packed & SDFGI_LIGHT_ALL;
+}
+
+uint direct_lit(uint packed)
+{
+    return packed >> uint(SDFGI_LIGHT_BITS);
 }
 
 /* The local cell with a texel index. */

@@ -27,6 +27,9 @@ const uint BATCH = 16u; /* lights at once, a bit each */
 
 shared ivec3 cells[CELLS];
 shared uint facing[CELLS];
+shared uint lights[CELLS];   /* bits of those whose direct light a cell has */
+shared uint affected[CELLS]; /* 1: the change of lights reaches the cell */
+shared uint some_wanted;
 shared uint unshadowed[SDFGI_GROUP_SURFACES]; /* bits of the batch's lights in which a surface lies */
 shared vec3 starts[SDFGI_GROUP_SURFACES];     /* of a surface's shadow rays */
 /* A surface's thread times BATCH, plus a light's number in the batch. */
@@ -123,14 +126,29 @@ bool is_unshadowed(vec3 pos, uint light)
     return !hit.hit;
 }
 
-/* A bit per light from `first` on that would light a surface if nothing stood between them. */
-uint find_candidates(uint first, uint count, surface s)
+/* True for a light of `bits` that would light a surface if nothing stood between them. */
+bool is_candidate(uint light, uint bits, surface s)
 {
-    uint bits = 0u;
+    return (sdfgi_lights[light].bit & bits) != 0u && any(greaterThan(light_on_surface(light, s), vec3(0.0)));
+}
+
+/* A bit per light from `first` on that is a candidate. */
+uint find_candidates(uint first, uint count, uint bits, surface s)
+{
+    uint candidates = 0u;
     for (uint i = 0u; i < count; i++)
-        if (any(greaterThan(light_on_surface(first + i, s), vec3(0.0))))
-            bits |= 1u << i;
-    return bits;
+        if (is_candidate(first + i, bits, s))
+            candidates |= 1u << i;
+    return candidates;
+}
+
+/* True if a light that has moved may light the surface. */
+bool is_reached(surface s)
+{
+    bool reached = false;
+    for (uint i = 0u; i < sdfgi_frame.light_count && !reached; i++)
+        reached = is_candidate(i, args.moved, s);
+    return reached;
 }
 
 /* Lists a shadow ray from this thread's surface to each of its candidates. Returns those that need none,
@@ -160,26 +178,29 @@ void trace_rays(uint first)
     }
 }
 
-/* Irradiance of a batch of lights on this thread's surface, if it has one. Called by the whole workgroup. */
-vec3 light_from_batch(uint first, bool faces, surface s)
+/* Irradiance of those of a batch of lights that have `bits`, on this thread's surface, if it has one. Adds to
+ * `from` the bits of those that it comes from. Called by the whole workgroup. */
+vec3 light_from_batch(uint first, uint bits, bool faces, surface s, inout uint from)
 {
     const uint count = min(sdfgi_frame.light_count - first, BATCH), own = gl_LocalInvocationIndex;
     barrier();
     if (own == 0u)
         ray_count = 0u;
     barrier();
-    unshadowed[own] = faces ? list_rays(first, find_candidates(first, count, s)) : 0u;
+    unshadowed[own] = faces ? list_rays(first, find_candidates(first, count, bits, s)) : 0u;
     barrier();
     trace_rays(first);
     barrier();
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < count; i++)
-        if ((unshadowed[own] & 1u << i) != 0u)
+        if ((unshadowed[own] & 1u << i) != 0u) {
             sum += light_on_surface(first + i, s);
+            from |= sdfgi_lights[first + i].bit;
+        }
     return sum;
 }
 
-void store_cell(uint slot, uint own)
+void store_cell(uint entry, uint own)
 {
     vec3 axes[6];
     for (uint a = 0u; a < 6u; a++)
@@ -188,7 +209,8 @@ void store_cell(uint slot, uint own)
     for (uint a = 0u; a < 6u; a++)
         if (any(greaterThan(axes[a], vec3(SDFGI_RGBE_MAX))))
             counter_add(SDFGI_COUNTER_VALUES_CLAMPED, 1u);
-    sdfgi_direct[slot] = sdfgi_light_pack(axes, light_cell_hash(lit_cascade(), cells[own]));
+    direct_store(lit_cascade(), entry, sdfgi_light_pack(axes, light_cell_hash(lit_cascade(), cells[own])),
+                 direct_lights_pack(lights[own], args.lit));
 }
 
 void main()
@@ -198,24 +220,45 @@ void main()
     const uint cascade = lit_cascade();
     bool lit = light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
                            workgroup_index() * CELLS + own, entry);
-    const uint slot = light_cell_slot(cascade, lit ? entry : 0u);
-    const ivec3 cell = light_cell_from_index(cascade, sdfgi_light_cells_at(slot));
-    lit = lit && sdfgi_cell_is_valid(cascade, cell);
+    entry = lit ? entry : 0u;
+    const ivec3 cell =
+        light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
+    const uint before = direct_lights(sdfgi_direct_at(direct_word(cascade, DIRECT_LIGHTS, entry)));
+    const bool all = args.moved == SDFGI_LIGHT_ALL, had_changed = (before & args.changed) != 0u;
+    lit = lit && sdfgi_cell_is_valid(cascade, cell) && (args.moved != 0u || had_changed);
     if (axis == 0u) {
         cells[own] = cell;
         facing[own] = 0u;
+        lights[own] = 0u;
+        affected[own] = uint(all || had_changed);
     }
+    if (gl_LocalInvocationIndex == 0u)
+        some_wanted = 0u;
     barrier();
-    const bool faces = lit && light_cell_faces(cascade, cell, axis);
+    if (lit)
+        atomicOr(some_wanted, 1u);
+    barrier();
+    if (some_wanted == 0u)
+        return;
+
+    bool faces = lit && light_cell_faces(cascade, cell, axis);
     if (faces)
         atomicOr(facing[own], 1u << axis);
     const surface s = surface_behind(cell, axis);
     starts[gl_LocalInvocationIndex] = s.start;
+    if (!all && faces && is_reached(s))
+        atomicOr(affected[own], 1u);
+    barrier();
+    lit = lit && affected[own] != 0u;
+    faces = faces && lit;
+    /* What stands between a cell and a light that has not moved is known. */
+    uint from = 0u;
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < sdfgi_frame.light_count; first += BATCH)
-        sum += light_from_batch(first, faces, s);
+        sum += light_from_batch(first, before | args.moved, faces, s, from);
     reflected[own][axis] = faces ? sum * surface_albedo(s.block, axis) / PI : vec3(0.0);
+    atomicOr(lights[own], from);
     barrier();
     if (lit && axis == 0u)
-        store_cell(slot, own);
+        store_cell(entry, own);
 }

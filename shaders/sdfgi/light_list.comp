@@ -155,7 +155,7 @@ void list_dirty_cell(uint block, uint entry, uint n, uvec3 texel)
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     sdfgi_light_cells[slot] = index;
-    sdfgi_direct[slot] = uvec2(0u, SDFGI_LIGHT_VALID);
+    direct_store(args.cascade, entry, uvec2(0u, SDFGI_LIGHT_VALID), direct_lights_pack(0u, 0u));
     uint previous;
     if (find_previous(block, texel, previous) &&
         faces_as_before(sdfgi_cell_from_texel(args.cascade, texel), previous))
@@ -171,8 +171,9 @@ void list_kept_cell(uint entry, uint previous, uvec3 texel)
         return;
     const uint slot = light_cell_slot(args.cascade, entry);
     sdfgi_light_cells[slot] = sdfgi_texel_index(texel);
-    sdfgi_direct[slot] = uvec2(sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_DIRECT)),
-                               sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_DIRECT + 1u)));
+    for (uint k = 0u; k < uint(SDFGI_DIRECT_WORDS); k++)
+        sdfgi_direct[direct_word(args.cascade, k, entry)] =
+            sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_DIRECT + k));
     take_over(entry, previous);
 }
 

@@ -122,10 +122,9 @@ uint row_slot_of_block(uint block)
 /* Keeps what an entry of the previous list held. */
 void keep_light(uint entry)
 {
-    const uint slot = light_cell_slot(args.cascade, entry);
-    const uvec2 direct = sdfgi_direct_at(slot);
-    sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT)] = direct.x;
-    sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT + 1u)] = direct.y;
+    for (uint k = 0u; k < uint(SDFGI_DIRECT_WORDS); k++)
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_DIRECT + k)] =
+            sdfgi_direct_at(direct_word(args.cascade, k, entry));
     for (uint axis = 0u; axis < 6u; axis++) {
         const uint index = sdfgi_surface_index(args.cascade, entry, axis);
         sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_LIGHT + axis)] = sdfgi_light_at(index);

@@ -53,8 +53,8 @@ void rescale_gathered(uint cascade, uint entry)
 void rescale_cell(uint i)
 {
     const uint cascade = i / sdfgi_frame.light_cell_room, entry = i % sdfgi_frame.light_cell_room;
-    const uint slot = light_cell_slot(cascade, entry);
-    sdfgi_direct[slot].x = rescale_rgbe(sdfgi_direct_at(slot).x);
+    const uint color = direct_word(cascade, 0u, entry);
+    sdfgi_direct[color] = rescale_rgbe(sdfgi_direct_at(color));
     if (gathers())
         rescale_gathered(cascade, entry);
 }

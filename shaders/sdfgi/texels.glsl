@@ -42,7 +42,7 @@ layout(set = SDFGI_SET_WORK,
 #if defined(SDFGI_SOFTWARE) && !defined(SDFGI_WRITES_DIRECT)
 layout(set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_DIRECT) uniform usamplerBuffer sdfgi_direct_view;
-#define sdfgi_direct_at(i) texelFetch(sdfgi_direct_view, int(i)).xy
+#define sdfgi_direct_at(i) texelFetch(sdfgi_direct_view, int(i)).x
 #else
 #define sdfgi_direct_at(i) sdfgi_direct[i]
 #endif

@@ -79,14 +79,18 @@ struct sdfgi_light_mark_args {
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_mark_args, 8);
 
-/* Entries of the light lists to light directly: per cascade [first, end), or those in dirty blocks. */
+/* Entries of the light lists to light directly: per cascade [first, end), or those in dirty blocks. Of these,
+ * cells that a change of lights reaches: those that have direct light from lights of `changed`, and those
+ * that would have it from lights of `moved` if nothing stood between. SDFGI_LIGHT_ALL in `moved`: all. */
 struct sdfgi_light_direct_args {
     uint first[SDFGI_MAX_CASCADES], end[SDFGI_MAX_CASCADES];
     uint cascade;         /* of workgroups with z = 0; the next one follows at z = 1, and so on */
     uint only_dirty;      /* 1: cells in dirty blocks */
     uint threads_per_ray; /* threads over which a shadow ray is spread at most */
+    uint changed, moved;  /* bits of lights */
+    uint lit;             /* number that cells keep which are lit */
 };
-SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 76);
+SDFGI_ASSERT_SIZE(sdfgi_light_direct_args, 88);
 
 /* Per cascade entries [first, end) of the light list are visited; and how many visits a workgroup of each
  * pass takes. */
@@ -101,9 +105,10 @@ struct sdfgi_light_bounce_args {
     uint only_dirty;              /* 1: as in sdfgi_light_direct_args; else those of all cascades, */
     uint visited;                 /* 1: that this frame visits */
     uint without_probes;          /* 1: no probe holds light */
+    uint lit;                     /* those alone that keep this number; 0: all */
     uint end[SDFGI_MAX_CASCADES]; /* of the light lists */
 };
-SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 48);
+SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 52);
 
 struct sdfgi_cell_gather_args {
     uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */

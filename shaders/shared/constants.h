@@ -57,6 +57,12 @@
 
 /* Set in the second word of the direct light of every light cell. */
 #define SDFGI_LIGHT_VALID 0x40000000u
+/* Words of the direct light of a light cell: see sdfgi/light_cells.glsl. */
+#define SDFGI_DIRECT_WORDS 3
+/* Bits of lights, and a mask of all; a number above them tells when lights lit a cell. */
+#define SDFGI_LIGHT_BITS     24
+#define SDFGI_LIGHT_ALL      0xffffffu
+#define SDFGI_LIGHT_MOST_LIT 255
 /* Irradiance of a light cell along an axis that no surface faces, and of a surface of which nothing is known.
  * As RGB9E5 they are the largest whites. */
 #define SDFGI_SURFACE_NONE    0xffffffffu
@@ -65,7 +71,7 @@
 #define SDFGI_GATHERED_WORDS 33
 /* Words of a light cell that are kept when the light list is written again: its direct light; its outgoing
  * light and its irradiance along six axes each; and what it has gathered. */
-#define SDFGI_LIGHT_KEPT_WORDS (2 + 6 + 6 + SDFGI_GATHERED_WORDS)
+#define SDFGI_LIGHT_KEPT_WORDS (SDFGI_DIRECT_WORDS + 6 + 6 + SDFGI_GATHERED_WORDS)
 /* Visits in a rough gather cycle, rays that a visit sends from a light cell along one axis, and cells that a
  * workgroup visits. */
 #define SDFGI_ROUGH_VISITS 8

@@ -105,7 +105,8 @@ struct sdfgi_light_params {
     vec3 intensity;   /* W/sr or W/m^2, times exposure and indirect energy */
     float cone_scale; /* 1 / (cos inner - cos outer) */
     uint kind;        /* SDFGI_LIGHT_KIND_* | SDFGI_LIGHT_CASTS_SHADOW */
-    uint padding_0, padding_1, padding_2;
+    uint bit;         /* of SDFGI_LIGHT_BITS: its own, or shared if there are more lights */
+    uint padding_0, padding_1;
 };
 SDFGI_ASSERT_SIZE(sdfgi_light_params, 64);
 

@@ -83,6 +83,8 @@ static void add_light_direct(struct text *text, const struct sdfgi_light_direct_
 {
     if (args->only_dirty)
         text_add(text, " dirty");
+    if (args->moved != SDFGI_LIGHT_ALL)
+        text_add(text, " lights %x, moved %x", args->changed, args->moved);
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
         if (args->end[c] > 0)
             text_add(text, " c%u entries %u..%u", c, args->first[c], args->end[c]);
@@ -90,7 +92,8 @@ static void add_light_direct(struct text *text, const struct sdfgi_light_direct_
 
 static void add_light_bounce(struct text *text, const struct sdfgi_light_bounce_args *args)
 {
-    text_add(text, "%s%s", args->only_dirty ? " dirty" : "", args->without_probes ? " without probes" : "");
+    text_add(text, "%s%s%s", args->only_dirty ? " dirty" : "", args->lit ? " lit" : "",
+             args->without_probes ? " without probes" : "");
 }
 
 static void add_visit_list(struct text *text, const struct sdfgi_visit_list_args *args)

@@ -90,9 +90,9 @@
     X(sdfgi_light_params, intensity)                                                                         \
     X(sdfgi_light_params, cone_scale)                                                                        \
     X(sdfgi_light_params, kind)                                                                              \
+    X(sdfgi_light_params, bit)                                                                               \
     X(sdfgi_light_params, padding_0)                                                                         \
     X(sdfgi_light_params, padding_1)                                                                         \
-    X(sdfgi_light_params, padding_2)                                                                         \
     X(sdfgi_material_params, albedo)                                                                         \
     X(sdfgi_material_params, alpha)                                                                          \
     X(sdfgi_material_params, emission)                                                                       \
@@ -156,9 +156,13 @@
     X(sdfgi_light_direct_args, first)                                                                        \
     X(sdfgi_light_direct_args, end)                                                                          \
     X(sdfgi_light_direct_args, threads_per_ray)                                                              \
+    X(sdfgi_light_direct_args, changed)                                                                      \
+    X(sdfgi_light_direct_args, moved)                                                                        \
+    X(sdfgi_light_direct_args, lit)                                                                          \
     X(sdfgi_light_bounce_args, cascade)                                                                      \
     X(sdfgi_light_bounce_args, only_dirty)                                                                   \
     X(sdfgi_light_bounce_args, visited)                                                                      \
+    X(sdfgi_light_bounce_args, lit)                                                                          \
     X(sdfgi_light_bounce_args, end)                                                                          \
     X(sdfgi_visit_list_args, first)                                                                          \
     X(sdfgi_visit_list_args, end)                                                                            \

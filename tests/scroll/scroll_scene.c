@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool scroll_is_full(void)
 {
@@ -174,7 +175,7 @@ static uint64_t lists_differ(struct gi_test *a, struct gi_test *b, bool lit, con
 {
     uint32_t *x = gi_test_read(a, RESOURCE_LIGHT_CELLS, NULL),
              *y = gi_test_read(b, RESOURCE_LIGHT_CELLS, NULL);
-    uint64_t *p = gi_test_read(a, RESOURCE_DIRECT, NULL), *q = gi_test_read(b, RESOURCE_DIRECT, NULL);
+    uint32_t *p = gi_test_read(a, RESOURCE_DIRECT, NULL), *q = gi_test_read(b, RESOURCE_DIRECT, NULL);
     uint32_t *m = gi_test_read(a, RESOURCE_COUNTERS, NULL), *n = gi_test_read(b, RESOURCE_COUNTERS, NULL);
     const uint64_t room = a->gi->volume.resources->extent.light_cells;
     struct difference counts = { 0 }, cells = { 0 };
@@ -183,9 +184,12 @@ static uint64_t lists_differ(struct gi_test *a, struct gi_test *b, bool lit, con
         const uint32_t count = m[SDFGI_COUNTER_LIGHT_CELLS + c];
         if (count != n[SDFGI_COUNTER_LIGHT_CELLS + c])
             difference_add(&counts, c);
-        for (uint64_t i = c * room; i < c * room + count; i++)
-            if (x[i] != y[i] || (lit && p[i] != q[i]))
-                difference_add(&cells, i);
+        for (uint64_t i = 0; i < count; i++) {
+            const struct gi_test_direct of_a = gi_test_direct_at(p, room, c, i),
+                                        of_b = gi_test_direct_at(q, room, c, i);
+            if (x[c * room + i] != y[c * room + i] || (lit && memcmp(&of_a, &of_b, sizeof of_a) != 0))
+                difference_add(&cells, c * room + i);
+        }
     }
     free(x);
     free(y);

@@ -10,6 +10,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double home[3] = { 0.3, 0.2, -0.4 };
 
@@ -47,7 +48,8 @@ static void open_fresh(struct gi_test *fresh, const struct gi_test *walked, cons
 }
 
 struct entry {
-    uint32_t place, direct[2];
+    uint32_t place;
+    struct gi_test_direct direct;
 };
 
 static struct entry *read_list(struct gi_test *t, uint32_t *count)
@@ -55,11 +57,12 @@ static struct entry *read_list(struct gi_test *t, uint32_t *count)
     uint32_t *counters = gi_test_read(t, RESOURCE_COUNTERS, NULL);
     *count = counters[SDFGI_COUNTER_LIGHT_CELLS];
     free(counters);
+    const uint64_t room = t->gi->volume.resources->extent.light_cells;
     uint32_t *places = gi_test_read(t, RESOURCE_LIGHT_CELLS, NULL),
              *direct = gi_test_read(t, RESOURCE_DIRECT, NULL);
     struct entry *list = test_array_alloc(*count, sizeof *list);
     for (uint32_t i = 0; i < *count; i++)
-        list[i] = (struct entry){ places[i], { direct[2 * i], direct[2 * i + 1] } };
+        list[i] = (struct entry){ places[i], gi_test_direct_at(direct, room, 0, i) };
     free(places);
     free(direct);
     return list;
@@ -67,12 +70,12 @@ static struct entry *read_list(struct gi_test *t, uint32_t *count)
 
 static bool is_lit(const struct entry *e)
 {
-    return e->direct[0] != 0;
+    return e->direct.color != 0;
 }
 
 static bool same_direct(const struct entry *a, const struct entry *b)
 {
-    return a->direct[0] == b->direct[0] && a->direct[1] == b->direct[1];
+    return memcmp(&a->direct, &b->direct, sizeof a->direct) == 0;
 }
 
 /* Steps of 8 cells touch cells up to 16 from either end; further in, nothing is renewed. */

@@ -281,6 +281,12 @@ uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uin
            n * (((y + (uint32_t)wrap.y) & mask) + n * (((z + (uint32_t)wrap.z) & mask) + n * cascade));
 }
 
+struct gi_test_direct gi_test_direct_at(const uint32_t *copy, uint64_t room, uint32_t cascade, uint64_t entry)
+{
+    const uint32_t *words = copy + SDFGI_DIRECT_WORDS * cascade * room + entry;
+    return (struct gi_test_direct){ words[0], words[room], words[2 * room] & SDFGI_LIGHT_ALL };
+}
+
 uint32_t gi_test_light_entry(struct gi_test *t, uint32_t cascade, const uint32_t cell[static 3])
 {
     const uint32_t n = t->gi->settings.resolution, side = n / 4,

@@ -72,6 +72,13 @@ uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uin
 /* Index of a light cell in buffers with one element per entry of the light lists; the test fails if it is
  * none. */
 uint32_t gi_test_light_entry(struct gi_test *t, uint32_t cascade, const uint32_t cell[static 3]);
+/* Direct light of an entry of a cascade's list, in a copy of RESOURCE_DIRECT. */
+struct gi_test_direct {
+    uint32_t color, axes;
+    uint32_t lights; /* from which it comes, a bit each */
+};
+struct gi_test_direct gi_test_direct_at(const uint32_t *copy, uint64_t room, uint32_t cascade,
+                                        uint64_t entry);
 /* Distances in cells, N^3, x fastest; the caller frees them. */
 float *gi_test_distances(struct gi_test *t, uint32_t cascade);
 

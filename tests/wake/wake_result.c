@@ -215,35 +215,34 @@ static bool same_color(uint32_t a, uint32_t b)
     return true;
 }
 
-/* Two words of direct light: its colour, and that of the axes. */
-static bool same_direct(const uint32_t a[static 2], const uint32_t b[static 2], enum wake_direct direct)
+static bool same_direct(const struct gi_test_direct *a, const struct gi_test_direct *b,
+                        enum wake_direct direct)
 {
     if (direct == WAKE_DIRECT_ANY)
         return true;
-    return (direct == WAKE_DIRECT_EXACT ? a[0] == b[0] : same_color(a[0], b[0])) && a[1] == b[1];
+    return (direct == WAKE_DIRECT_EXACT ? a->color == b->color : same_color(a->color, b->color)) &&
+           a->axes == b->axes && a->lights == b->lights;
 }
 
-static const uint32_t *entry_of(const struct wake_result *result, enum resource resource, uint64_t words,
-                                uint64_t cascade, uint64_t entry)
+static const uint32_t *words_of(const struct wake_result *result, enum resource resource)
 {
-    const uint32_t *data = (const uint32_t *)(void *)result->data[resource];
-    return data + words * (cascade * result->room + entry);
+    return (const uint32_t *)(void *)result->data[resource];
 }
 
 static bool same_cells(const struct wake_result *a, const struct wake_result *b, enum wake_direct direct,
                        char text[static WAKE_TEXT])
 {
-    const uint32_t *counters = (const uint32_t *)(void *)b->data[RESOURCE_COUNTERS];
+    const uint32_t *counters = words_of(b, RESOURCE_COUNTERS);
     for (uint32_t c = 0; c < a->settings.cascades; c++)
         for (uint64_t i = 0; i < counters[SDFGI_COUNTER_LIGHT_CELLS + c]; i++) {
-            const uint32_t *x = entry_of(a, RESOURCE_LIGHT_CELLS, 1, c, i),
-                           *y = entry_of(b, RESOURCE_LIGHT_CELLS, 1, c, i),
-                           *p = entry_of(a, RESOURCE_DIRECT, 2, c, i),
-                           *q = entry_of(b, RESOURCE_DIRECT, 2, c, i);
-            if (*x != *y)
-                return differ(text, RESOURCE_LIGHT_CELLS, i, *x, *y);
-            if (!same_direct(p, q, direct))
-                return differ(text, RESOURCE_DIRECT, i, p[0], q[0]);
+            const uint32_t x = words_of(a, RESOURCE_LIGHT_CELLS)[c * a->room + i],
+                           y = words_of(b, RESOURCE_LIGHT_CELLS)[c * b->room + i];
+            const struct gi_test_direct p = gi_test_direct_at(words_of(a, RESOURCE_DIRECT), a->room, c, i),
+                                        q = gi_test_direct_at(words_of(b, RESOURCE_DIRECT), b->room, c, i);
+            if (x != y)
+                return differ(text, RESOURCE_LIGHT_CELLS, i, x, y);
+            if (!same_direct(&p, &q, direct))
+                return differ(text, RESOURCE_DIRECT, i, p.color, q.color);
         }
     return true;
 }

@@ -10,7 +10,7 @@
 
 /* A list may grow to this share of all cells, or of 128^3 cells in smaller cascades. With the defaults a
  * cascade takes just under 64 MiB, scratch included, and just under 100 MiB with the longest list. */
-#define LIGHT_CELL_SHARE (61.0 / 512)
+#define LIGHT_CELL_SHARE (60.0 / 512)
 
 double sdfgi_settings_y_scale(const struct sdfgi_settings *settings)
 {

@@ -39,6 +39,7 @@ struct frame {
     struct volume_state next; /* the state once this frame is recorded */
     struct scroll_plan scroll;
     struct situation situation;
+    struct light_bits lights; /* that have changed; all: each cell is lit again */
     struct work_list work;
     struct gather_range gathers[SDFGI_MAX_CASCADES];
     uint32_t gather_count;

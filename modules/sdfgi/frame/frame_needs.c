@@ -82,16 +82,16 @@ static bool needs_blend(const struct situation *s)
     return !s->converged && s->shows && !s->light_waits;
 }
 
-/* Light of cells that stay changes: with the lights, with the rays of the cells, or with the probes. */
-static bool bounces(const struct situation *s)
+/* What arrives at cells that stay changes: with their own rays, or with the probes. */
+static bool needs_arriving(const struct situation *s)
 {
-    const bool follows = s->gathering ? s->gathers : needs_blend(s);
-    return !s->converged && (follows || (s->lights_changed && s->lists_stay));
+    return !s->converged && (s->gathering ? s->gathers : needs_blend(s));
 }
 
 static bool needs_light(const struct situation *s)
 {
-    return bounces(s) || (!s->converged && needs_list(s));
+    const bool lists = needs_list(s), lights = s->lights_changed && s->lists_stay;
+    return needs_arriving(s) || (!s->converged && (lists || lights));
 }
 
 static bool needs_rescale(const struct situation *s)
@@ -113,7 +113,7 @@ static bool needs_cells(const struct situation *s)
 
 static bool needs_filter(const struct situation *s)
 {
-    return s->cells && bounces(s);
+    return s->cells && needs_arriving(s);
 }
 
 static const struct need_row needs[NEED_COUNT] = {

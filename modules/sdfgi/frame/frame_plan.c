@@ -43,8 +43,12 @@ static void take_input(struct frame *frame, const struct frame_input *input)
     sdfgi_volume_apply_journal(input->journal, next);
     memcpy(next->origin, desc->origin, sizeof next->origin);
     take_seed(next, desc->seed, first);
-    frame->situation.lights_changed =
-        first || frame->situation.gains_digits || (input->journal->notes & JOURNAL_LIGHTS);
+    const bool all_change = first || frame->situation.gains_digits;
+    frame->lights =
+        all_change ? (struct light_bits){ SDFGI_LIGHT_ALL, SDFGI_LIGHT_ALL } : input->journal->lights;
+    frame->situation.lights_changed = frame->lights.changed != 0;
+    if (frame->situation.lights_changed)
+        sdfgi_relight_count(&next->relight);
     if (first || (input->journal->notes & JOURNAL_MATERIALS))
         frame->uploads |= FRAME_UPLOAD_MATERIALS;
 }
@@ -129,7 +133,7 @@ static void plan_relight(struct frame *frame, const struct frame_input *input)
         frame->situation.lists_stay = frame->situation.lists_stay || relists[c] != RELIST_NEW;
     frame->situation.has_lights = input->scene->lights.count > 0;
     sdfgi_relight_note(&frame->next.relight, &input->lists, relists,
-                       frame->situation.lights_changed || !frame->situation.has_lights);
+                       sdfgi_frame_lights_all(frame) || !frame->situation.has_lights);
     frame->situation.relights = sdfgi_relight_is_due(&frame->next.relight);
 }
 

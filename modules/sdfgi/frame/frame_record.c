@@ -22,7 +22,7 @@ static void upload_lights(struct pass_recorder *r, const struct volume_state *st
     for (uint32_t i = 0; i < lights->end; i++) {
         const struct light *light = sdfgi_pool_at(lights, i);
         if (light)
-            batch[filled++] = sdfgi_params_of_light(state, &light->desc);
+            batch[filled++] = sdfgi_params_of_light(state, i, &light->desc);
         if (filled == BATCH || (i + 1 == lights->end && filled > 0)) {
             upload(r, RESOURCE_LIGHTS, done * sizeof *batch, filled * sizeof *batch, batch);
             done += filled;

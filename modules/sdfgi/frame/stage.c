@@ -70,6 +70,11 @@ void sdfgi_stage_forget_watched(const struct plan_stage *stage, uint32_t c)
     sdfgi_gathering_forget_hit(&stage->frame->next.gathering, c);
 }
 
+bool sdfgi_frame_lights_all(const struct frame *frame)
+{
+    return frame->lights.moved == SDFGI_LIGHT_ALL;
+}
+
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t c)
 {
     const struct cascade *cascade = &frame->next.cascades.at[c];

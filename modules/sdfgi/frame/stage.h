@@ -52,6 +52,8 @@ void sdfgi_stage_forget_seen(const struct plan_stage *stage, uint32_t cascade);
 void sdfgi_stage_forget_hit(const struct plan_stage *stage, uint32_t cascade);
 void sdfgi_stage_forget_watched(const struct plan_stage *stage, uint32_t cascade);
 
+/* True if lights have changed in such a way that all cells are lit again. */
+bool sdfgi_frame_lights_all(const struct frame *frame);
 /* What happens to the light list of a cascade. */
 enum relist sdfgi_frame_relist(const struct frame *frame, uint32_t cascade);
 

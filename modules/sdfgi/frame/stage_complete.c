@@ -58,9 +58,11 @@ static void add_dirty(const struct plan_stage *stage, enum pass pass, uint32_t c
 
 static void add_direct(const struct plan_stage *stage, uint32_t c)
 {
-    const union work_args args = {
-        .light_direct = { .cascade = c, .only_dirty = 1, .threads_per_ray = stage->input->threads_per_ray }
-    };
+    const union work_args args = { .light_direct = { .cascade = c,
+                                                     .only_dirty = 1,
+                                                     .threads_per_ray = stage->input->threads_per_ray,
+                                                     .changed = SDFGI_LIGHT_ALL,
+                                                     .moved = SDFGI_LIGHT_ALL } };
     add_dirty(stage, PASS_LIGHT_DIRECT, c, SDFGI_INDIRECT_DIRECT, &args);
 }
 

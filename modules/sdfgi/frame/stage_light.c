@@ -2,14 +2,18 @@
  * Stages 6 and 7 for all cascades: direct light that changed, rays, probes, light that bounces. */
 #include "stage.h"
 
-/* Lights ranges of several cascades in one dispatch. */
-static void add_direct(const struct plan_stage *stage, const struct relight_range *ranges, uint32_t count)
+/* Lights ranges of several cascades in one dispatch, as far as lights that have changed reach. */
+static void add_direct(const struct plan_stage *stage, const struct relight_range *ranges, uint32_t count,
+                       const struct light_bits *lights, uint32_t lit)
 {
     if (count == 0)
         return;
     struct work *work = sdfgi_stage_add(stage, PASS_LIGHT_DIRECT, 0);
     struct sdfgi_light_direct_args *args = &work->args.light_direct;
     args->threads_per_ray = stage->input->threads_per_ray;
+    args->changed = lights->changed;
+    args->moved = lights->moved;
+    args->lit = lit;
     for (uint32_t i = 0; i < count; i++) {
         const struct relight_range *range = &ranges[i];
         args->first[range->cascade] = range->first;
@@ -95,7 +99,15 @@ static void bounce_all(const struct plan_stage *stage)
     }
 }
 
-/* Lights changed: all cells that were there before. */
+/* What leaves cells that this frame has lit directly. What arrives does not change. */
+static void bounce_lit(const struct plan_stage *stage)
+{
+    struct work *work = add_bounce(stage);
+    work->args.light_bounce.lit = stage->frame->next.relight.lit;
+    run_over_all(stage, work, work->args.light_bounce.end);
+}
+
+/* Lights changed: cells that were there before, as far as these reach. */
 static void light_directly(const struct plan_stage *stage)
 {
     const struct frame *frame = stage->frame;
@@ -107,19 +119,20 @@ static void light_directly(const struct plan_stage *stage)
         const uint32_t entries = sdfgi_light_list_entries(&frame->next.relight, &stage->input->lists, c);
         ranges[count++] = (struct relight_range){ c, 0, entries };
     }
-    add_direct(stage, ranges, count);
+    add_direct(stage, ranges, count, &frame->lights, frame->next.relight.lit);
     if (count > 0)
-        bounce_all(stage);
+        bounce_lit(stage);
 }
 
 /* Lights this frame's part of the cells again on which shadows may have changed. */
 static void relight(const struct plan_stage *stage)
 {
     struct frame *frame = stage->frame;
+    static const struct light_bits all = { SDFGI_LIGHT_ALL, SDFGI_LIGHT_ALL };
     struct relight_range ranges[SDFGI_MAX_CASCADES];
     const uint32_t count = sdfgi_relight_take(&frame->next.relight, &stage->input->lists,
                                               frame->situation.scroll_completes, ranges);
-    add_direct(stage, ranges, count);
+    add_direct(stage, ranges, count, &all, 0);
     if (count > 0)
         sdfgi_accumulation_invalidate(&frame->next.accumulation);
 }
@@ -218,7 +231,7 @@ static void trace(const struct plan_stage *stage)
     const uint32_t first = sdfgi_stage_begin_group(stage);
     add_probe_trace(stage);
     gather(stage);
-    if (stage->needs->holds[NEED_DIRECT] && !stage->frame->situation.lights_changed)
+    if (stage->needs->holds[NEED_DIRECT] && !sdfgi_frame_lights_all(stage->frame))
         relight(stage);
     sdfgi_stage_end_group(stage, first);
     if (stage->frame->situation.gathers && sdfgi_gathering_forgets_seen(&stage->frame->next.gathering))

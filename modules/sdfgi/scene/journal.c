@@ -1,10 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 #include "journal.h"
 
+#include "shaders/shared/constants.h"
+
+uint32_t sdfgi_light_bit(uint32_t slot)
+{
+    return 1u << slot % SDFGI_LIGHT_BITS;
+}
+
 void sdfgi_journal_note(struct journal *journals, enum journal_note note)
 {
     for (struct journal *j = journals; j; j = j->next)
         j->notes |= (uint32_t)note;
+}
+
+static void add_bits(struct light_bits *bits, const struct light_bits *others)
+{
+    bits->changed |= others->changed;
+    bits->moved |= others->moved;
+}
+
+void sdfgi_journal_note_light(struct journal *journals, const struct light_bits *bits)
+{
+    sdfgi_journal_note(journals, JOURNAL_LIGHTS);
+    for (struct journal *j = journals; j; j = j->next)
+        add_bits(&j->lights, bits);
 }
 
 void sdfgi_journal_add_box(struct journal *journals, const struct box *box)
@@ -24,6 +44,7 @@ void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlie
     *journal = *earlier;
     journal->next = later.next;
     journal->notes |= later.notes;
+    add_bits(&journal->lights, &later.lights);
     for (uint32_t i = 0; i < later.box_count; i++)
         sdfgi_box_list_add(journal->boxes, &journal->box_count, JOURNAL_BOXES, &later.boxes[i]);
 }
@@ -31,5 +52,6 @@ void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlie
 void sdfgi_journal_clear(struct journal *journal)
 {
     journal->notes = 0;
+    journal->lights = (struct light_bits){ 0 };
     journal->box_count = 0;
 }

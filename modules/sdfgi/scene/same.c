@@ -22,13 +22,18 @@ bool sdfgi_same_transform(const struct sdfgi_transform *a, const struct sdfgi_tr
     return same_floats(a->basis, b->basis, 9) && same_doubles(a->translation, b->translation, 3);
 }
 
-bool sdfgi_same_light(const struct sdfgi_light_desc *a, const struct sdfgi_light_desc *b)
+bool sdfgi_same_reach(const struct sdfgi_light_desc *a, const struct sdfgi_light_desc *b)
 {
     return a->type == b->type && same_doubles(a->position, b->position, 3) &&
-           same_floats(a->direction, b->direction, 3) && same_floats(a->intensity, b->intensity, 3) &&
-           a->range_m == b->range_m && a->inner_angle_rad == b->inner_angle_rad &&
-           a->outer_angle_rad == b->outer_angle_rad && a->indirect_energy == b->indirect_energy &&
+           same_floats(a->direction, b->direction, 3) && a->range_m == b->range_m &&
+           a->inner_angle_rad == b->inner_angle_rad && a->outer_angle_rad == b->outer_angle_rad &&
            a->casts_shadow == b->casts_shadow;
+}
+
+bool sdfgi_same_light(const struct sdfgi_light_desc *a, const struct sdfgi_light_desc *b)
+{
+    return sdfgi_same_reach(a, b) && same_floats(a->intensity, b->intensity, 3) &&
+           a->indirect_energy == b->indirect_energy;
 }
 
 bool sdfgi_same_sky(const struct sdfgi_sky *a, const struct sdfgi_sky *b)

@@ -228,7 +228,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     fill_cycle(p, state, input->settings);
 }
 
-struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state,
+struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state, uint32_t slot,
                                                 const struct sdfgi_light_desc *l)
 {
     /* Squares of floats fit a double, however long or short the vector. */
@@ -245,6 +245,7 @@ struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state
         .intensity = scaled(l->intensity, l->indirect_energy * ldexpf(1, state->exposure.stored)),
         .cone_scale = 1 / fmaxf(cos_inner - cos_outer, 1e-4f),
         .kind = (uint32_t)l->type | (l->casts_shadow ? SDFGI_LIGHT_CASTS_SHADOW : 0),
+        .bit = sdfgi_light_bit(slot),
     };
 }
 

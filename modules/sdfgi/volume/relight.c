@@ -11,6 +11,11 @@ void sdfgi_relight_init(struct relight *relight)
     *relight = (struct relight){ .budget = RELIGHT_CELLS };
 }
 
+void sdfgi_relight_count(struct relight *relight)
+{
+    relight->lit = relight->lit % SDFGI_LIGHT_MOST_LIT + 1;
+}
+
 uint32_t sdfgi_light_list_entries(const struct relight *relight, const struct light_lists *lists, uint32_t c)
 {
     const bool known = lists->frame >= relight->at[c].listed_at + lists->frames_in_flight;

@@ -25,6 +25,7 @@ struct relight {
     uint32_t cascade; /* whose turn it is */
     uint32_t waits;   /* frames in a row that have put it off */
     uint32_t budget;  /* cells a frame */
+    uint32_t lit;     /* number of the last change of lights, from 1 to SDFGI_LIGHT_MOST_LIT */
 };
 
 /* The light lists, as far as the host knows them. */
@@ -49,6 +50,8 @@ struct relight_range {
 };
 
 void sdfgi_relight_init(struct relight *relight);
+/* Counts a change of lights. */
+void sdfgi_relight_count(struct relight *relight);
 /* Entries of a list: as counted, once the count of this list has come back; until then all that it has room
  * for. */
 uint32_t sdfgi_light_list_entries(const struct relight *relight, const struct light_lists *lists,

@@ -125,7 +125,7 @@ struct params_input {
 };
 void sdfgi_params_fill(struct sdfgi_frame_params *params, const struct volume_state *state,
                        const struct params_input *input);
-struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state,
+struct sdfgi_light_params sdfgi_params_of_light(const struct volume_state *state, uint32_t slot,
                                                 const struct sdfgi_light_desc *light);
 struct sdfgi_instance_params sdfgi_params_of_instance(const struct cascades *cascades,
                                                       const struct scene *scene,
