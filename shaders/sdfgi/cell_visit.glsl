@@ -395,7 +395,8 @@ void end_visit(uint cascade, uint number)
     gathered_state state = own.state;
     const gather_cycle cycle = cycle_of(cascade, own);
     const gathered_noise noise = gathered_load_noise(cascade, own.entry);
-    gathered_store_noise(cascade, own.entry, gathered_add_noise(state, noise, found.noise, cycle.ends));
+    const uint mean = cycle.ends ? cycle.mean : GATHERED_NOTHING;
+    gathered_store_noise(cascade, own.entry, gathered_add_noise(state, noise, found.noise, mean));
     state.visits++;
     if (cycle.ends)
         state = gathered_state(0u, gather_cycle_mean(cycle, own.state, found.change),

@@ -163,19 +163,36 @@ bool gathered_mixes(gathered_state state)
     return state.mean == GATHERED_FIRST || state.mean == GATHERED_GOES_ON;
 }
 
-/* Noise of one visit in a first cycle, whatever its rays found: rays that would have found more may come. */
+/* Noise of one visit in a first cycle, whatever its rays found: rays that would have found more may come. The
+ * last two visits count most. */
 const float GATHERED_NOISE_OF_VISIT = 0.5;
 
-/* Noise after a visit that found `found`; `state` is the one before it. In a first cycle the last two visits
- * count most. After it each visit adds to its mean, as in a first long cycle. */
-gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, float found, bool ends_cycle)
+/* Noise that the mean of a first cycle has at least, for the same reason, with so many visits after it. Cells
+ * that have missed what is bright take themselves for sure, and would show as dark spots. */
+float gathered_least_noise(float visits)
+{
+    const float share = GATHERED_FIRST_VISITS / (GATHERED_FIRST_VISITS + visits);
+    return 0.5 * GATHERED_NOISE_OF_VISIT * share * share * share;
+}
+
+/* Noise after a visit that found `found`; `state` is the one before it. `mean`: what the cycle makes that
+ * ends with the visit, or GATHERED_NOTHING. After a first cycle each visit adds to its mean, as in a first
+ * long cycle. */
+gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, float found, uint mean)
 {
     const float visits = float(state.visits + 1u);
+    const bool is_first = state.mean < GATHERED_FIRST, goes_on = mean == GATHERED_NOTHING;
     noise.sum = found + (state.visits > 0u ? noise.sum : 0.0);
-    if (ends_cycle)
-        noise.shown = noise.sum / visits / (state.mean < GATHERED_FIRST ? GATHERED_FIRST_VISITS : visits);
-    else if (state.mean < GATHERED_FIRST)
+    const float of_visit = noise.sum / visits;
+    if (is_first && goes_on)
         noise.shown = GATHERED_NOISE_OF_VISIT / min(visits, 2.0);
+    else if (is_first)
+        noise.shown =
+            max(of_visit / GATHERED_FIRST_VISITS, mean == GATHERED_FIRST ? gathered_least_noise(0.0) : 0.0);
+    else if (!goes_on)
+        noise.shown = of_visit / visits;
+    else if (state.mean == GATHERED_FIRST)
+        noise.shown = max(of_visit / (GATHERED_FIRST_VISITS + visits), gathered_least_noise(visits));
     else if (gathered_mixes(state))
         noise.shown *= 1.0 - 1.0 / (visits + gathered_worth(state));
     return noise;

@@ -288,15 +288,15 @@ static void few_rays_leave_no_marble(void **state)
     REQUIRE_CMP(noise, <=, 0.075);
 }
 
-/* Noise grows nowhere after the seventh visit, and falls on the way to the end of the second cycle. Measured,
- * of that visit's: 0.98 and 0.53, on lavapipe and on a GPU. */
+/* Noise grows nowhere after the seventh visit, is low throughout the second cycle, whose first visits alone
+ * tell little, and stays so. Measured, of that visit's: 0.73, 0.52 and 0.53. */
 static void noise_falls_from_visit_to_visit(void **state)
 {
     (void)state;
     enum { BEFORE = 3, VISITS = 4 * SDFGI_ROUGH_VISITS, IN_FIRST = SDFGI_ROUGH_VISITS - 2 };
     struct gi_test t;
     float found[FLOOR_POINTS][3];
-    double noise[VISITS], most = 0;
+    double noise[VISITS], most = 0, second = 0;
     open_room_with_a_spot(&t, 512);
     gi_test_update(&t, BEFORE);
     for (int i = BEFORE; i < VISITS; i++) {
@@ -306,10 +306,13 @@ static void noise_falls_from_visit_to_visit(void **state)
         printf(" %.2f", 100 * noise[i]);
         if (i > IN_FIRST)
             most = fmax(most, noise[i]);
+        if (i >= SDFGI_ROUGH_VISITS && i < 2 * SDFGI_ROUGH_VISITS)
+            second += noise[i] / SDFGI_ROUGH_VISITS;
     }
-    printf(" %% after each visit\n");
+    printf(" %% after each visit; %.2f in the second cycle\n", 100 * second);
     gi_test_close(&t);
     REQUIRE_CMP(most, <=, noise[IN_FIRST]);
+    REQUIRE_CMP(second, <=, 0.65 * noise[IN_FIRST]);
     REQUIRE_CMP(noise[VISITS - 1], <=, 0.6 * noise[IN_FIRST]);
 }
 
