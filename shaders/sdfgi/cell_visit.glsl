@@ -120,12 +120,17 @@ bool looks_for_changes(uint own)
 /* True if a ray, of so many cells of its cascade, crosses a place where geometry has changed. */
 bool crosses_edit(uint cascade, vec3 from, vec3 dir, float range)
 {
-    const vec3 low = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited_low) - from,
-               high = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited_high) - from,
-               inv_dir = 1.0 / sdfgi_nonzero(sdfgi_cells_from_metric(dir));
-    const vec3 a = low * inv_dir, b = high * inv_dir, near = min(a, b), far = max(a, b);
-    const float enters = max(max(near.x, near.y), max(near.z, 0.0)), leaves = min(far.x, min(far.y, far.z));
-    return sdfgi_frame.edited_low.x <= sdfgi_frame.edited_high.x && enters <= min(leaves, range + 1.0);
+    const vec3 inv_dir = 1.0 / sdfgi_nonzero(sdfgi_cells_from_metric(dir));
+    bool crosses = false;
+    for (uint i = 0u; i < sdfgi_frame.edited_count && !crosses; i++) {
+        const vec3 low = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited[i].low) - from,
+                   high = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited[i].high) - from;
+        const vec3 a = low * inv_dir, b = high * inv_dir, near = min(a, b), far = max(a, b);
+        const float enters = max(max(near.x, near.y), max(near.z, 0.0)),
+                    leaves = min(far.x, min(far.y, far.z));
+        crosses = enters <= min(leaves, range + 1.0);
+    }
+    return crosses;
 }
 
 /* Wakes a cell if its ray crosses such a place. */

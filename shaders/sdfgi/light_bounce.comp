@@ -120,6 +120,13 @@ uint packed_light(surface_light light)
                        : SDFGI_SURFACE_UNKNOWN;
 }
 
+/* True if lookups show what arrives without the filter: where there is none, and until the filter comes to a
+ * surface that is new. One that was there before shows what the filter has made of it. */
+bool shows_at_once(uint index)
+{
+    return !gathers() || args.only_dirty != 0u && sdfgi_surfaces_at(index) >= SDFGI_SURFACE_UNKNOWN;
+}
+
 void bounce(uint cascade, uint entry, bool asks)
 {
     const uint slot = light_cell_slot(cascade, entry);
@@ -164,7 +171,7 @@ void bounce(uint cascade, uint entry, bool asks)
     for (uint a = 0u; a < 6u; a++) {
         if (gathers())
             sdfgi_gathered[gathered_word(cascade, GATHERED_RAW + a, entry)] = arriving[a];
-        if (!gathers() || args.only_dirty != 0u)
+        if (shows_at_once(sdfgi_surface_index(cascade, entry, a)))
             sdfgi_surfaces[sdfgi_surface_index(cascade, entry, a)] = arriving[a];
     }
     light_fill_axes(facing, axes);

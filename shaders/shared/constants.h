@@ -57,6 +57,8 @@
 
 /* Set in the second word of the direct light of every light cell. */
 #define SDFGI_LIGHT_VALID 0x40000000u
+/* Boxes around geometry that has changed, for rays that tell whether they cross one. */
+#define SDFGI_EDITED_BOXES 8
 /* Words of the direct light of a light cell: see sdfgi/light_cells.glsl. */
 #define SDFGI_DIRECT_WORDS 3
 /* Bits of lights, and a mask of all; a number above them tells when lights lit a cell. */

@@ -15,6 +15,15 @@ struct sdfgi_dirty_box {
 };
 SDFGI_ASSERT_SIZE(sdfgi_dirty_box, 32);
 
+/* In cell space of cascade 0. */
+struct sdfgi_edited_box {
+    vec3 low;
+    uint padding_0;
+    vec3 high;
+    uint padding_1;
+};
+SDFGI_ASSERT_SIZE(sdfgi_edited_box, 32);
+
 /* Cell space of a cascade: (0, 0, 0) is its low corner, one unit is one cell along each axis; a cell is as
  * high as y_scale times its width. Metric lengths inside a cascade are counted in cell widths. */
 struct sdfgi_cascade_params {
@@ -62,11 +71,6 @@ struct sdfgi_frame_params {
     uint up_axis; /* enum sdfgi_up_axis. Bit 0: up is along Z, not Y; bit 1: against it */
     vec3 sky_ground;
     uint has_metal; /* 1: a material is metal that reflects what it sees */
-    /* Around geometry that has changed in the last epochs, in cell space of cascade 0; low > high: none. */
-    vec3 edited_low;
-    uint epoch; /* changes of a time: see sdfgi/gathered.glsl */
-    vec3 edited_high;
-    uint epoch_of_all; /* the last one that changed the light of all light cells */
     float y_scale;  /* height of a cell over its width */
     float exposure;
     float exposure_inverse; /* 1 / exposure */
@@ -92,10 +96,15 @@ struct sdfgi_frame_params {
     float rays_blend;      /* roughness from which on reflections blend into irradiance */
     float rays_end;        /* roughness from which on they are irradiance; above rays_blend */
     uint next_epoch;       /* to which belongs what changes in this frame */
-    uint padding_0, padding_1, padding_2;
+    uint epoch;            /* changes of a time: see sdfgi/gathered.glsl */
+    uint epoch_of_all;     /* the last one that changed the light of all light cells */
+    uint edited_count;     /* boxes in `edited` */
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
+    /* Around geometry that has changed in the last epochs. */
+    SDFGI_STRUCT(sdfgi_edited_box) edited[SDFGI_EDITED_BOXES];
 };
-SDFGI_ASSERT_SIZE(sdfgi_frame_params, SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 21 * 16);
+SDFGI_ASSERT_SIZE(sdfgi_frame_params,
+                  SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 19 * 16 + 32 * SDFGI_EDITED_BOXES);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

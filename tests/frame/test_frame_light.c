@@ -309,6 +309,29 @@ static void a_count_is_known_once_its_frame_has_come_back(void **state)
     REQUIRE_CMP(sdfgi_light_list_entries(&relight, &lists, 0), ==, (uint32_t)ROOM);
 }
 
+/* An edit in each frame: no count is that of the newest list. */
+static void while_edits_go_on_a_list_is_expected_to_be_as_long_as_before(void **state)
+{
+    (void)state;
+    struct relight relight = small_relight();
+    struct light_lists lists = lists_of(1, 8000);
+    struct lit lit = { 0 };
+    enum relist anew[SDFGI_MAX_CASCADES] = { RELIST_NEW };
+    lists.room = 50000;
+    sdfgi_relight_note(&relight, &lists, anew, true);
+    for (uint32_t i = 0; i < IN_FLIGHT; i++, lists.frame++)
+        REQUIRE_CMP(sdfgi_light_list_expected(&relight, &lists, 0), ==, 50000u);
+    for (uint32_t i = 0; i < 5; i++) {
+        frame(&relight, &lists, RELIST_DIRTY, 0, &lit);
+        REQUIRE_CMP(sdfgi_light_list_entries(&relight, &lists, 0), ==, 50000u);
+        REQUIRE_CMP(sdfgi_light_list_expected(&relight, &lists, 0), ==, 8000u + 1000 + 1024);
+    }
+    lists.counted[0] = 49000;
+    REQUIRE_CMP(sdfgi_light_list_expected(&relight, &lists, 0), ==, 50000u);
+    lists.frame += IN_FLIGHT;
+    REQUIRE_CMP(sdfgi_light_list_expected(&relight, &lists, 0), ==, 49000u);
+}
+
 static void of_busy_frames_every_fourth_lights_cells(void **state)
 {
     (void)state;
@@ -361,6 +384,7 @@ int main(void)
         cmocka_unit_test(shadows_fall_on_finer_cascades),
         cmocka_unit_test(nothing_waits_where_all_cells_are_lit_anyway),
         cmocka_unit_test(a_count_is_known_once_its_frame_has_come_back),
+        cmocka_unit_test(while_edits_go_on_a_list_is_expected_to_be_as_long_as_before),
         cmocka_unit_test(of_busy_frames_every_fourth_lights_cells),
         cmocka_unit_test(lists_that_change_at_random_are_lit_in_the_end),
     };

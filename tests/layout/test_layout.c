@@ -50,10 +50,14 @@
     X(sdfgi_frame_params, up_axis)                                                                           \
     X(sdfgi_frame_params, sky_ground)                                                                        \
     X(sdfgi_frame_params, has_metal)                                                                         \
-    X(sdfgi_frame_params, edited_low)                                                                        \
     X(sdfgi_frame_params, epoch)                                                                             \
-    X(sdfgi_frame_params, edited_high)                                                                       \
     X(sdfgi_frame_params, epoch_of_all)                                                                      \
+    X(sdfgi_frame_params, edited_count)                                                                      \
+    X(sdfgi_frame_params, edited)                                                                            \
+    X(sdfgi_edited_box, low)                                                                                 \
+    X(sdfgi_edited_box, padding_0)                                                                           \
+    X(sdfgi_edited_box, high)                                                                                \
+    X(sdfgi_edited_box, padding_1)                                                                           \
     X(sdfgi_frame_params, y_scale)                                                                           \
     X(sdfgi_frame_params, exposure)                                                                          \
     X(sdfgi_frame_params, exposure_inverse)                                                                  \
@@ -79,9 +83,6 @@
     X(sdfgi_frame_params, rays_blend)                                                                        \
     X(sdfgi_frame_params, rays_end)                                                                          \
     X(sdfgi_frame_params, next_epoch)                                                                        \
-    X(sdfgi_frame_params, padding_0)                                                                         \
-    X(sdfgi_frame_params, padding_1)                                                                         \
-    X(sdfgi_frame_params, padding_2)                                                                         \
     X(sdfgi_frame_params, sky_harmonics)                                                                     \
     X(sdfgi_light_params, position)                                                                          \
     X(sdfgi_light_params, range_m)                                                                           \

@@ -356,23 +356,53 @@ static void a_local_change_begins_an_epoch_for_those_that_it_reaches(void **stat
     sdfgi_gathering_change(&s.gathering, NULL);
     begin_epoch(&s);
     REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
-    REQUIRE_TRUE(s.gathering.edited_last.min[0] > s.gathering.edited_last.max[0]);
+    REQUIRE_CMP(s.gathering.edited_last.count, ==, 0u);
     sdfgi_gathering_change(&s.gathering, &here);
     sdfgi_gathering_change(&s.gathering, &there);
     begin_epoch(&s);
-    const struct box both = { { 0, 0, 0 }, { 5, 1, 1 } };
-    REQUIRE_BYTES(&s.gathering.edited_last, &both, sizeof both);
+    REQUIRE_CMP(s.gathering.edited_last.count, ==, 2u);
+    REQUIRE_BYTES(&s.gathering.edited_last.boxes[0], &here, sizeof here);
+    REQUIRE_BYTES(&s.gathering.edited_last.boxes[1], &there, sizeof there);
     REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
     sdfgi_gathering_change(&s.gathering, &here);
     sdfgi_gathering_outdate(&s.gathering);
     begin_epoch(&s);
     REQUIRE_CMP(s.gathering.epoch_of_all, ==, 4u);
-    REQUIRE_BYTES(&s.gathering.edited_last, &here, sizeof here);
+    REQUIRE_CMP(s.gathering.edited_last.count, ==, 1u);
+    REQUIRE_BYTES(&s.gathering.edited_last.boxes[0], &here, sizeof here);
+}
+
+static bool holds(const struct box *box, const struct box *other)
+{
+    const struct box both = sdfgi_box_around(box, other);
+    return memcmp(&both, box, sizeof both) == 0;
+}
+
+/* Three things move in small steps, far from each other; the last one is flat, and comes late. */
+static void boxes_of_what_moves_stay_apart(void **state)
+{
+    (void)state;
+    enum { STEPS = 40, THINGS = 3 };
+    struct box_cover cover = { .count = 0 };
+    for (int step = 0; step < STEPS; step++)
+        for (int i = 0; i < (step < STEPS / 2 ? THINGS - 1 : THINGS); i++) {
+            const double x = 20 * i, z = 0.1 * step;
+            const struct box box = { { x, 0, z }, { x + 1, i < 2 ? 2 : 0, z + 1 } };
+            bool held = false;
+            sdfgi_box_cover_add(&cover, &box);
+            for (uint32_t k = 0; k < cover.count; k++)
+                held = held || holds(&cover.boxes[k], &box);
+            REQUIRE_TRUE(held);
+        }
+    REQUIRE_CMP(cover.count, ==, (uint32_t)COVER_BOXES);
+    for (uint32_t k = 0; k < cover.count; k++)
+        REQUIRE_CMP(cover.boxes[k].max[0] - cover.boxes[k].min[0], ==, 1.0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(boxes_of_what_moves_stay_apart),
         cmocka_unit_test(near_cascades_get_most_of_the_budget),
         cmocka_unit_test(a_sweep_visits_each_cell_once),
         cmocka_unit_test(a_cycle_ends_with_its_last_visit),

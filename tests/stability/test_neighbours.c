@@ -12,6 +12,7 @@
 #define HALF_M  1.2
 #define HERE_M  -1.5
 #define THERE_M 1.5
+#define THIRD_M 3.0 /* from one of three rooms to the next */
 
 enum { SIDE = 8, POINTS = SIDE * SIDE, SETTLE = 120, WATCHED = 40, PERIOD = 4 };
 
@@ -47,6 +48,14 @@ static void open_rooms(struct stage *s)
     light_create(&s->t, &here);
     s->lamp = light_create(&s->t, &there);
     gi_test_update(&s->t, SETTLE);
+}
+
+static void start_anew(struct stage *s)
+{
+    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    settings.cell_rays = 32 * SDFGI_VISIT_RAYS; /* a complete cycle in 32 frames */
+    gi_test_restart(&s->t, &settings);
 }
 
 /* Irradiance of a room's floor. */
@@ -98,34 +107,65 @@ static void move(struct stage *s, int step)
     place_box(s, step % 2 ? -0.9 : 0.3);
 }
 
-/* Watches this room while the other one changes. Returns by how much light has changed here at most. */
-static double watch(struct stage *s, const char *name, void (*disturb)(struct stage *, int))
+/* Watches the room at `x` while another one changes, every so many frames. Returns by how much light has
+ * changed here at most. */
+static double watch(struct stage *s, const char *name, double x, int period,
+                    void (*disturb)(struct stage *, int))
 {
     double most = 0, last = 0;
-    look(s, HERE_M, s->before);
+    look(s, x, s->before);
     for (int i = 0; i < WATCHED; i++) {
-        if (i % PERIOD == 0)
-            disturb(s, i / PERIOD);
+        if (i % period == 0)
+            disturb(s, i / period);
         gi_test_update(&s->t, 1);
-        look(s, HERE_M, s->now);
+        look(s, x, s->now);
         last = change(s);
         most = fmax(most, last);
     }
-    printf("%s next door: light here changes by %.5f at most, by %.5f at last\n", name, most, last);
+    printf("%s: light here changes by %.5f at most, by %.5f at last\n", name, most, last);
     return most;
 }
 
 static void a_lamp_that_flickers_next_door_changes_nothing_here(void **state)
 {
     (void)state;
-    REQUIRE_CMP(watch(&stage, "a lamp that flickers", flicker), <=, 0.004);
+    REQUIRE_CMP(watch(&stage, "a lamp that flickers next door", HERE_M, PERIOD, flicker), <=, 0.004);
 }
 
 static void what_moves_next_door_changes_nothing_here(void **state)
 {
     (void)state;
-    REQUIRE_CMP(watch(&stage, "a box that moves", move), <=, 0.004);
+    REQUIRE_CMP(watch(&stage, "a box that moves next door", HERE_M, PERIOD, move), <=, 0.004);
     REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, stage.box), ==, (int)SDFGI_OK);
+}
+
+/* Two boxes walk, one in either room, a step at a time: there is no end to the places where something was. */
+static void walk(struct stage *s, int step)
+{
+    static sdfgi_instance walkers[2];
+    const struct sdfgi_transform at = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 },
+                                        .translation = { 0, 0, 0.05 * step } };
+    for (int i = 0; i < 2; i++) {
+        const double x = (i == 0 ? -THIRD_M : THIRD_M) - 0.3;
+        if (step == 0)
+            walkers[i] = light_add_box(&s->t, (double[]){ x, -HALF_M, -0.9 }, (double[]){ x + 0.5, 0, -0.5 },
+                                       (float[]){ 0.7f, 0.2f, 0.1f }, 0);
+        REQUIRE_CMP((int)sdfgi_instance_set_transform(s->t.gi, walkers[i], &at), ==, (int)SDFGI_OK);
+    }
+}
+
+/* A closed room between them. */
+static void what_moves_on_both_sides_changes_nothing_between(void **state)
+{
+    (void)state;
+    start_anew(&stage);
+    for (int i = -1; i <= 1; i++) {
+        const struct sdfgi_light_desc lamp = lamp_at(THIRD_M * i, 4);
+        add_room(&stage, THIRD_M * i);
+        light_create(&stage.t, &lamp);
+    }
+    gi_test_update(&stage.t, SETTLE);
+    REQUIRE_CMP(watch(&stage, "boxes that walk on both sides", 0, 1, walk), <=, 0.004);
 }
 
 /* The same lamp is seen at once where it is. */
@@ -178,14 +218,6 @@ static sdfgi_instance add_wall(struct stage *s, double x, double from_z, double 
 {
     return light_add_box(&s->t, (double[]){ x, -HALF_M, from_z }, (double[]){ x + 0.3, HALF_M, to_z },
                          (float[]){ 0.6f, 0.6f, 0.6f }, 0);
-}
-
-static void start_anew(struct stage *s)
-{
-    struct sdfgi_settings settings = light_settings(64, 0.2f);
-    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
-    settings.cell_rays = 32 * SDFGI_VISIT_RAYS; /* a complete cycle in 32 frames */
-    gi_test_restart(&s->t, &settings);
 }
 
 static void open_wide_room(struct stage *s)
@@ -257,6 +289,7 @@ TEST_GROUP(neighbours)
         cmocka_unit_test(a_small_lamp_that_is_gone_is_missed_at_once),
         cmocka_unit_test(the_sky_comes_at_once_where_a_roof_was),
         cmocka_unit_test(light_goes_soon_round_two_corners),
+        cmocka_unit_test(what_moves_on_both_sides_changes_nothing_between),
     };
     open_rooms(&stage);
     const int failed = cmocka_run_group_tests_name("neighbours", tests, NULL, NULL);

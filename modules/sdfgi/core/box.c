@@ -3,6 +3,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <string.h>
 
 struct box sdfgi_box_nothing(void)
 {
@@ -59,6 +60,44 @@ void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const 
         list[(*count)++] = *box;
     else
         list[best] = sdfgi_box_around(&list[best], box);
+}
+
+/* Of flat boxes, too, more than 0. */
+static double sum_of_sides(const struct box *box)
+{
+    return box->max[0] - box->min[0] + box->max[1] - box->min[1] + box->max[2] - box->min[2];
+}
+
+/* By how much the larger of two boxes grows when it takes the other one in. */
+static double growth(const struct box *a, const struct box *b)
+{
+    const struct box both = sdfgi_box_around(a, b);
+    return sum_of_sides(&both) - fmax(sum_of_sides(a), sum_of_sides(b));
+}
+
+void sdfgi_box_cover_add(struct box_cover *cover, const struct box *box)
+{
+    struct box all[COVER_BOXES + 1];
+    const uint32_t count = cover->count;
+    uint32_t one = 0, other = count;
+    memcpy(all, cover->boxes, count * sizeof *all);
+    all[count] = *box;
+    for (uint32_t i = 0; i < count; i++) {
+        if (contains(&all[i], box))
+            return;
+        for (uint32_t j = i + 1; j <= count; j++)
+            if (growth(&all[i], &all[j]) < growth(&all[one], &all[other])) {
+                one = i;
+                other = j;
+            }
+    }
+    if (count < COVER_BOXES) {
+        cover->boxes[cover->count++] = *box;
+        return;
+    }
+    all[one] = sdfgi_box_around(&all[one], &all[other]);
+    all[other] = all[count];
+    memcpy(cover->boxes, all, sizeof cover->boxes);
 }
 
 struct cell_box sdfgi_cell_box_whole(uint32_t resolution)

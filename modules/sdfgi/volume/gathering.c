@@ -13,9 +13,7 @@
 
 void sdfgi_gathering_init(struct gathering *gathering)
 {
-    *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES,
-                                     .edited = sdfgi_box_nothing(),
-                                     .edited_last = sdfgi_box_nothing() };
+    *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
         gathering->at[c].cycle = 1;
         gathering->at[c].rough = true;
@@ -33,7 +31,7 @@ void sdfgi_gathering_change(struct gathering *gathering, const struct box *edite
 {
     gathering->epoch_over = true;
     if (edited)
-        gathering->edited = sdfgi_box_around(&gathering->edited, edited);
+        sdfgi_box_cover_add(&gathering->edited, edited);
 }
 
 uint32_t sdfgi_gathering_next_epoch(const struct gathering *gathering)
@@ -74,7 +72,7 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
     gathering->epoch_frames = 0;
     gathering->epoch_over = gathering->all_over = false;
     gathering->edited_last = gathering->edited;
-    gathering->edited = sdfgi_box_nothing();
+    gathering->edited.count = 0;
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
         gathering->at[c].rough = true;
         gathering->at[c].rough_cycles = 0;
@@ -194,7 +192,7 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
             continue;
         }
         const uint32_t most = --unsettled > 0 ? (rest + 1) / 2 : rest;
-        const uint32_t entries = sdfgi_light_list_entries(relight, lists, c);
+        const uint32_t entries = sdfgi_light_list_expected(relight, lists, c);
         /* Where all cells have a visit in each frame there is nothing to choose. */
         const uint32_t watched_most = entries > most + watched[c] ? watched[c] : 0;
         struct gather_range *range = &ranges[count++];

@@ -32,16 +32,16 @@ struct gather_cursor {
 
 struct gathering {
     struct gather_cursor at[SDFGI_MAX_CASCADES];
-    uint64_t invalidations;  /* of the light, as far as they are taken in */
-    uint32_t epoch;          /* changes of a time: of lights and of geometry */
-    uint32_t epoch_frames;   /* since it began */
-    bool epoch_over;         /* something has changed since, */
-    bool all_over;           /* and changes the light of all cells */
-    uint32_t epoch_of_all;   /* the last one that did */
-    struct box edited;       /* around geometry that has changed since, */
-    struct box edited_last;  /* and around what changed before that */
-    uint32_t seen_frames;    /* since it was forgotten which cells were seen */
-    uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
+    uint64_t invalidations;       /* of the light, as far as they are taken in */
+    uint32_t epoch;               /* changes of a time: of lights and of geometry */
+    uint32_t epoch_frames;        /* since it began */
+    bool epoch_over;              /* something has changed since, */
+    bool all_over;                /* and changes the light of all cells */
+    uint32_t epoch_of_all;        /* the last one that did */
+    struct box_cover edited;      /* geometry has changed there since, */
+    struct box_cover edited_last; /* and there before that */
+    uint32_t seen_frames;         /* since it was forgotten which cells were seen */
+    uint32_t hit_turns_log2;      /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
 
 struct gather_range {

@@ -165,19 +165,29 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->rays_per_frame = keep ? old->rays_per_frame : rays;
 }
 
-/* Where geometry has changed, in cell space of cascade 0. */
-static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state *state)
+/* A box in the world, in cell space of cascade 0. */
+static struct sdfgi_edited_box edited_box(const struct cascade *first, const struct box *box)
 {
-    const struct cascade *first = &state->cascades.at[0];
-    const struct box edited = sdfgi_box_around(&state->gathering.edited, &state->gathering.edited_last);
     double low[3], high[3];
     for (int i = 0; i < 3; i++) {
         const double cell = first->cell_size[i], origin = (double)first->origin[i];
-        low[i] = fmin(fmax(floor(edited.min[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
-        high[i] = fmin(fmax(ceil(edited.max[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
+        low[i] = fmin(fmax(floor(box->min[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
+        high[i] = fmin(fmax(ceil(box->max[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
     }
-    p->edited_low = point_of(low);
-    p->edited_high = point_of(high);
+    return (struct sdfgi_edited_box){ .low = point_of(low), .high = point_of(high) };
+}
+
+/* Where geometry has changed. */
+static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state *state)
+{
+    static_assert((int)COVER_BOXES == SDFGI_EDITED_BOXES, "a box each");
+    const struct gathering *gathering = &state->gathering;
+    struct box_cover cover = gathering->edited;
+    for (uint32_t i = 0; i < gathering->edited_last.count; i++)
+        sdfgi_box_cover_add(&cover, &gathering->edited_last.boxes[i]);
+    p->edited_count = cover.count;
+    for (uint32_t i = 0; i < cover.count; i++)
+        p->edited[i] = edited_box(&state->cascades.at[0], &cover.boxes[i]);
 }
 
 /* What has changed. It stays once light has converged, as in fill_cycle. */
@@ -186,8 +196,8 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
     const struct gathering *gathering = &state->gathering;
     const struct sdfgi_frame_params *old = &state->params;
     if (state->accumulation.phase == LIGHTING_CONVERGED) {
-        p->edited_low = old->edited_low;
-        p->edited_high = old->edited_high;
+        memcpy(p->edited, old->edited, sizeof p->edited);
+        p->edited_count = old->edited_count;
         p->epoch = old->epoch;
         p->epoch_of_all = old->epoch_of_all;
         p->next_epoch = old->next_epoch;

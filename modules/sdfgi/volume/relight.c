@@ -22,6 +22,17 @@ uint32_t sdfgi_light_list_entries(const struct relight *relight, const struct li
     return known && lists->counted[c] < lists->room ? lists->counted[c] : lists->room;
 }
 
+/* How many cells an edit may add. */
+#define MORE_CELLS 1024
+
+uint32_t sdfgi_light_list_expected(const struct relight *relight, const struct light_lists *lists, uint32_t c)
+{
+    const uint32_t entries = sdfgi_light_list_entries(relight, lists, c), counted = lists->counted[c],
+                   expected = counted + counted / 8 + MORE_CELLS;
+    const bool alike = lists->frame >= relight->at[c].made_at + lists->frames_in_flight;
+    return alike && expected < entries ? expected : entries;
+}
+
 /* Goes on to the next entry that there is. */
 static void skip_room(struct relight *relight, const struct light_lists *lists, uint32_t c)
 {
@@ -53,6 +64,14 @@ static uint32_t cascades_in_shadow(const struct light_lists *lists, const enum r
     return count;
 }
 
+static void note_list(struct relight_cursor *cursor, enum relist relist, uint64_t frame)
+{
+    if (relist != RELIST_NOT)
+        cursor->listed_at = frame;
+    if (relist == RELIST_NEW)
+        cursor->made_at = frame;
+}
+
 /* Where a list changes while a pass over it is under way, the pass goes on at the same entry until it has
  * come round once more: it may have passed by cells that have moved to entries before it. */
 void sdfgi_relight_note(struct relight *relight, const struct light_lists *lists,
@@ -60,8 +79,7 @@ void sdfgi_relight_note(struct relight *relight, const struct light_lists *lists
 {
     const uint32_t in_shadow = cascades_in_shadow(lists, relists);
     for (uint32_t c = 0; c < lists->cascades; c++)
-        if (relists[c] != RELIST_NOT)
-            relight->at[c].listed_at = lists->frame;
+        note_list(&relight->at[c], relists[c], lists->frame);
     if (!sdfgi_relight_is_due(relight))
         relight->cascade = 0;
     for (uint32_t c = 0; c < lists->cascades; c++) {

@@ -17,7 +17,8 @@ enum { RELIGHT_CELLS = 16384 }; /* light cells a frame that are lit again becaus
 
 struct relight_cursor {
     uint32_t next, left; /* entries: the next to be lit again, and how many are left */
-    uint64_t listed_at;  /* frame in which the list was written last */
+    uint64_t listed_at;  /* frame in which the list was written last, */
+    uint64_t made_at;    /* and in which all of its cells were new */
 };
 
 struct relight {
@@ -56,6 +57,10 @@ void sdfgi_relight_count(struct relight *relight);
  * for. */
 uint32_t sdfgi_light_list_entries(const struct relight *relight, const struct light_lists *lists,
                                   uint32_t cascade);
+/* The same for passes that may miss some cells. While edits write a list again in each frame, the newest
+ * count is that of an earlier list: so many, and some more. */
+uint32_t sdfgi_light_list_expected(const struct relight *relight, const struct light_lists *lists,
+                                   uint32_t cascade);
 /* Notes which lists are written in this frame, and what has to be lit again because of it: nothing if all
  * cells are lit in this frame anyway, or if there is no light. */
 void sdfgi_relight_note(struct relight *relight, const struct light_lists *lists,
