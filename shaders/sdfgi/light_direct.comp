@@ -213,52 +213,70 @@ void store_cell(uint entry, uint own)
                  direct_lights_pack(lights[own], args.lit));
 }
 
-void main()
+/* A cell that this workgroup may light. */
+struct listed_cell {
+    bool wanted;        /* it may have to be lit */
+    bool reached;       /* it has */
+    uint entry, lights; /* those whose direct light it has had */
+    ivec3 cell;
+};
+
+listed_cell load_cell(uint own)
 {
-    const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
-    uint entry;
+    listed_cell c;
     const uint cascade = lit_cascade();
-    bool lit = light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
-                           workgroup_index() * CELLS + own, entry);
-    entry = lit ? entry : 0u;
-    const ivec3 cell =
-        light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
-    const uint before = direct_lights(sdfgi_direct_at(direct_word(cascade, DIRECT_LIGHTS, entry)));
-    const bool all = args.moved == SDFGI_LIGHT_ALL, had_changed = (before & args.changed) != 0u;
-    lit = lit && sdfgi_cell_is_valid(cascade, cell) && (args.moved != 0u || had_changed);
+    c.wanted = light_entry(cascade, args.only_dirty != 0u, args.first[cascade], args.end[cascade],
+                           workgroup_index() * CELLS + own, c.entry);
+    c.entry = c.wanted ? c.entry : 0u;
+    c.cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, c.entry)));
+    c.lights = direct_lights(sdfgi_direct_at(direct_word(cascade, DIRECT_LIGHTS, c.entry)));
+    c.reached = args.moved == SDFGI_LIGHT_ALL || (c.lights & args.changed) != 0u;
+    c.wanted = c.wanted && sdfgi_cell_is_valid(cascade, c.cell) && (args.moved != 0u || c.reached);
+    return c;
+}
+
+/* Begins with the cells of the workgroup. False, for all threads, if none may have to be lit. */
+bool begin_cells(uint own, uint axis, listed_cell c)
+{
     if (axis == 0u) {
-        cells[own] = cell;
+        cells[own] = c.cell;
         facing[own] = 0u;
         lights[own] = 0u;
-        affected[own] = uint(all || had_changed);
+        affected[own] = uint(c.reached);
     }
     if (gl_LocalInvocationIndex == 0u)
         some_wanted = 0u;
     barrier();
-    if (lit)
+    if (c.wanted)
         atomicOr(some_wanted, 1u);
     barrier();
-    if (some_wanted == 0u)
-        return;
+    return some_wanted != 0u;
+}
 
-    bool faces = lit && light_cell_faces(cascade, cell, axis);
-    if (faces)
+void main()
+{
+    const uint own = gl_LocalInvocationIndex / 6u, axis = gl_LocalInvocationIndex % 6u;
+    const listed_cell c = load_cell(own);
+    if (!begin_cells(own, axis, c))
+        return;
+    const bool is_surface = c.wanted && light_cell_faces(lit_cascade(), c.cell, axis);
+    if (is_surface)
         atomicOr(facing[own], 1u << axis);
-    const surface s = surface_behind(cell, axis);
+    const surface s = surface_behind(c.cell, axis);
     starts[gl_LocalInvocationIndex] = s.start;
-    if (!all && faces && is_reached(s))
+    if (!c.reached && is_surface && is_reached(s))
         atomicOr(affected[own], 1u);
     barrier();
-    lit = lit && affected[own] != 0u;
-    faces = faces && lit;
+    const bool lit = c.wanted && affected[own] != 0u, faces = is_surface && lit;
     /* What stands between a cell and a light that has not moved is known. */
+    const uint bits = c.lights | args.moved;
     uint from = 0u;
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < sdfgi_frame.light_count; first += BATCH)
-        sum += light_from_batch(first, before | args.moved, faces, s, from);
+        sum += light_from_batch(first, bits, faces, s, from);
     reflected[own][axis] = faces ? sum * surface_albedo(s.block, axis) / PI : vec3(0.0);
     atomicOr(lights[own], from);
     barrier();
     if (lit && axis == 0u)
-        store_cell(entry, own);
+        store_cell(c.entry, own);
 }

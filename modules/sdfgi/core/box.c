@@ -75,29 +75,33 @@ static double growth(const struct box *a, const struct box *b)
     return sum_of_sides(&both) - fmax(sum_of_sides(a), sum_of_sides(b));
 }
 
-void sdfgi_box_cover_add(struct box_cover *cover, const struct box *box)
+/* Makes one box of two of a full cover and one more. */
+static void join_nearest(struct box_cover *cover, const struct box *box)
 {
     struct box all[COVER_BOXES + 1];
-    const uint32_t count = cover->count;
-    uint32_t one = 0, other = count;
-    memcpy(all, cover->boxes, count * sizeof *all);
-    all[count] = *box;
-    for (uint32_t i = 0; i < count; i++) {
-        if (contains(&all[i], box))
-            return;
-        for (uint32_t j = i + 1; j <= count; j++)
+    uint32_t one = 0, other = 1;
+    memcpy(all, cover->boxes, sizeof cover->boxes);
+    all[COVER_BOXES] = *box;
+    for (uint32_t i = 0; i < COVER_BOXES; i++)
+        for (uint32_t j = i + 1; j <= COVER_BOXES; j++)
             if (growth(&all[i], &all[j]) < growth(&all[one], &all[other])) {
                 one = i;
                 other = j;
             }
-    }
-    if (count < COVER_BOXES) {
-        cover->boxes[cover->count++] = *box;
-        return;
-    }
     all[one] = sdfgi_box_around(&all[one], &all[other]);
-    all[other] = all[count];
+    all[other] = all[COVER_BOXES];
     memcpy(cover->boxes, all, sizeof cover->boxes);
+}
+
+void sdfgi_box_cover_add(struct box_cover *cover, const struct box *box)
+{
+    for (uint32_t i = 0; i < cover->count; i++)
+        if (contains(&cover->boxes[i], box))
+            return;
+    if (cover->count < COVER_BOXES)
+        cover->boxes[cover->count++] = *box;
+    else
+        join_nearest(cover, box);
 }
 
 struct cell_box sdfgi_cell_box_whole(uint32_t resolution)
