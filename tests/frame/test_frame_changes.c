@@ -158,6 +158,24 @@ static void an_edit_makes_its_boxes_and_keeps_all(void **state)
     REQUIRE_CMP(sdfgi_change_bounds_axis(change), ==, 2);
 }
 
+/* Six things take three steps each before the edit begins: more boxes than it has room for. */
+static void what_moves_far_apart_is_made_apart(void **state)
+{
+    (void)state;
+    enum { THINGS = 6, STEPS = 3 };
+    struct cascade cascade = current();
+    for (int i = 0; i < THINGS * STEPS; i++) {
+        const int thing = i / STEPS;
+        const double x = -14 + 8 * (thing % 3), z = -14 + 16 * (thing / 3) + 0.5 * (i % STEPS);
+        const struct box box = { { x, 1, z }, { x + 1, 3, z + 1 } };
+        REQUIRE_TRUE(sdfgi_cascade_add_edit(&cascade, N, &box));
+    }
+    sdfgi_change_begin_edit(&cascade, N);
+    REQUIRE_CMP(cascade.change.count, ==, (uint32_t)THINGS);
+    for (uint32_t i = 0; i < cascade.change.count; i++)
+        REQUIRE_CMP(sdfgi_cell_box_cells(&cascade.change.boxes[i]), ==, 8ul * 8 * 8);
+}
+
 /* Triangles set sub-voxels that they touch, and those are a quarter of a cell wide. */
 static void an_edit_a_sub_voxel_outside_counts(void **state)
 {
@@ -335,6 +353,7 @@ int main(void)
         cmocka_unit_test(strips_lie_across_z_unless_a_scroll_is_along_z_alone),
         cmocka_unit_test(a_scroll_that_can_keep_nothing_is_a_rebuild),
         cmocka_unit_test(an_edit_makes_its_boxes_and_keeps_all),
+        cmocka_unit_test(what_moves_far_apart_is_made_apart),
         cmocka_unit_test(an_edit_a_sub_voxel_outside_counts),
         cmocka_unit_test(an_edit_without_a_cell_changes_nothing),
         cmocka_unit_test(a_change_goes_on_to_any_later_stage),

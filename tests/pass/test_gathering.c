@@ -383,20 +383,20 @@ static void boxes_of_what_moves_stay_apart(void **state)
 {
     (void)state;
     enum { STEPS = 40, THINGS = 3 };
-    struct box_cover cover = { .count = 0 };
+    struct edited_places places = { .count = 0 };
     for (int step = 0; step < STEPS; step++)
         for (int i = 0; i < (step < STEPS / 2 ? THINGS - 1 : THINGS); i++) {
             const double x = 20 * i, z = 0.1 * step;
             const struct box box = { { x, 0, z }, { x + 1, i < 2 ? 2 : 0, z + 1 } };
             bool held = false;
-            sdfgi_box_cover_add(&cover, &box);
-            for (uint32_t k = 0; k < cover.count; k++)
-                held = held || holds(&cover.boxes[k], &box);
+            sdfgi_edited_places_add(&places, &box);
+            for (uint32_t k = 0; k < places.count; k++)
+                held = held || holds(&places.boxes[k], &box);
             REQUIRE_TRUE(held);
         }
-    REQUIRE_CMP(cover.count, ==, (uint32_t)COVER_BOXES);
-    for (uint32_t k = 0; k < cover.count; k++)
-        REQUIRE_CMP(cover.boxes[k].max[0] - cover.boxes[k].min[0], ==, 1.0);
+    REQUIRE_CMP(places.count, ==, (uint32_t)SDFGI_EDITED_BOXES);
+    for (uint32_t k = 0; k < places.count; k++)
+        REQUIRE_CMP(places.boxes[k].max[0] - places.boxes[k].min[0], ==, 1.0);
 }
 
 int main(void)

@@ -78,7 +78,7 @@ static void *take_buffer(struct gi_test *t, enum resource resource, uint64_t *si
     if (resource == RESOURCE_LIGHT_CELLS)
         return take_list(t, resource, 4, 1, size);
     if (resource == RESOURCE_DIRECT)
-        return take_list(t, resource, 8, 1, size);
+        return take_list(t, resource, 4, SDFGI_DIRECT_WORDS, size);
     return resource == RESOURCE_LIGHT ? take_list(t, resource, 4, 6, size) : gi_test_read(t, resource, size);
 }
 

@@ -75,33 +75,40 @@ static double growth(const struct box *a, const struct box *b)
     return sum_of_sides(&both) - fmax(sum_of_sides(a), sum_of_sides(b));
 }
 
-/* Makes one box of two of a full cover and one more. */
-static void join_nearest(struct box_cover *cover, const struct box *box)
+/* Makes one box of those two that grow least by it, and leaves out what it holds. Returns how many are left.
+ */
+static uint32_t join_nearest(struct box *boxes, uint32_t count)
 {
-    struct box all[COVER_BOXES + 1];
-    uint32_t one = 0, other = 1;
-    memcpy(all, cover->boxes, sizeof cover->boxes);
-    all[COVER_BOXES] = *box;
-    for (uint32_t i = 0; i < COVER_BOXES; i++)
-        for (uint32_t j = i + 1; j <= COVER_BOXES; j++)
-            if (growth(&all[i], &all[j]) < growth(&all[one], &all[other])) {
+    uint32_t one = 0, other = 1, left = 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t j = i + 1; j < count; j++)
+            if (growth(&boxes[i], &boxes[j]) < growth(&boxes[one], &boxes[other])) {
                 one = i;
                 other = j;
             }
-    all[one] = sdfgi_box_around(&all[one], &all[other]);
-    all[other] = all[COVER_BOXES];
-    memcpy(cover->boxes, all, sizeof cover->boxes);
+    const struct box joined = sdfgi_box_around(&boxes[one], &boxes[other]);
+    for (uint32_t i = 0; i < count; i++)
+        if (!contains(&joined, &boxes[i]))
+            boxes[left++] = boxes[i];
+    boxes[left++] = joined;
+    return left;
 }
 
-void sdfgi_box_cover_add(struct box_cover *cover, const struct box *box)
+void sdfgi_box_list_join(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
 {
-    for (uint32_t i = 0; i < cover->count; i++)
-        if (contains(&cover->boxes[i], box))
+    struct box all[BOX_LIST_JOINED + 1];
+    assert(*count <= room && room > 0 && room <= BOX_LIST_JOINED);
+    for (uint32_t i = 0; i < *count; i++)
+        if (contains(&list[i], box))
             return;
-    if (cover->count < COVER_BOXES)
-        cover->boxes[cover->count++] = *box;
-    else
-        join_nearest(cover, box);
+    if (*count < room) {
+        list[(*count)++] = *box;
+        return;
+    }
+    memcpy(all, list, room * sizeof *all);
+    all[room] = *box;
+    *count = join_nearest(all, room + 1);
+    memcpy(list, all, *count * sizeof *all);
 }
 
 struct cell_box sdfgi_cell_box_whole(uint32_t resolution)

@@ -21,13 +21,10 @@ double sdfgi_box_volume(const struct box *box);
  * room left, the box that grows least takes the new one in. */
 void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box);
 
-/* A few boxes that hold all that was added. With no room left, those two become one that grow least by it. */
-enum { COVER_BOXES = 8 };
-struct box_cover {
-    struct box boxes[COVER_BOXES];
-    uint32_t count;
-};
-void sdfgi_box_cover_add(struct box_cover *cover, const struct box *box);
+/* Likewise for short lists. With no room left, those two boxes become one that grow least by it: two along
+ * the way of one thing, and not those of two things. */
+enum { BOX_LIST_JOINED = 8 }; /* most room */
+void sdfgi_box_list_join(struct box *list, uint32_t *count, uint32_t room, const struct box *box);
 
 /* Local cells [low, high) of a cascade; empty if low >= high along an axis. */
 struct cell_box {

@@ -96,7 +96,7 @@ bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const 
     const struct box own = sdfgi_cascade_world_box(cascade, &whole);
     if (cascade->place == CASCADE_UNPLACED || !sdfgi_box_overlaps(&own, box))
         return false;
-    sdfgi_box_list_add(cascade->edits, &cascade->edit_count, SDFGI_MAX_CHANGES, box);
+    sdfgi_box_list_join(cascade->edits, &cascade->edit_count, SDFGI_MAX_CHANGES, box);
     return true;
 }
 

@@ -21,6 +21,11 @@ void sdfgi_gathering_init(struct gathering *gathering)
     }
 }
 
+void sdfgi_edited_places_add(struct edited_places *places, const struct box *box)
+{
+    sdfgi_box_list_join(places->boxes, &places->count, SDFGI_EDITED_BOXES, box);
+}
+
 void sdfgi_gathering_outdate(struct gathering *gathering)
 {
     gathering->epoch_over = true;
@@ -31,7 +36,7 @@ void sdfgi_gathering_change(struct gathering *gathering, const struct box *edite
 {
     gathering->epoch_over = true;
     if (edited)
-        sdfgi_box_cover_add(&gathering->edited, edited);
+        sdfgi_edited_places_add(&gathering->edited, edited);
 }
 
 uint32_t sdfgi_gathering_next_epoch(const struct gathering *gathering)

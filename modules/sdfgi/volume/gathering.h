@@ -30,18 +30,24 @@ struct gather_cursor {
     bool settled;
 };
 
+/* Where geometry has changed. */
+struct edited_places {
+    struct box boxes[SDFGI_EDITED_BOXES];
+    uint32_t count;
+};
+
 struct gathering {
     struct gather_cursor at[SDFGI_MAX_CASCADES];
-    uint64_t invalidations;       /* of the light, as far as they are taken in */
-    uint32_t epoch;               /* changes of a time: of lights and of geometry */
-    uint32_t epoch_frames;        /* since it began */
-    bool epoch_over;              /* something has changed since, */
-    bool all_over;                /* and changes the light of all cells */
-    uint32_t epoch_of_all;        /* the last one that did */
-    struct box_cover edited;      /* geometry has changed there since, */
-    struct box_cover edited_last; /* and there before that */
-    uint32_t seen_frames;         /* since it was forgotten which cells were seen */
-    uint32_t hit_turns_log2;      /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
+    uint64_t invalidations;           /* of the light, as far as they are taken in */
+    uint32_t epoch;                   /* changes of a time: of lights and of geometry */
+    uint32_t epoch_frames;            /* since it began */
+    bool epoch_over;                  /* something has changed since, */
+    bool all_over;                    /* and changes the light of all cells */
+    uint32_t epoch_of_all;            /* the last one that did */
+    struct edited_places edited;      /* since the epoch began, */
+    struct edited_places edited_last; /* and in the one before */
+    uint32_t seen_frames;             /* since it was forgotten which cells were seen */
+    uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
 
 struct gather_range {
@@ -62,6 +68,8 @@ struct gather_change {
 };
 
 void sdfgi_gathering_init(struct gathering *gathering);
+/* With no room left, places that are near each other become one. */
+void sdfgi_edited_places_add(struct edited_places *places, const struct box *box);
 /* What all cells have gathered is outdated: sun or sky is another one, or everything. */
 void sdfgi_gathering_outdate(struct gathering *gathering);
 /* Some have to gather anew: those whose rays meet what a lamp lights otherwise than before; or, if geometry

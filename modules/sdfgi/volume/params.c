@@ -180,14 +180,13 @@ static struct sdfgi_edited_box edited_box(const struct cascade *first, const str
 /* Where geometry has changed. */
 static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state *state)
 {
-    static_assert((int)COVER_BOXES == SDFGI_EDITED_BOXES, "a box each");
     const struct gathering *gathering = &state->gathering;
-    struct box_cover cover = gathering->edited;
+    struct edited_places places = gathering->edited;
     for (uint32_t i = 0; i < gathering->edited_last.count; i++)
-        sdfgi_box_cover_add(&cover, &gathering->edited_last.boxes[i]);
-    p->edited_count = cover.count;
-    for (uint32_t i = 0; i < cover.count; i++)
-        p->edited[i] = edited_box(&state->cascades.at[0], &cover.boxes[i]);
+        sdfgi_edited_places_add(&places, &gathering->edited_last.boxes[i]);
+    p->edited_count = places.count;
+    for (uint32_t i = 0; i < places.count; i++)
+        p->edited[i] = edited_box(&state->cascades.at[0], &places.boxes[i]);
 }
 
 /* What has changed. It stays once light has converged, as in fill_cycle. */
