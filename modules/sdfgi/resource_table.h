@@ -17,8 +17,9 @@
  * BITS, DISTANCE, EMISSION, ALBEDO, NORMALS  valid until the cascade moves or its geometry changes
  * LIGHT                     outgoing light per light cell and axis, in the order of the list, and as long
  * LIGHT_CELLS               the light list: grows when it is too short
- * DIRECT                    direct light per light cell, in the order of the list, and as long. Apart from
- *                           the list, so that it may change beside passes that read the list
+ * DIRECT                    direct light per light cell and the lights that it comes from, in the order of
+ *                           the list, and as long. Apart from the list, so that it may change beside passes
+ *                           that read the list
  * LIGHT_BLOCKS              where in the list the light cells of a block are
  * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
  * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits

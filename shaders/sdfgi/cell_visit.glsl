@@ -123,8 +123,8 @@ bool crosses_edit(uint cascade, vec3 from, vec3 dir, float range)
     const vec3 inv_dir = 1.0 / sdfgi_nonzero(sdfgi_cells_from_metric(dir));
     bool crosses = false;
     for (uint i = 0u; i < sdfgi_frame.edited_count && !crosses; i++) {
-        const vec3 low = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited[i].low) - from,
-                   high = sdfgi_cascade_from_first(cascade, sdfgi_frame.edited[i].high) - from;
+        const vec3 low = sdfgi_cascade_from_first(cascade, vec3(sdfgi_frame.edited[i].low)) - from,
+                   high = sdfgi_cascade_from_first(cascade, vec3(sdfgi_frame.edited[i].high)) - from;
         const vec3 a = low * inv_dir, b = high * inv_dir, near = min(a, b), far = max(a, b);
         const float enters = max(max(near.x, near.y), max(near.z, 0.0)),
                     leaves = min(far.x, min(far.y, far.z));

@@ -6,7 +6,7 @@
 #include "types.h"
 #include "constants.h"
 
-/* Dirty box: local cells [low, high) of a cascade. */
+/* Local cells [low, high) of a cascade. */
 struct sdfgi_dirty_box {
     ivec3 low;
     uint padding_0;
@@ -14,15 +14,6 @@ struct sdfgi_dirty_box {
     uint padding_1;
 };
 SDFGI_ASSERT_SIZE(sdfgi_dirty_box, 32);
-
-/* In cell space of cascade 0. */
-struct sdfgi_edited_box {
-    vec3 low;
-    uint padding_0;
-    vec3 high;
-    uint padding_1;
-};
-SDFGI_ASSERT_SIZE(sdfgi_edited_box, 32);
 
 /* Cell space of a cascade: (0, 0, 0) is its low corner, one unit is one cell along each axis; a cell is as
  * high as y_scale times its width. Metric lengths inside a cascade are counted in cell widths. */
@@ -100,8 +91,8 @@ struct sdfgi_frame_params {
     uint epoch_of_all;     /* the last one that changed the light of all light cells */
     uint edited_count;     /* boxes in `edited` */
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
-    /* Around geometry that has changed in the last epochs. */
-    SDFGI_STRUCT(sdfgi_edited_box) edited[SDFGI_EDITED_BOXES];
+    /* Around geometry that has changed in the last epochs, of cascade 0. They may lie beyond it. */
+    SDFGI_STRUCT(sdfgi_dirty_box) edited[SDFGI_EDITED_BOXES];
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params,
                   SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 19 * 16 + 32 * SDFGI_EDITED_BOXES);

@@ -54,10 +54,6 @@
     X(sdfgi_frame_params, epoch_of_all)                                                                      \
     X(sdfgi_frame_params, edited_count)                                                                      \
     X(sdfgi_frame_params, edited)                                                                            \
-    X(sdfgi_edited_box, low)                                                                                 \
-    X(sdfgi_edited_box, padding_0)                                                                           \
-    X(sdfgi_edited_box, high)                                                                                \
-    X(sdfgi_edited_box, padding_1)                                                                           \
     X(sdfgi_frame_params, y_scale)                                                                           \
     X(sdfgi_frame_params, exposure)                                                                          \
     X(sdfgi_frame_params, exposure_inverse)                                                                  \

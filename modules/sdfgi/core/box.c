@@ -41,25 +41,34 @@ static bool contains(const struct box *box, const struct box *other)
     return true;
 }
 
-void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
+/* Adds a box, if there is room and no other one contains it. False if it has to be joined with others. */
+static bool list_takes(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
 {
     assert(*count <= room && room > 0);
+    for (uint32_t i = 0; i < *count; i++)
+        if (contains(&list[i], box))
+            return true;
+    if (*count == room)
+        return false;
+    list[(*count)++] = *box;
+    return true;
+}
+
+void sdfgi_box_list_add(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
+{
+    if (list_takes(list, count, room, box))
+        return;
     uint32_t best = 0;
     double least = INFINITY;
     for (uint32_t i = 0; i < *count; i++) {
-        if (contains(&list[i], box))
-            return;
         const struct box both = sdfgi_box_around(&list[i], box);
-        const double growth = sdfgi_box_volume(&both) - sdfgi_box_volume(&list[i]);
-        if (growth < least) {
-            least = growth;
+        const double more = sdfgi_box_volume(&both) - sdfgi_box_volume(&list[i]);
+        if (more < least) {
+            least = more;
             best = i;
         }
     }
-    if (*count < room)
-        list[(*count)++] = *box;
-    else
-        list[best] = sdfgi_box_around(&list[best], box);
+    list[best] = sdfgi_box_around(&list[best], box);
 }
 
 /* Of flat boxes, too, more than 0. */
@@ -97,14 +106,9 @@ static uint32_t join_nearest(struct box *boxes, uint32_t count)
 void sdfgi_box_list_join(struct box *list, uint32_t *count, uint32_t room, const struct box *box)
 {
     struct box all[BOX_LIST_JOINED + 1];
-    assert(*count <= room && room > 0 && room <= BOX_LIST_JOINED);
-    for (uint32_t i = 0; i < *count; i++)
-        if (contains(&list[i], box))
-            return;
-    if (*count < room) {
-        list[(*count)++] = *box;
+    assert(room <= BOX_LIST_JOINED);
+    if (list_takes(list, count, room, box))
         return;
-    }
     memcpy(all, list, room * sizeof *all);
     all[room] = *box;
     *count = join_nearest(all, room + 1);

@@ -22,7 +22,6 @@ static void add_bits(struct light_bits *bits, const struct light_bits *others)
 
 void sdfgi_journal_note_light(struct journal *journals, const struct light_bits *bits)
 {
-    sdfgi_journal_note(journals, JOURNAL_LIGHTS);
     for (struct journal *j = journals; j; j = j->next)
         add_bits(&j->lights, bits);
 }
@@ -35,7 +34,7 @@ void sdfgi_journal_add_box(struct journal *journals, const struct box *box)
 
 bool sdfgi_journal_is_empty(const struct journal *journal)
 {
-    return journal->notes == 0 && journal->box_count == 0;
+    return journal->notes == 0 && journal->lights.changed == 0 && journal->box_count == 0;
 }
 
 void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlier)

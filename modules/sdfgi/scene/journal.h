@@ -8,11 +8,10 @@
 enum { JOURNAL_BOXES = 64 };
 
 enum journal_note {
-    JOURNAL_LIGHTS = 1,    /* lights were made, changed or destroyed */
-    JOURNAL_MATERIALS = 2, /* constants of materials that are shown */
-    JOURNAL_SKY = 4,
-    JOURNAL_EVERYTHING = 8, /* all that was voxelised is out of date */
-    JOURNAL_FAR = 16,       /* a sun has changed, or something that emits: its light may reach all */
+    JOURNAL_MATERIALS = 1, /* constants of materials that are shown */
+    JOURNAL_SKY = 2,
+    JOURNAL_EVERYTHING = 4, /* all that was voxelised is out of date */
+    JOURNAL_FAR = 8,        /* a sun has changed, or something that emits: its light may reach all */
 };
 
 /* Which lights have changed, a bit each of SDFGI_LIGHT_BITS. */
@@ -26,7 +25,7 @@ uint32_t sdfgi_light_bit(uint32_t slot);
 
 struct journal {
     uint32_t notes;                  /* enum journal_note */
-    struct light_bits lights;
+    struct light_bits lights;        /* that were made, changed or destroyed */
     struct box boxes[JOURNAL_BOXES]; /* world: geometry changed there. When they are full, boxes grow */
     uint32_t box_count;
     struct journal *next; /* of the same scene */

@@ -43,20 +43,27 @@ static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_para
 /* Cells. Farther off than any cascade reaches, and little enough for floats to tell cells apart. */
 #define FARTHEST_CONTENT 1048576.0
 
+/* The cells that a box in the world touches, and so many around them. */
+static struct cell_box cells_of_box(const struct cascade *cascade, const struct box *box, double around)
+{
+    struct cell_box cells;
+    for (int i = 0; i < 3; i++) {
+        const double cell = cascade->cell_size[i], origin = (double)cascade->origin[i],
+                     low = floor(box->min[i] / cell - origin) - around,
+                     high = ceil(box->max[i] / cell - origin) + around;
+        cells.low[i] = (int32_t)fmin(fmax(low, -FARTHEST_CONTENT), FARTHEST_CONTENT);
+        cells.high[i] = (int32_t)fmin(fmax(high, -FARTHEST_CONTENT), FARTHEST_CONTENT);
+    }
+    return cells;
+}
+
 /* Widened by a cell, because surfaces lie in the sub-voxels behind them. */
 static void fill_content(const struct cascade *cascade, const struct box *content,
                          struct sdfgi_cascade_params *p)
 {
-    int32_t low[3], high[3];
-    for (int i = 0; i < 3; i++) {
-        const double cell = cascade->cell_size[i], origin = (double)cascade->origin[i];
-        low[i] = (int32_t)fmin(fmax(floor(content->min[i] / cell - origin) - 1, -FARTHEST_CONTENT),
-                               FARTHEST_CONTENT);
-        high[i] = (int32_t)fmin(fmax(ceil(content->max[i] / cell - origin) + 1, -FARTHEST_CONTENT),
-                                FARTHEST_CONTENT);
-    }
-    p->content_low = cell_of(low);
-    p->content_high = cell_of(high);
+    const struct cell_box cells = cells_of_box(cascade, content, 1);
+    p->content_low = cell_of(cells.low);
+    p->content_high = cell_of(cells.high);
 }
 
 static struct sdfgi_cascade_params cascade_params(const struct volume_state *state, uint32_t c)
@@ -165,18 +172,6 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->rays_per_frame = keep ? old->rays_per_frame : rays;
 }
 
-/* A box in the world, in cell space of cascade 0. */
-static struct sdfgi_edited_box edited_box(const struct cascade *first, const struct box *box)
-{
-    double low[3], high[3];
-    for (int i = 0; i < 3; i++) {
-        const double cell = first->cell_size[i], origin = (double)first->origin[i];
-        low[i] = fmin(fmax(floor(box->min[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
-        high[i] = fmin(fmax(ceil(box->max[i] / cell - origin), -FARTHEST_CONTENT), FARTHEST_CONTENT);
-    }
-    return (struct sdfgi_edited_box){ .low = point_of(low), .high = point_of(high) };
-}
-
 /* Where geometry has changed. */
 static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state *state)
 {
@@ -185,8 +180,11 @@ static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state 
     for (uint32_t i = 0; i < gathering->edited_last.count; i++)
         sdfgi_edited_places_add(&places, &gathering->edited_last.boxes[i]);
     p->edited_count = places.count;
-    for (uint32_t i = 0; i < places.count; i++)
-        p->edited[i] = edited_box(&state->cascades.at[0], &places.boxes[i]);
+    for (uint32_t i = 0; i < places.count; i++) {
+        const struct cell_box cells = cells_of_box(&state->cascades.at[0], &places.boxes[i], 0);
+        p->edited[i].low = cell_of(cells.low);
+        p->edited[i].high = cell_of(cells.high);
+    }
 }
 
 /* What has changed. It stays once light has converged, as in fill_cycle. */

@@ -71,7 +71,7 @@ void sdfgi_volume_invalidate(struct volume *volume)
 
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state)
 {
-    bool invalidates = journal->notes & (JOURNAL_LIGHTS | JOURNAL_SKY | JOURNAL_EVERYTHING);
+    bool invalidates = journal->lights.changed != 0 || journal->notes & (JOURNAL_SKY | JOURNAL_EVERYTHING);
     const bool reaches_all = journal->notes & (JOURNAL_SKY | JOURNAL_EVERYTHING | JOURNAL_FAR);
     for (uint32_t c = 0; c < state->cascades.count; c++) {
         struct cascade *cascade = &state->cascades.at[c];
