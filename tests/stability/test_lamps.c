@@ -159,6 +159,7 @@ static void a_lamp_that_goes_on_or_moves_lights_what_it_reaches(void **state)
     const struct lit moves = change_light(&t, light, &away);
     printf("a lamp goes on: %u cells are brighter; it moves next door: %u and %u\n", goes_on.brighter,
            moves.brighter, moves.dimmer);
+    /* One cell in fifteen is visited in the frame, and may change with what it finds. */
     REQUIRE_CMP(moves.dimmer, >=, goes_on.brighter * 9 / 10);
     REQUIRE_CMP(moves.brighter, >=, goes_on.brighter * 9 / 10);
     gi_test_close(&t);
