@@ -113,6 +113,8 @@ static VkResult allocate(void *user, const struct sdfgi_memory_request *r, struc
     out->offset = offset;
     out->mapped = r->mapped ? pool->blocks[block].mapped + offset : NULL;
     out->allocation = &pool->parts[p];
+    for (VkDeviceSize i = 0; r->mapped && i < r->requirements.size / 4; i++)
+        ((uint32_t *)out->mapped)[i] = pool->stale;
     spoil(pool, r, out);
     return VK_SUCCESS;
 }

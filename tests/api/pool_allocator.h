@@ -30,6 +30,7 @@ struct pool_allocator {
     uint32_t part_count;
     uint32_t calls, fail_at; /* the call that fails; 0: none */
     VkResult failure;
+    uint32_t stale; /* each word of mapped memory that is given: what somebody else left there */
     enum { POOL_SOUND, POOL_NULL, POOL_MISPLACED, POOL_UNMAPPED } fault; /* of what is given */
 };
 

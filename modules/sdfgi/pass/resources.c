@@ -28,11 +28,14 @@ static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer
     return viewed;
 }
 
+/* Zeros: memory that another context has used may hold the number of an update, and that update counts as
+ * run. */
 static VkResult create_readback(struct backend *backend, struct resources *r)
 {
-    return sdfgi_backend_buffer_init(
+    const VkResult result = sdfgi_backend_buffer_init(
         backend, &r->readback, sdfgi_readback_size(backend->retired.frames_in_flight),
         VK_BUFFER_USAGE_TRANSFER_DST_BIT, GPU_HOST_READ, SDFGI_MEMORY_READBACK, "sdfgi readback");
+    return result == VK_SUCCESS ? gpu_buffer_zero(&backend->device, &r->readback) : result;
 }
 
 /* ---- Descriptor sets */
