@@ -43,7 +43,8 @@ static uint32_t add_block(struct pool_allocator *pool, const struct sdfgi_memory
     pool->blocks[block].images = r->image != VK_NULL_HANDLE;
     REQUIRE_CMP((int)vkAllocateMemory(pool->gpu->device, &info, NULL, &pool->blocks[block].memory), ==,
                 (int)VK_SUCCESS);
-    if (r->mapped)
+    const VkMemoryPropertyFlags flags = pool->gpu->memory_properties.memoryTypes[type].propertyFlags;
+    if (flags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)
         REQUIRE_CMP(
             (int)vkMapMemory(pool->gpu->device, pool->blocks[block].memory, 0, VK_WHOLE_SIZE, 0, &mapped), ==,
             (int)VK_SUCCESS);
@@ -92,6 +93,13 @@ static void spoil(const struct pool_allocator *pool, const struct sdfgi_memory_r
         out->mapped = NULL;
 }
 
+static void fill(const struct pool_allocator *pool, uint32_t block, VkDeviceSize offset, VkDeviceSize size)
+{
+    char *mapped = pool->blocks[block].mapped;
+    for (VkDeviceSize at = offset; mapped && at + 4 <= offset + size; at += 4)
+        memcpy(mapped + at, &pool->stale, 4);
+}
+
 static VkResult allocate(void *user, const struct sdfgi_memory_request *r, struct sdfgi_memory_block *out)
 {
     struct pool_allocator *pool = user;
@@ -113,8 +121,7 @@ static VkResult allocate(void *user, const struct sdfgi_memory_request *r, struc
     out->offset = offset;
     out->mapped = r->mapped ? pool->blocks[block].mapped + offset : NULL;
     out->allocation = &pool->parts[p];
-    for (VkDeviceSize i = 0; r->mapped && i < r->requirements.size / 4; i++)
-        ((uint32_t *)out->mapped)[i] = pool->stale;
+    fill(pool, block, offset, r->requirements.size);
     spoil(pool, r, out);
     return VK_SUCCESS;
 }

@@ -142,31 +142,6 @@ static void all_memory_is_the_hosts_and_goes_back(void **state)
     pool_allocator_close(&pool);
 }
 
-/* Memory that another context has used may hold the numbers of its updates: they are not this context's. */
-
-static void record_update(VkCommandBuffer cmd, uint32_t index, void *user)
-{
-    (void)index, (void)user;
-    REQUIRE_CMP((int)sdfgi_update(t.gi, cmd, &t.frame), ==, (int)SDFGI_OK);
-}
-
-static void a_first_update_that_is_lost_is_noticed_whatever_memory_holds(void **state)
-{
-    (void)state;
-    loader = counting_vulkan_loader_sharing();
-    for (uint32_t number = 0; number < 4; number++) {
-        pool_allocator_open(&pool, &t.gpu);
-        pool.stale = number;
-        REQUIRE_CMP((int)create(true), ==, (int)SDFGI_OK);
-        t.messages[SDFGI_MESSAGE_UPDATE_LOST] = 0;
-        gpu_test_record_and_drop(&t.gpu, record_update, NULL);
-        gi_test_update(&t, 6);
-        REQUIRE_CMP(t.messages[SDFGI_MESSAGE_UPDATE_LOST], ==, 1u);
-        destroy();
-        pool_allocator_close(&pool);
-    }
-}
-
 /* ---- Refusals */
 
 /* Every place that asks for memory. */
@@ -255,7 +230,6 @@ TEST_GROUP(device_memory)
         return GPU_TEST_SKIP;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_memory_is_the_hosts_and_goes_back),
-        cmocka_unit_test(a_first_update_that_is_lost_is_noticed_whatever_memory_holds),
         cmocka_unit_test(any_refusal_is_an_error_that_leaves_nothing),
         cmocka_unit_test(what_a_careless_host_gives_is_refused),
     };
