@@ -8,6 +8,45 @@
 const uint CELLS = uint(SDFGI_FILTER_CELLS), ROWS = 9u;
 layout(local_size_x = 9 * SDFGI_FILTER_CELLS) in;
 
+/* Three neighbours in a row, or the cell itself in place of one that is no light cell. */
+struct row {
+    uint entries[3];
+    float likely[3]; /* relative differences */
+    bool there[3];
+};
+
+/* The i-th of nine rows. They, and places in them, go from -1 to 1 times the distance. Everything is loaded
+ * before it is needed: loads overlap, so that a thread waits once for three of them. */
+row load_row(uint cascade, ivec3 cell, uint entry, float noise, int i)
+{
+    row r;
+    for (int k = 0; k < 3; k++) {
+        const ivec3 away = ivec3(k, i % 3, i / 3) - 1, at = cell + FILTER_DISTANCE * away;
+        uint other;
+        const bool is_light = sdfgi_cell_entry(cascade, at, other);
+        r.there[k] = is_light && sdfgi_cell_is_valid(cascade, at) && away != ivec3(0);
+        r.entries[k] = r.there[k] ? other : entry;
+    }
+    for (int k = 0; k < 3; k++)
+        r.likely[k] = likely_difference(noise + gathered_load_shown_noise(cascade, r.entries[k]));
+    return r;
+}
+
+/* What a surface gains from those of a row along an axis, and the sum of shares. */
+vec4 gain_from_row(uint cascade, row r, uint axis, vec3 own)
+{
+    uint words[3];
+    for (int k = 0; k < 3; k++)
+        words[k] = filtered_word(cascade, axis, r.entries[k]);
+    vec4 gained = vec4(0.0);
+    for (int k = 0; k < 3; k++) {
+        const vec3 other = sdfgi_rgbe_decode(words[k]);
+        if (words[k] < SDFGI_SURFACE_UNKNOWN && r.there[k])
+            gained += gain_from(own, other, r.likely[k]);
+    }
+    return gained;
+}
+
 shared vec4 gained[6u * ROWS * CELLS];
 
 uint gained_slot(uint axis, uint row, uint own)
