@@ -94,7 +94,7 @@ static void registering_twice_fails_and_changes_nothing(void **state)
 static void classes_end_at_the_limit_and_leave_in_any_order(void **state)
 {
     (void)state;
-    static char names[MODULE_MAX_CLASSES + 1][8];
+    static char names[MODULE_MAX_CLASSES + 1][16];
     struct module_registry registry = { .class_count = 0 };
     for (int i = 0; i <= MODULE_MAX_CLASSES; i++) {
         snprintf(names[i], sizeof names[i], "C%d", i);
