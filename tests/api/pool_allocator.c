@@ -93,6 +93,7 @@ static void spoil(const struct pool_allocator *pool, const struct sdfgi_memory_r
         out->mapped = NULL;
 }
 
+/* What somebody else has left there. */
 static void fill(const struct pool_allocator *pool, uint32_t block, VkDeviceSize offset, VkDeviceSize size)
 {
     char *mapped = pool->blocks[block].mapped;

@@ -30,8 +30,7 @@ struct pool_allocator {
     uint32_t part_count;
     uint32_t calls, fail_at; /* the call that fails; 0: none */
     VkResult failure;
-    uint32_t
-        stale; /* each word of what is given, as somebody else may have left it; where memory can be mapped */
+    uint32_t stale; /* in each word of what is given, where memory can be mapped */
     enum { POOL_SOUND, POOL_NULL, POOL_MISPLACED, POOL_UNMAPPED } fault; /* of what is given */
 };
 

@@ -112,11 +112,8 @@ enum { EVENTS = sizeof events / sizeof *events, FRAMES = 50 };
 
 static uint64_t hash(struct gi_test *t, enum resource resource)
 {
-    const uint64_t size = gi_test_ordered_bytes(t, resource);
-    uint64_t h = UINT64_C(1469598103934665603);
-    uint8_t *bytes = gi_test_read(t, resource, NULL);
-    for (uint64_t i = 0; i < size; i++)
-        h = (h ^ bytes[i]) * UINT64_C(1099511628211);
+    void *bytes = gi_test_read(t, resource, NULL);
+    const uint64_t h = gi_test_hash(bytes, gi_test_ordered_bytes(t, resource));
     free(bytes);
     return h;
 }

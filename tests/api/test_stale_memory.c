@@ -59,24 +59,17 @@ static void destroy(void)
 
 enum { SIDE = 32, PIXELS = SIDE * SIDE, ACROSS = 6, POINTS = ACROSS * ACROSS * ACROSS };
 
-/* Hashes of what a context holds and shows. */
-enum shown { COUNTED = 3, FULL, HALF, REFLECTED, POINT_LIGHT, SHOWN };
-static const enum resource held[] = { RESOURCE_DISTANCE, RESOURCE_PROBES, RESOURCE_IRRADIANCE };
-
-static uint64_t hash(const void *data, uint64_t size)
-{
-    uint64_t h = UINT64_C(1469598103934665603);
-    for (uint64_t i = 0; i < size; i++)
-        h = (h ^ ((const uint8_t *)data)[i]) * UINT64_C(1099511628211);
-    return h;
-}
+/* Of which there are hashes: what a context holds and shows. */
+enum { DISTANCES, PROBES, IRRADIANCE, COUNTERS, FULL, HALF, REFLECTIONS, LOOKUPS, SHOWN };
+static const char *const names[SHOWN] = { "distances", "probes",      "irradiance",  "counters",
+                                          "gather",    "half gather", "reflections", "lookups" };
 
 /* The first `most` bytes, or all. */
 static uint64_t hash_resource(enum resource resource, uint64_t most)
 {
     uint64_t size;
     void *data = gi_test_read(&t, resource, &size);
-    const uint64_t h = hash(data, size < most ? size : most);
+    const uint64_t h = gi_test_hash(data, size < most ? size : most);
     free(data);
     return h;
 }
@@ -88,7 +81,7 @@ static uint64_t hash_gather(const struct picture *picture, enum sdfgi_gather_res
     for (int i = 0; i < PIXELS; i++)
         sum += (double)light[i][1];
     REQUIRE_TRUE(isfinite(sum) && sum / PIXELS > 0.01);
-    const uint64_t h = hash(light, sizeof(float[PIXELS][3]));
+    const uint64_t h = gi_test_hash(light, sizeof(float[PIXELS][3]));
     free(light);
     return h;
 }
@@ -100,7 +93,7 @@ static uint64_t hash_reflection(const struct picture *picture)
     for (int i = 0; i < PIXELS; i++)
         roughness[i] = (float)(i % SIDE) / SIDE;
     picture_reflect(&t, picture, roughness, texels);
-    return hash(texels, sizeof texels);
+    return gi_test_hash(texels, sizeof texels);
 }
 
 /* Of points in the air, in walls and beyond all cascades. */
@@ -115,7 +108,7 @@ static uint64_t hash_points(void)
             points[i].position[k] = -11.3f + 4.1f * (float)at[k];
     }
     gi_test_irradiance(&t, points, POINTS, light);
-    return hash(light, sizeof light);
+    return gi_test_hash(light, sizeof light);
 }
 
 static void show(const struct picture_scene *scene, uint64_t shown[static SHOWN])
@@ -128,13 +121,14 @@ static void show(const struct picture_scene *scene, uint64_t shown[static SHOWN]
                                                   .tan_y = 1,
                                                   .near_m = 0.05 };
     struct picture picture = picture_draw(scene, &camera, SIDE, SIDE);
-    for (int i = 0; i < COUNTED; i++)
-        shown[i] = hash_resource(held[i], UINT64_MAX);
-    shown[COUNTED] = hash_resource(RESOURCE_COUNTERS, 4 * (SDFGI_COUNTER_SAMPLES_CUT + 1));
+    shown[DISTANCES] = hash_resource(RESOURCE_DISTANCE, UINT64_MAX);
+    shown[PROBES] = hash_resource(RESOURCE_PROBES, UINT64_MAX);
+    shown[IRRADIANCE] = hash_resource(RESOURCE_IRRADIANCE, UINT64_MAX);
+    shown[COUNTERS] = hash_resource(RESOURCE_COUNTERS, 4 * (SDFGI_COUNTER_SAMPLES_CUT + 1));
     shown[FULL] = hash_gather(&picture, SDFGI_GATHER_FULL);
     shown[HALF] = hash_gather(&picture, SDFGI_GATHER_HALF);
-    shown[REFLECTED] = hash_reflection(&picture);
-    shown[POINT_LIGHT] = hash_points();
+    shown[REFLECTIONS] = hash_reflection(&picture);
+    shown[LOOKUPS] = hash_points();
     picture_finish(&picture);
 }
 
@@ -190,8 +184,8 @@ static void light_does_not_depend_on_what_memory_held(void **state)
         journey(stale[i], found);
         for (int k = 0; k < 2 * SHOWN; k++)
             if (found[k] != expected[k])
-                require_fail(__FILE__, __LINE__, "%s: hash %d differs where memory held %#x",
-                             k < SHOWN ? "first light" : "after a walk", k % SHOWN, (unsigned)stale[i]);
+                require_fail(__FILE__, __LINE__, "%s, %s: another where memory held %#x", names[k % SHOWN],
+                             k < SHOWN ? "first light" : "after a walk", (unsigned)stale[i]);
     }
 }
 

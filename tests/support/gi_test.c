@@ -273,6 +273,14 @@ uint64_t gi_test_ordered_bytes(const struct gi_test *t, enum resource resource)
     return resource == RESOURCE_SEEN && marks < r->buffers[resource].size ? marks : r->buffers[resource].size;
 }
 
+uint64_t gi_test_hash(const void *bytes, uint64_t size)
+{
+    uint64_t hash = UINT64_C(1469598103934665603);
+    for (uint64_t i = 0; i < size; i++)
+        hash = (hash ^ ((const uint8_t *)bytes)[i]) * UINT64_C(1099511628211);
+    return hash;
+}
+
 uint32_t gi_test_cell(const struct gi_test *t, uint32_t cascade, uint32_t x, uint32_t y, uint32_t z)
 {
     const ivec3 wrap = t->gi->volume.state.params.cascades[cascade].wrap;

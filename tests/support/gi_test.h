@@ -61,6 +61,8 @@ uint32_t gi_test_converge(struct gi_test *t, uint32_t limit);
 void *gi_test_read(struct gi_test *t, enum resource resource, uint64_t *size);
 /* Bytes of a buffer, from its first on, that do not depend on the order in which threads run. */
 uint64_t gi_test_ordered_bytes(const struct gi_test *t, enum resource resource);
+/* Of bytes; FNV-1a. */
+uint64_t gi_test_hash(const void *bytes, uint64_t size);
 /* The value of a half float that is finite. */
 float gi_test_half(uint16_t half);
 /* Solid bits of a cascade in cell space, whatever texels they are stored at. */
