@@ -46,15 +46,6 @@ static enum sdfgi_result create(bool enabled)
     return sdfgi_create(&desc, &t.gi);
 }
 
-static void destroy(void)
-{
-    sdfgi_destroy(t.gi);
-    t.gi = NULL;
-    for (uint32_t i = 0; i < t.buffer_count; i++)
-        gpu_test_buffer_destroy(&t.gpu, &t.buffers[i]);
-    t.buffer_count = 0;
-}
-
 static void enable(bool enabled)
 {
     const struct sdfgi_settings settings = small_settings(enabled);
@@ -105,7 +96,7 @@ static float light_without_the_hook(void)
     desc.vulkan.get_instance_proc_addr = counting_vulkan_loader_sharing();
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
     const float light = light_of_room();
-    destroy();
+    gi_test_destroy(&t);
     return light;
 }
 
@@ -138,7 +129,7 @@ static void all_memory_is_the_hosts_and_goes_back(void **state)
     gi_test_update(&t, 4);
     require_same_bytes();
     REQUIRE_CMP(counting_vulkan_get().memory, ==, before);
-    destroy();
+    gi_test_destroy(&t);
     pool_allocator_close(&pool);
 }
 
@@ -195,7 +186,7 @@ static void any_refusal_is_an_error_that_leaves_nothing(void **state)
         REQUIRE_CMP(t.messages[kinds[k % 3].message], ==, (uint32_t)failed);
         if (t.gi)
             require_same_bytes();
-        destroy();
+        gi_test_destroy(&t);
         pool_allocator_close(&pool);
     }
     t.gpu.messages->quiet = false;

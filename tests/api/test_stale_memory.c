@@ -8,29 +8,15 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static struct gi_test t;
 static struct pool_allocator pool;
-
-static int open_device(void **state)
-{
-    (void)state;
-    gi_test_open_device(&t);
-    return 0;
-}
-
-static int close_device(void **state)
-{
-    (void)state;
-    gi_test_close(&t);
-    return 0;
-}
 
 /* A context whose memory holds `stale` in each word. */
 static void create(uint32_t stale)
 {
     struct sdfgi_settings settings = gi_test_settings();
+    gi_test_open_device(&t);
     settings.resolution = 32;
     settings.cascades = 2;
     settings.ray_count = 25;
@@ -40,19 +26,14 @@ static void create(uint32_t stale)
     desc.device_allocator = pool_allocator_functions(&pool);
     pool_allocator_open(&pool, &t.gpu);
     pool.stale = stale;
-    memset(&t.frame, 0, sizeof t.frame);
-    memset(t.messages, 0, sizeof t.messages);
     REQUIRE_CMP((int)sdfgi_create(&desc, &t.gi), ==, (int)SDFGI_OK);
 }
 
 static void destroy(void)
 {
-    sdfgi_destroy(t.gi);
-    t.gi = NULL;
-    for (uint32_t i = 0; i < t.buffer_count; i++)
-        gpu_test_buffer_destroy(&t.gpu, &t.buffers[i]);
-    t.buffer_count = 0;
+    gi_test_destroy(&t);
     pool_allocator_close(&pool);
+    gi_test_close(&t);
 }
 
 /* ---- Light */
@@ -216,5 +197,5 @@ TEST_GROUP(stale_memory)
         cmocka_unit_test(light_does_not_depend_on_what_memory_held),
         cmocka_unit_test(a_first_update_that_is_lost_is_noticed),
     };
-    return cmocka_run_group_tests(tests, open_device, close_device);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -106,9 +106,10 @@ static void destroy_buffers(struct gi_test *t)
     t->buffer_count = 0;
 }
 
-static void destroy(struct gi_test *t)
+void gi_test_destroy(struct gi_test *t)
 {
     sdfgi_destroy(t->gi);
+    t->gi = NULL;
     destroy_buffers(t);
 }
 
@@ -126,7 +127,7 @@ void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings)
 
 void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings)
 {
-    destroy(t);
+    gi_test_destroy(t);
     memset(&t->frame, 0, sizeof t->frame);
     memset(t->messages, 0, sizeof t->messages);
     create(t, settings);
@@ -134,8 +135,7 @@ void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings)
 
 void gi_test_close(struct gi_test *t)
 {
-    destroy(t);
-    t->gi = NULL;
+    gi_test_destroy(t);
     park_device(&t->gpu);
 }
 

@@ -30,6 +30,8 @@ void gi_test_open(struct gi_test *t, const struct sdfgi_settings *settings);
 void gi_test_close(struct gi_test *t);
 /* Opens the device alone, for a context that the test makes itself; gi_test_close closes both. */
 void gi_test_open_device(struct gi_test *t);
+/* Destroys the context and its meshes; the device stays. */
+void gi_test_destroy(struct gi_test *t);
 /* Another context, without a scene, on the same device: drivers may run out of instances after some sixty.
  * Contexts share compute pipelines. */
 void gi_test_restart(struct gi_test *t, const struct sdfgi_settings *settings);
