@@ -74,21 +74,24 @@ vec3 brdf_evaluate(brdf_surface s, vec3 light)
     return (diffuse + brdf_compensation(s) * fresnel * (distribution * 0.5 / max(smith, 1e-9))) * n_l;
 }
 
-/* The specular lobe sends f0 x + y of even light to the viewer: the split-sum approximation (Karis 2013,
- * "Real Shading in Unreal Engine 4"), as a fit (Karis 2014, "Physically Based Shading on Mobile"). */
-vec2 brdf_split_sum(float roughness, float n_v)
+/* The mean of Schlick's weight over the lobe towards a viewer at cosine n_v, as the weight of a facet at a
+ * mean cosine. A fit to quadrature of GGX as above: the directional albedo is within 1.2 % for an f0 of 0.04
+ * and more and a roughness of 0.05 and more. */
+float brdf_mean_fresnel_weight(float n_v, float alpha)
 {
-    const vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    const float a = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a + r.zw;
+    const float r = sqrt(alpha), w = n_v * (1.0 + alpha) / (n_v + alpha);
+    const float p0 = ((-3.1123 * w + 6.8462) * w - 1.8866) * w - 2.2530;
+    const float p1 = ((26.3534 * w - 38.8747) * w + 10.6600) * w + 6.5418;
+    const float p2 = ((-45.7241 * w + 61.3439) * w - 17.8969) * w - 5.4955;
+    const float p3 = ((22.6039 * w - 29.3204) * w + 8.9432) * w + 1.4517;
+    const float a2 = alpha * alpha, cosine = sqrt((n_v * n_v + a2) / (1.0 + a2));
+    return brdf_fresnel_weight(cosine - alpha * (((p3 * r + p2) * r + p1) * r + p0));
 }
 
-/* Directional albedo of the specular lobe. The fit gives the parts, and brdf_lost the sum: white metal loses
- * nothing. */
+/* Directional albedo of the specular lobe. White metal loses nothing. */
 vec3 brdf_specular_albedo(brdf_surface s)
 {
     const float n_v = max(dot(s.normal, s.view), 1e-2);
-    const vec2 sums = brdf_split_sum(sqrt(s.alpha), n_v);
     const float kept = 1.0 - brdf_lost(n_v, s.alpha);
-    return (s.f0 * sums.x + sums.y) * (kept / (sums.x + sums.y)) * brdf_compensation(s);
+    return mix(s.f0, vec3(1.0), brdf_mean_fresnel_weight(n_v, s.alpha)) * kept * brdf_compensation(s);
 }
