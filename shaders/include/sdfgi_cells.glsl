@@ -27,6 +27,18 @@
 #define SDFGI_CELLS_TRIES  3
 /* A bit for each face of a cell. */
 #define SDFGI_CELLS_ALL_FACES 63u
+/* Square of the normal's component along an axis from which on the surface faces it: steps of light cells are
+ * one cell high then, up to an angle of 39 degrees. From an occupied cell the way out is along the longest
+ * component, or the two that are as long. */
+#define SDFGI_CELLS_FACED          0.6
+#define SDFGI_CELLS_FACED_IN_SOLID 0.45
+/* Inverse of the sine of the angle, 6 degrees, from which on cells count that are a step up or down, and how
+ * much they count where the surface is level. */
+#define SDFGI_CELLS_STEEP          10.0
+#define SDFGI_CELLS_LEVEL          0.02
+#define SDFGI_CELLS_LEVEL_IN_SOLID 0.1
+/* Less of an axis is not worth its loads. */
+#define SDFGI_CELLS_LEAST_SHARE 0.01
 /* Added to each weight, so that a cell that is alone counts although the point lies on the edge of its
  * reach. */
 #define SDFGI_CELLS_LEAST_WEIGHT 1e-4
@@ -189,18 +201,24 @@ bool sdfgi_cells_unset(uint cascade, vec3 normal, vec3 eye, inout vec3 at, inout
     return found;
 }
 
-/* Moves a point to a place near it, if that is in the same cell, or in an empty one beyond an open face; or
- * else as far as the point's cell goes. `open`: the faces by which the point may leave its cell; afterwards,
- * by which it may leave that of the place. */
-void sdfgi_cells_move(vec3 place, uvec2 place_bits, inout vec3 at, inout uint open)
+/* Where light is interpolated. */
+struct sdfgi_cells_place {
+    vec3 at;
+    uint open;     /* the faces by which a point may leave the cell that holds the place */
+    bool in_solid; /* sub-voxels of that cell are set */
+};
+
+/* A place near a point, if that is in the same cell, or in an empty one beyond an open face; or else as far
+ * as the point's cell goes. `bits` and `open` are of the point's cell. */
+sdfgi_cells_place sdfgi_cells_move(vec3 from, uvec2 bits, uint open, vec3 to, uvec2 to_bits)
 {
-    const vec3 cell = floor(at), way = floor(place) - cell;
+    const vec3 cell = floor(from), way = floor(to) - cell;
     const float steps = dot(abs(way), vec3(1.0));
     const uvec3 sides = uvec3(greaterThan(way, vec3(0.0))) | uvec3(lessThan(way, vec3(0.0))) << 1u;
     const bool beyond =
-        steps == 1.0 && place_bits == uvec2(0u) && ((sides.x | sides.y << 2u | sides.z << 4u) & open) != 0u;
-    at = steps == 0.0 || beyond ? place : clamp(place, cell, cell + (1.0 - SDFGI_CELLS_INSIDE));
-    open = beyond ? SDFGI_CELLS_ALL_FACES : open;
+        steps == 1.0 && to_bits == uvec2(0u) && ((sides.x | sides.y << 2u | sides.z << 4u) & open) != 0u;
+    return sdfgi_cells_place(steps == 0.0 || beyond ? to : clamp(to, cell, cell + (1.0 - SDFGI_CELLS_INSIDE)),
+                             beyond ? SDFGI_CELLS_ALL_FACES : open, bits != uvec2(0u) && !beyond);
 }
 
 /* ---- Interpolation */
@@ -212,16 +230,49 @@ struct sdfgi_cells_cage {
     float weights[8];
 };
 
-/* The light cells around a point. Those that share a face with the point's cell take part if that face is
- * open, and those beyond an edge or a corner if one of them leads there: others may be behind walls. All
- * blocks are loaded before any is looked at, and so are the surfaces afterwards: a load that waits for
- * another one takes most of the time of a lookup. */
-sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at, uint open)
+/* The light cells before a surface at an angle stand in steps. */
+struct sdfgi_cells_steps {
+    bvec3
+        low; /* on which sides of the place's cell the others lie: the low one of an axis, or the high one */
+    float use; /* of those beside it along the axis that the surface faces, 0 to 1 */
+};
+
+/* Across the axis that the surface faces, the others lie where the place is nearest; along it towards the
+ * normal, if the place's cell is occupied, or else up or down with the surface. Where the surface is level,
+ * what lies up or down belongs to a ledge. `square`: of the normal's components. */
+sdfgi_cells_steps sdfgi_cells_steps_at(bvec3 nearest, vec3 normal, vec3 square, bool in_solid)
 {
-    const ivec3 own = ivec3(floor(at));
-    const vec3 off = at - vec3(own) - 0.5;
+    const bvec3 faced = greaterThan(square, vec3(in_solid ? SDFGI_CELLS_FACED_IN_SOLID : SDFGI_CELLS_FACED)),
+                towards = lessThan(normal, vec3(0.0));
+    const vec3 along = mix(mix(normal, -normal, nearest), vec3(0.0), faced);
+    const float rise = along.x + along.y + along.z, tilt = 1.0 - max(square.x, max(square.y, square.z)),
+                least = in_solid ? SDFGI_CELLS_STEEP * tilt + SDFGI_CELLS_LEVEL_IN_SOLID : SDFGI_CELLS_LEVEL;
+    return sdfgi_cells_steps(mix(nearest, equal(towards, bvec3(in_solid || rise <= 0.0)), faced),
+                             min(max(SDFGI_CELLS_STEEP * abs(rise), least), 1.0));
+}
+
+bool sdfgi_cells_is_empty(uint cascade, uvec3 texel)
+{
+    return sdfgi_bits_at(sdfgi_texel_index(texel) | cascade << (3u * sdfgi_frame.resolution_log2)) ==
+           uvec2(0u);
+}
+
+/* The light cells around a place. Those that share a face with its cell take part if that face is open, and
+ * those beyond an edge or a corner if an empty cell beyond an open face leads there: others may be behind
+ * walls. Weights are trilinear, but the more even along an axis the more the surface faces it: only one of
+ * two cells in a row has the surface then. All blocks are loaded before any is looked at, and so are the
+ * surfaces afterwards: a load that waits for another one takes most of the time of a lookup. */
+sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3 normal)
+{
+    const ivec3 own = ivec3(floor(place.at));
+    const vec3 off = place.at - vec3(own) - 0.5, square = normal * normal;
+    const sdfgi_cells_steps steps =
+        sdfgi_cells_steps_at(lessThan(off, vec3(0.0)), normal, square, place.in_solid);
     const uvec3 here = sdfgi_cell_texel(cascade, own),
-                beside = sdfgi_cell_texel(cascade, own + ivec3(sign(off)));
+                beside = sdfgi_cell_texel(cascade, own + 1 - 2 * ivec3(steps.low));
+    const bvec3 empty = bvec3(sdfgi_cells_is_empty(cascade, uvec3(beside.x, here.yz)),
+                              sdfgi_cells_is_empty(cascade, uvec3(here.x, beside.y, here.z)),
+                              sdfgi_cells_is_empty(cascade, uvec3(here.xy, beside.z)));
     sdfgi_cells_cage cage;
     uint light = 0u; /* a bit per cell: it is a light cell */
     for (uint i = 0u; i < 8u; i++) {
@@ -230,48 +281,43 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, vec3 at, uint open)
             sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, cage.entries[i]);
         light |= is_light ? 1u << i : 0u;
     }
-    const uvec3 sides = uvec3(open, open >> 2u, open >> 4u) >> uvec3(lessThan(off, vec3(0.0))) & 1u;
-    const uint faces = light & 0x16u,
-               ways = (faces >> 1u & 3u | faces >> 2u & 4u) & (sides.x | sides.y << 1u | sides.z << 2u);
+    const uvec3 ways =
+        uvec3(place.open, place.open >> 2u, place.open >> 4u) >> uvec3(steps.low) & uvec3(empty);
+    light &= 1u | 0xaau * ways.x | 0xccu * ways.y | 0xf0u * ways.z;
+    const vec3 fall = min(2.0 - 2.0 * square, 1.0), near_here = 1.0 - fall * abs(off),
+               near_beside = steps.use * (1.0 - fall) + fall * max(mix(off, -off, steps.low), 0.0);
     for (uint i = 0u; i < 8u; i++) {
-        const bool counts = (light >> i & 1u) != 0u && (i == 0u || (i & ways) != 0u);
-        const vec3 near = mix(1.0 - abs(off), abs(off), bvec3(i & 1u, i & 2u, i & 4u));
+        const bool counts = (light >> i & 1u) != 0u;
+        const vec3 near = mix(near_here, near_beside, bvec3(i & 1u, i & 2u, i & 4u));
         cage.weights[i] = counts ? near.x * near.y * near.z + SDFGI_CELLS_LEAST_WEIGHT : 0.0;
         cage.entries[i] = counts ? cage.entries[i] : 0u;
     }
     return cage;
 }
 
-/* Light that arrives at the cells of an interpolation along a normal, times weight, in rgb; its weight in a.
- * The axes along which surfaces face are weighed by the squares of the normal's components. */
-vec4 sdfgi_cells_along(uint cascade, sdfgi_cells_cage cage, vec3 normal)
+/* Light that arrives at the cells around a place, times weight, in rgb; its weight in a. The axes along which
+ * surfaces face are weighed by the squares of the normal's components. `around`: the surface is smaller than
+ * a cell, and faces along none of its cell's axes. Those around it stand for it, those that face away
+ * excepted. One loop for both, with as many rounds as there are axes to read: its code takes time at every
+ * pixel. */
+vec4 sdfgi_cells_interpolate(uint cascade, sdfgi_cells_place place, vec3 normal, bool around)
 {
+    const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, place, normal);
+    const uint count = around ? 6u : 3u;
     vec4 sum = vec4(0.0);
-    for (uint major = 0u; major < 3u; major++) {
-        const float along = sdfgi_trace_component(normal, int(major));
-        /* Less than a hundredth of the weight: not worth a load. */
-        if (abs(along) < 0.1)
+    for (uint k = 0u; k < count; k++) {
+        const float component = sdfgi_trace_component(normal, int(around ? k >> 1u : k));
+        const uint axis = around ? k : 2u * k + (component < 0.0 ? 1u : 0u);
+        const float along = (axis & 1u) == 0u ? component : -component,
+                    share = around ? max(along + 0.5, 0.0) : along * along;
+        if (share < SDFGI_CELLS_LEAST_SHARE)
             continue;
-        const uint axis = 2u * major + (along < 0.0 ? 1u : 0u);
-        vec4 along_axis = vec4(0.0);
+        vec4 of_axis = vec4(0.0);
         for (uint i = 0u; i < 8u; i++)
-            along_axis +=
+            of_axis +=
                 cage.weights[i] * sdfgi_cell_surface(cascade, cage.entries[i], axis, SDFGI_CELLS_ARRIVING);
-        sum += along * along * along_axis;
+        sum += share * of_axis;
     }
-    return sum;
-}
-
-vec4 sdfgi_cells_interpolate(uint cascade, vec3 at, uint open, vec3 normal, bool around)
-{
-    const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, at, open);
-    if (!around)
-        return sdfgi_cells_along(cascade, cage, normal);
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < 8u; i++)
-        if (cage.weights[i] > 0.0)
-            sum +=
-                cage.weights[i] * sdfgi_cell_around(cascade, cage.entries[i], normal, SDFGI_CELLS_ARRIVING);
     return sum;
 }
 
@@ -326,14 +372,14 @@ vec4 sdfgi_cells_leaving_around(uint cascade, vec3 at, vec3 normal)
 
 /* What a lookup reads around a place: light that arrives, or light that leaves. `around`: from all surfaces
  * that do not face away. */
-vec4 sdfgi_cells_read(uint cascade, vec3 at, uint open, vec3 normal, bool around, uint what)
+vec4 sdfgi_cells_read(uint cascade, sdfgi_cells_place place, vec3 normal, bool around, uint what)
 {
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING)
-        return around ? sdfgi_cells_leaving_around(cascade, at, normal)
-                      : sdfgi_cells_leaving(cascade, at, normal);
+        return around ? sdfgi_cells_leaving_around(cascade, place.at, normal)
+                      : sdfgi_cells_leaving(cascade, place.at, normal);
 #endif
-    return sdfgi_cells_interpolate(cascade, at, open, normal, around);
+    return sdfgi_cells_interpolate(cascade, place, normal, around);
 }
 
 /* A place near a surface point that sdfgi_cells_lookup reads around. `i`: SDFGI_CELLS_MOVING, or the number
@@ -356,15 +402,15 @@ vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, i
         at = surface;
         bits = surface_bits;
     }
-    uint open = SDFGI_CELLS_ALL_FACES;
     bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
+    sdfgi_cells_place read = sdfgi_cells_place(at, SDFGI_CELLS_ALL_FACES, false);
     if (found && i < 0 && !in_air) {
-        open = bits == uvec2(0u) ? open : sdfgi_cells_open_faces(bits, at);
-        sdfgi_cells_move(middle, middle_bits, at, open);
+        const uint open = bits == uvec2(0u) ? SDFGI_CELLS_ALL_FACES : sdfgi_cells_open_faces(bits, at);
+        read = sdfgi_cells_move(at, bits, open, middle, middle_bits);
     } else if (found) {
-        found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, at);
+        found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, read.at);
     }
-    return found ? sdfgi_cells_read(cascade, at, open, normal, i > 0, what) : vec4(0.0);
+    return found ? sdfgi_cells_read(cascade, read, normal, i > 0, what) : vec4(0.0);
 }
 
 /* Light of the surface at a point in the cell space of a cascade, times weight, in rgb, and its weight in a:
