@@ -230,16 +230,17 @@ struct sdfgi_cells_cage {
     float weights[8];
 };
 
-/* The light cells before a surface at an angle stand in steps. */
+/* Where the others of an interpolation lie: on the low side of the place's cell along an axis, or on the high
+ * one. `use`: how much those count that lie along the axis that the surface faces, 0 to 1. */
 struct sdfgi_cells_steps {
-    bvec3
-        low; /* on which sides of the place's cell the others lie: the low one of an axis, or the high one */
-    float use; /* of those beside it along the axis that the surface faces, 0 to 1 */
+    bvec3 low;
+    float use;
 };
 
-/* Across the axis that the surface faces, the others lie where the place is nearest; along it towards the
- * normal, if the place's cell is occupied, or else up or down with the surface. Where the surface is level,
- * what lies up or down belongs to a ledge. `square`: of the normal's components. */
+/* The light cells before a surface at an angle stand in steps. Across the axis that the surface faces, the
+ * others lie where the place is nearest; along it towards the normal, if the place's cell is occupied, or
+ * else up or down with the surface. Where the surface is level, what lies up or down belongs to a ledge.
+ * `square`: of the normal's components. */
 sdfgi_cells_steps sdfgi_cells_steps_at(bvec3 nearest, vec3 normal, vec3 square, bool in_solid)
 {
     const bvec3 faced = greaterThan(square, vec3(in_solid ? SDFGI_CELLS_FACED_IN_SOLID : SDFGI_CELLS_FACED)),
