@@ -94,6 +94,12 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
     return arriving < SDFGI_SURFACE_UNKNOWN ? vec4(sdfgi_rgbe_decode(arriving), 1.0) : vec4(0.0);
 }
 
+/* How much a surface counts that stands for one smaller than a cell, by the cosine between their normals. */
+float sdfgi_cells_share_around(float along)
+{
+    return max(along + 0.5, 0.0);
+}
+
 /* Light of a light cell for a surface that is smaller than a cell, times weight, in rgb; its weight in a.
  * The surface faces along none of its cell's axes: those around it stand for it, those that face away
  * excepted. */
@@ -102,7 +108,7 @@ vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
     vec4 sum = vec4(0.0);
     for (uint axis = SDFGI_FIRST; axis < 6u; axis++) {
         const float along = sdfgi_trace_component(normal, int(axis >> 1u)) * ((axis & 1u) == 0u ? 1.0 : -1.0);
-        sum += max(along + 0.5, 0.0) * sdfgi_cell_surface(cascade, entry, axis, what);
+        sum += sdfgi_cells_share_around(along) * sdfgi_cell_surface(cascade, entry, axis, what);
     }
     return sum;
 }
@@ -254,8 +260,7 @@ sdfgi_cells_steps sdfgi_cells_steps_at(bvec3 nearest, vec3 normal, vec3 square, 
 
 bool sdfgi_cells_is_empty(uint cascade, uvec3 texel)
 {
-    return sdfgi_bits_at(sdfgi_texel_index(texel) | cascade << (3u * sdfgi_frame.resolution_log2)) ==
-           uvec2(0u);
+    return sdfgi_bits_at(sdfgi_cascade_texel_index(cascade, texel)) == uvec2(0u);
 }
 
 /* The light cells around a place. Those that share a face with its cell take part if that face is open, and
@@ -310,7 +315,7 @@ vec4 sdfgi_cells_interpolate(uint cascade, sdfgi_cells_place place, vec3 normal,
         const float component = sdfgi_trace_component(normal, int(around ? k >> 1u : k));
         const uint axis = around ? k : 2u * k + (component < 0.0 ? 1u : 0u);
         const float along = (axis & 1u) == 0u ? component : -component,
-                    share = around ? max(along + 0.5, 0.0) : along * along;
+                    share = around ? sdfgi_cells_share_around(along) : along * along;
         if (share < SDFGI_CELLS_LEAST_SHARE)
             continue;
         vec4 of_axis = vec4(0.0);

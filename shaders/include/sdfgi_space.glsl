@@ -69,9 +69,14 @@ uint sdfgi_texel_index(uvec3 texel)
 }
 
 /* Index of a local cell in buffers with one element per cell of all cascades. */
+uint sdfgi_cascade_texel_index(uint cascade, uvec3 texel)
+{
+    return sdfgi_texel_index(texel) | cascade << (3u * sdfgi_frame.resolution_log2);
+}
+
 uint sdfgi_cell_index(uint cascade, ivec3 cell)
 {
-    return sdfgi_texel_index(sdfgi_cell_texel(cascade, cell)) | cascade << (3u * sdfgi_frame.resolution_log2);
+    return sdfgi_cascade_texel_index(cascade, sdfgi_cell_texel(cascade, cell));
 }
 
 ivec3 sdfgi_cell_from_texel(uint cascade, uvec3 texel)
