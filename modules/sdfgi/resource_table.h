@@ -59,7 +59,7 @@
     X(LIGHT,       STORAGE, U32,             LISTS,   VOLUME, LOOKUP, 6 * ENTRY_COUNT(e),           SAVED)   \
     X(PROBES,      STORAGE, U32,             PROBES,  VOLUME, LOOKUP, e->probes * e->cascades,      DERIVED) \
     X(IRRADIANCE,  STORAGE, F16X4,           PROBES,  VOLUME, LOOKUP, TEXEL_COUNT(e),               SAVED)   \
-    X(LIGHT_BLOCKS, STORAGE, U32X4,          LISTS,   VOLUME, LOOKUP, e->cells / 64 * e->cascades,  DERIVED) \
+    X(LIGHT_BLOCKS, STORAGE, U32X2,          LISTS,   VOLUME, LOOKUP, e->cells / 32 * e->cascades,  DERIVED) \
     X(SURFACES,    STORAGE, U32,             LISTS,   VOLUME, LOOKUP, 6 * ENTRY_COUNT(e),           SAVED)   \
     X(EMISSION,    STORAGE, U32X2,           VOLUMES, VOLUME, LOOKUP, e->blocks * e->cascades,      DERIVED) \
     X(LIGHTS,      STORAGE, LIGHT_PARAMS,    LISTS,   VOLUME, WORK,   SDFGI_MAX_LIGHTS,             DERIVED) \

@@ -45,23 +45,21 @@
 
 /* ---- The list of light cells */
 
-/* What sdfgi_light_blocks holds for the block of a texel. */
-uvec4 sdfgi_light_block_of_texel(uint cascade, uvec3 texel)
+/* What sdfgi_light_blocks holds for the half of a block in which a texel lies. */
+uvec2 sdfgi_light_block_of_texel(uint cascade, uvec3 texel)
 {
     const uint bits = sdfgi_frame.resolution_log2 - 2u;
     const uvec3 block = texel >> 2u;
-    return sdfgi_light_blocks_at(block.x | block.y << bits | block.z << (2u * bits) | cascade << (3u * bits));
+    const uint index = block.x | block.y << bits | block.z << (2u * bits) | cascade << (3u * bits);
+    return sdfgi_light_blocks_at(2u * index + (texel.z >> 1u & 1u));
 }
 
-/* Whether a texel of a light block is a light cell; its entry in the light list. */
-bool sdfgi_light_block_entry(uvec4 block, uvec3 texel, out uint entry)
+/* Whether a texel of half a light block is a light cell; its entry in the light list. */
+bool sdfgi_light_block_entry(uvec2 part, uvec3 texel, out uint entry)
 {
-    const uvec3 inside = texel & 3u;
-    const uint bit = inside.x | inside.y << 2u | (inside.z & 1u) << 4u;
-    const bool high = inside.z > 1u;
-    const uint word = high ? block.y : block.x;
-    entry = block.z + (high ? bitCount(block.x) : 0u) + bitCount(bitfieldExtract(word, 0, int(bit)));
-    return (word >> bit & 1u) != 0u && entry < sdfgi_frame.light_cell_room;
+    const uint bit = texel.x & 3u | (texel.y & 3u) << 2u | (texel.z & 1u) << 4u;
+    entry = part.y + bitCount(bitfieldExtract(part.x, 0, int(bit)));
+    return (part.x >> bit & 1u) != 0u && entry < sdfgi_frame.light_cell_room;
 }
 
 /* Finds the entry of a local cell in the light list. False if the cell is no light cell. */
@@ -81,17 +79,19 @@ uint sdfgi_surface_index(uint cascade, uint entry, uint axis)
 const uint SDFGI_CELLS_ARRIVING = 0u;
 const uint SDFGI_CELLS_LEAVING = 1u;
 
-/* The light of the surface of a light cell that faces an axis in rgb, and 1 in a; 0 where there is none. */
-vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, uint what)
+/* The light of the surface of a light cell that faces an axis, times weight, in rgb; its weight in a, which
+ * is 0 where there is none. */
+vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, float weight, uint what)
 {
     const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces_at(index);
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING) {
-        const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(index));
-        return arriving == SDFGI_SURFACE_NONE ? vec4(0.0) : vec4(leaving, 1.0);
+        const float counts = arriving == SDFGI_SURFACE_NONE ? 0.0 : weight;
+        return vec4(sdfgi_rgbe_decode_weighted(sdfgi_light_at(index), counts), counts);
     }
 #endif
-    return arriving < SDFGI_SURFACE_UNKNOWN ? vec4(sdfgi_rgbe_decode(arriving), 1.0) : vec4(0.0);
+    const float counts = arriving < SDFGI_SURFACE_UNKNOWN ? weight : 0.0;
+    return vec4(sdfgi_rgbe_decode_weighted(arriving, counts), counts);
 }
 
 /* How much a surface counts that stands for one smaller than a cell, by the cosine between their normals. */
@@ -108,7 +108,7 @@ vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
     vec4 sum = vec4(0.0);
     for (uint axis = SDFGI_FIRST; axis < 6u; axis++) {
         const float along = sdfgi_trace_component(normal, int(axis >> 1u)) * ((axis & 1u) == 0u ? 1.0 : -1.0);
-        sum += sdfgi_cells_share_around(along) * sdfgi_cell_surface(cascade, entry, axis, what);
+        sum += sdfgi_cell_surface(cascade, entry, axis, sdfgi_cells_share_around(along), what);
     }
     return sum;
 }
@@ -263,11 +263,19 @@ bool sdfgi_cells_is_empty(uint cascade, uvec3 texel)
     return sdfgi_bits_at(sdfgi_cascade_texel_index(cascade, texel)) == uvec2(0u);
 }
 
+/* The cells of a cage to which those lead that share a face with the place's cell, and that cell, a bit each.
+ * `ways`: 1 for each axis along which the neighbour leads on. */
+uint sdfgi_cells_led(uvec3 ways)
+{
+    return 1u | 0xaau * ways.x | 0xccu * ways.y | 0xf0u * ways.z;
+}
+
 /* The light cells around a place. Those that share a face with its cell take part if that face is open, and
  * those beyond an edge or a corner if an empty cell beyond an open face leads there: others may be behind
  * walls. Weights are trilinear, but the more even along an axis the more the surface faces it: only one of
  * two cells in a row has the surface then. All blocks are loaded before any is looked at, and so are the
- * surfaces afterwards: a load that waits for another one takes most of the time of a lookup. */
+ * surfaces afterwards: a load that waits for another one takes most of the time of a lookup. Light cells are
+ * empty, and mostly they lead to all others: then no occupancy is loaded. */
 sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3 normal)
 {
     const ivec3 own = ivec3(floor(place.at));
@@ -276,9 +284,6 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3
         sdfgi_cells_steps_at(lessThan(off, vec3(0.0)), normal, square, place.in_solid);
     const uvec3 here = sdfgi_cell_texel(cascade, own),
                 beside = sdfgi_cell_texel(cascade, own + 1 - 2 * ivec3(steps.low));
-    const bvec3 empty = bvec3(sdfgi_cells_is_empty(cascade, uvec3(beside.x, here.yz)),
-                              sdfgi_cells_is_empty(cascade, uvec3(here.x, beside.y, here.z)),
-                              sdfgi_cells_is_empty(cascade, uvec3(here.xy, beside.z)));
     sdfgi_cells_cage cage;
     uint light = 0u; /* a bit per cell: it is a light cell */
     for (uint i = 0u; i < 8u; i++) {
@@ -287,9 +292,13 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3
             sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, cage.entries[i]);
         light |= is_light ? 1u << i : 0u;
     }
-    const uvec3 ways =
-        uvec3(place.open, place.open >> 2u, place.open >> 4u) >> uvec3(steps.low) & uvec3(empty);
-    light &= 1u | 0xaau * ways.x | 0xccu * ways.y | 0xf0u * ways.z;
+    const uvec3 open = uvec3(place.open, place.open >> 2u, place.open >> 4u) >> uvec3(steps.low) & 1u;
+    uvec3 ways = open & uvec3(light >> 1u, light >> 2u, light >> 4u);
+    if ((light & ~sdfgi_cells_led(ways)) != 0u)
+        ways = open & uvec3(sdfgi_cells_is_empty(cascade, uvec3(beside.x, here.yz)),
+                            sdfgi_cells_is_empty(cascade, uvec3(here.x, beside.y, here.z)),
+                            sdfgi_cells_is_empty(cascade, uvec3(here.xy, beside.z)));
+    light &= sdfgi_cells_led(ways);
     const vec3 fall = min(2.0 - 2.0 * square, 1.0), near_here = 1.0 - fall * abs(off),
                near_beside = steps.use * (1.0 - fall) + fall * max(mix(off, -off, steps.low), 0.0);
     for (uint i = 0u; i < 8u; i++) {
@@ -321,7 +330,7 @@ vec4 sdfgi_cells_interpolate(uint cascade, sdfgi_cells_place place, vec3 normal,
         vec4 of_axis = vec4(0.0);
         for (uint i = 0u; i < 8u; i++)
             of_axis +=
-                cage.weights[i] * sdfgi_cell_surface(cascade, cage.entries[i], axis, SDFGI_CELLS_ARRIVING);
+                sdfgi_cell_surface(cascade, cage.entries[i], axis, cage.weights[i], SDFGI_CELLS_ARRIVING);
         sum += share * of_axis;
     }
     return sum;
@@ -359,8 +368,8 @@ vec4 sdfgi_cells_leaving(uint cascade, vec3 at, vec3 normal)
     for (uint i = 0u; i < 4u; i++) {
         const bool counts = (light >> i & 1u) != 0u;
         const vec2 near = mix(1.0 - far, far, bvec2(i & 1u, i & 2u));
-        sum += (counts ? near.x * near.y + SDFGI_CELLS_LEAST_WEIGHT : 0.0) *
-               sdfgi_cell_surface(cascade, counts ? entries[i] : 0u, axis, SDFGI_CELLS_LEAVING);
+        const float weight = counts ? near.x * near.y + SDFGI_CELLS_LEAST_WEIGHT : 0.0;
+        sum += sdfgi_cell_surface(cascade, counts ? entries[i] : 0u, axis, weight, SDFGI_CELLS_LEAVING);
     }
     return sum;
 }

@@ -110,13 +110,12 @@ layout(std430, set = SDFGI_SET,
     uvec2 sdfgi_irradiance_texels[];
 };
 
-/* Per light block (4^3 texels) where its light cells are in the light list. x, y: a bit per light cell, x + 4
- * y
- * + 16 z. z: the entry of the first; the others follow in the order of their bits. */
+/* Per half of a light block (4 x 4 x 2 texels of 4^3) where its light cells are in the light list. x: a bit
+ * per light cell, x + 4 y + 16 z. y: the entry of the first; the others follow in the order of their bits. */
 layout(std430, set = SDFGI_SET,
        binding = SDFGI_BINDING_LIGHT_BLOCKS) SDFGI_ACCESS_LIGHT_BLOCKS buffer sdfgi_light_blocks_buffer
 {
-    uvec4 sdfgi_light_blocks[];
+    uvec2 sdfgi_light_blocks[];
 };
 
 /* The irradiance that arrives at the surfaces of light cells, over pi and times exposure, as RGB9E5: per

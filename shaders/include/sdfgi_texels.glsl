@@ -49,7 +49,7 @@ layout(set = SDFGI_SET, binding = SDFGI_BINDING_TEXELS +
 #if defined(SDFGI_SOFTWARE) && !defined(SDFGI_WRITES_LIGHT_BLOCKS)
 layout(set = SDFGI_SET, binding = SDFGI_BINDING_TEXELS +
                                   SDFGI_BINDING_LIGHT_BLOCKS) uniform usamplerBuffer sdfgi_light_blocks_view;
-#define sdfgi_light_blocks_at(i) texelFetch(sdfgi_light_blocks_view, int(i))
+#define sdfgi_light_blocks_at(i) texelFetch(sdfgi_light_blocks_view, int(i)).xy
 #else
 #define sdfgi_light_blocks_at(i) sdfgi_light_blocks[i]
 #endif

@@ -38,9 +38,15 @@ uint sdfgi_rgbe_encode(vec3 color)
     return sdfgi_rgbe_encode_rounded(color, 0.5);
 }
 
+/* The color times a weight. */
+vec3 sdfgi_rgbe_decode_weighted(uint v, float weight)
+{
+    return vec3(v & 511u, v >> 9 & 511u, v >> 18 & 511u) * (weight * sdfgi_rgbe_exp2(int(v >> 27) - 24));
+}
+
 vec3 sdfgi_rgbe_decode(uint v)
 {
-    return vec3(v & 511u, v >> 9 & 511u, v >> 18 & 511u) * sdfgi_rgbe_exp2(int(v >> 27) - 24);
+    return sdfgi_rgbe_decode_weighted(v, 1.0);
 }
 
 #endif

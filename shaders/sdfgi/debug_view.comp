@@ -104,7 +104,7 @@ vec3 shown_light(vec3 stored)
 /* Irradiance over pi times exposure of the surface that was hit, and 1 in a; 0 if none is known. */
 vec4 arriving_light(surface_hit hit)
 {
-    const vec4 facing = sdfgi_cell_surface(hit.cascade, hit.entry, hit.axis, SDFGI_CELLS_ARRIVING);
+    const vec4 facing = sdfgi_cell_surface(hit.cascade, hit.entry, hit.axis, 1.0, SDFGI_CELLS_ARRIVING);
     if (facing.a > 0.0)
         return facing;
     const vec4 around =

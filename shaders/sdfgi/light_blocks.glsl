@@ -42,10 +42,10 @@ uint light_block_slot(uint block)
     return 8u * block;
 }
 
-/* Index of a block's record in sdfgi_light_blocks. */
+/* Index in sdfgi_light_blocks of a block's first half; the other one follows. */
 uint light_block_record(uint cascade, uint block)
 {
-    return block | cascade << (3u * light_block_side_bits());
+    return 2u * (block | cascade << (3u * light_block_side_bits()));
 }
 
 uint light_block_count()

@@ -134,8 +134,10 @@ bool faces_as_before(ivec3 cell, uint previous)
 bool find_previous(uint block, uvec3 texel, out uint previous)
 {
     const uint slot = light_block_slot(block);
-    const uvec4 before =
-        uvec4(sdfgi_scratch_at(slot + 4u), sdfgi_scratch_at(slot + 5u), sdfgi_scratch_at(slot + 3u), 0u);
+    const uvec2 bits = uvec2(sdfgi_scratch_at(slot + 4u), sdfgi_scratch_at(slot + 5u));
+    const uint first = sdfgi_scratch_at(slot + 3u);
+    const uvec2 before =
+        (texel.z & 2u) == 0u ? uvec2(bits.x, first) : uvec2(bits.y, first + uint(bitCount(bits.x)));
     const ivec3 cell = sdfgi_cell_from_texel(args.cascade, texel);
     return sdfgi_light_block_entry(before, texel, previous) &&
            all(greaterThanEqual(cell, sdfgi_frame.cascades[args.cascade].kept_low)) &&
@@ -180,7 +182,9 @@ void list_kept_cell(uint entry, uint previous, uvec3 texel)
 /* Tells lookups which cells of a block are light cells, and the entry of the first. */
 void publish_block(uint block, uvec2 bits, uint first)
 {
-    sdfgi_light_blocks[light_block_record(args.cascade, block)] = uvec4(bits, first, 0u);
+    const uint record = light_block_record(args.cascade, block);
+    sdfgi_light_blocks[record] = uvec2(bits.x, first);
+    sdfgi_light_blocks[record + 1u] = uvec2(bits.y, first + uint(bitCount(bits.x)));
 }
 
 void main()

@@ -179,11 +179,13 @@ bool is_light_cell(ivec3 cell)
 void note_previous(uint block)
 {
     const uint slot = light_block_slot(block);
-    const uvec4 before =
-        args.rebuild != 0u ? uvec4(0u) : sdfgi_light_blocks_at(light_block_record(args.cascade, block));
-    sdfgi_scratch[slot + 3u] = before.z;
-    sdfgi_scratch[slot + 4u] = before.x;
-    sdfgi_scratch[slot + 5u] = before.y;
+    const uint record = light_block_record(args.cascade, block);
+    const bool keeps = args.rebuild == 0u;
+    const uvec2 low = keeps ? sdfgi_light_blocks_at(record) : uvec2(0u),
+                high = keeps ? sdfgi_light_blocks_at(record + 1u) : uvec2(0u);
+    sdfgi_scratch[slot + 3u] = low.y;
+    sdfgi_scratch[slot + 4u] = low.x;
+    sdfgi_scratch[slot + 5u] = high.x;
 }
 
 /* Writes the light cells of a dirty block: a bit for each. */

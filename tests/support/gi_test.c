@@ -300,13 +300,12 @@ uint32_t gi_test_light_entry(struct gi_test *t, uint32_t cascade, const uint32_t
     const uint32_t n = t->gi->settings.resolution, side = n / 4,
                    texel = gi_test_cell(t, cascade, cell[0], cell[1], cell[2]) % (n * n * n);
     const uint32_t x = texel % n, y = texel / n % n, z = texel / n / n;
-    uint32_t(*blocks)[4] = gi_test_read(t, RESOURCE_LIGHT_BLOCKS, NULL);
-    const uint32_t *block = blocks[x / 4 + side * (y / 4 + side * (z / 4 + side * cascade))];
-    const uint64_t bits = block[0] | (uint64_t)block[1] << 32, bit = x % 4 + 4 * (y % 4) + 16 * (z % 4);
-    REQUIRE_TRUE(bits >> bit & 1);
-    const uint32_t below = (uint32_t)__builtin_popcountll(bits & ((UINT64_C(1) << bit) - 1));
-    const uint32_t entry = block[2] + below;
-    free(blocks);
+    uint32_t(*halves)[2] = gi_test_read(t, RESOURCE_LIGHT_BLOCKS, NULL);
+    const uint32_t block = x / 4 + side * (y / 4 + side * (z / 4 + side * cascade));
+    const uint32_t *half = halves[2 * block + z / 2 % 2], bit = x % 4 + 4 * (y % 4) + 16 * (z % 2);
+    REQUIRE_TRUE(half[0] >> bit & 1);
+    const uint32_t entry = half[1] + (uint32_t)__builtin_popcount(half[0] & ((1u << bit) - 1));
+    free(halves);
     return cascade * (uint32_t)t->gi->volume.resources->extent.light_cells + entry;
 }
 
