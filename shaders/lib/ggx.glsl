@@ -6,7 +6,7 @@
 /* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
  * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
  */
-vec3 sdfgi_ggx_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
+vec3 sdfgi_ggx_reflected(vec3 normal, vec3 to_eye, float alpha, vec2 point)
 {
     const vec3 side =
         normalize(abs(normal.y) < 0.9 ? vec3(-normal.z, 0.0, normal.x) : vec3(0.0, normal.z, -normal.y));
@@ -16,26 +16,69 @@ vec3 sdfgi_ggx_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
     const float turn = 6.2831853 * point.x, z = (1.0 - point.y) * (1.0 + stretched.z) - stretched.z;
     const vec3 cap = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(turn), sin(turn)), z) + stretched;
     const vec3 facet = normalize(vec3(cap.xy * alpha, max(cap.z, 1e-6)));
-    const vec3 dir = reflect(-view, facet);
-    /* A facet may send light into the surface: its neighbours send it out again. */
-    return normalize(basis * vec3(dir.xy, max(abs(dir.z), 1e-3)));
+    return basis * reflect(-view, facet);
 }
 
-/* Schlick's Fresnel term of a dielectric of refractive index 1.5, for 1 less the cosine. */
-float sdfgi_ggx_fresnel(float rest)
+/* A facet may send light into the surface: its neighbours send it out again. */
+vec3 sdfgi_ggx_above(vec3 dir, vec3 normal)
 {
-    const float rest2 = rest * rest;
-    return 0.04 + 0.96 * rest2 * rest2 * rest;
+    const float rise = dot(dir, normal);
+    return normalize(dir + (max(abs(rise), 1e-3) - rise) * normal);
 }
 
-/* The mean of that over the directions of the lobe that a viewer at `cosine` from the normal sees. A fit to
- * quadrature, within 5 % up to alpha = 0.56. */
-float sdfgi_ggx_mean_fresnel(float cosine, float alpha)
+vec3 sdfgi_ggx_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
 {
-    const float alpha2 = 1.076 * alpha * alpha;
-    const float raised = sqrt((cosine * cosine + alpha2) / (1.0 + alpha2));
-    const float mixed = 1.1228 * alpha / (alpha + 0.3265) * (1.0 - 0.6272 * sqrt(cosine));
-    return sdfgi_ggx_fresnel(mix(1.0 - raised, 0.6751, mixed));
+    return sdfgi_ggx_above(sdfgi_ggx_reflected(normal, to_eye, alpha, point), normal);
+}
+
+/* Schlick's weight: the Fresnel term is mix(f0, 1, weight). */
+float sdfgi_ggx_fresnel_weight(float cosine)
+{
+    const float x = clamp(1.0 - cosine, 0.0, 1.0);
+    return x * x * x * x * x;
+}
+
+/* Schlick's Fresnel term of a dielectric of refractive index 1.5, from his weight. */
+float sdfgi_ggx_dielectric(float weight)
+{
+    return mix(0.04, 1.0, weight);
+}
+
+/* Share of what a facet sends out that no other facet hides, for cosines of the viewer and of the light to
+ * the normal: the height-correlated Smith term over what the viewer sees. */
+float sdfgi_ggx_unhidden(float n_v, float n_l, float alpha)
+{
+    const vec2 cosines2 = vec2(n_v * n_v, n_l * n_l), alpha2 = vec2(alpha * alpha);
+    const vec2 slopes = sqrt(1.0 + alpha2 * (1.0 - cosines2) / cosines2);
+    return (1.0 + slopes.x) / (slopes.x + slopes.y);
+}
+
+/* Share of even light that the lobe loses towards a viewer at cosine n_v where all Fresnel terms are 1: what
+ * facets send to one another. A fit to quadrature of GGX with the height-correlated Smith term, within 0.4 %
+ * of the share that is left. */
+float sdfgi_ggx_lost(float n_v, float alpha)
+{
+    const float w2 = n_v * (1.0 + alpha) / (n_v + alpha), w = sqrt(w2);
+    const float p0 = (((22.234367 * w - 61.307645) * w + 60.352630) * w - 25.384391) * w + 4.109031;
+    const float p1 = (((-143.709702 * w + 393.553851) * w - 396.470660) * w + 175.587888) * w - 29.169027;
+    const float p2 = (((340.274992 * w - 958.890693) * w + 1014.252800) * w - 481.791489) * w + 88.913657;
+    const float p3 = (((-348.497532 * w + 1013.868940) * w - 1115.579900) * w + 552.758587) * w - 105.153300;
+    const float p4 = (((131.955634 * w - 395.253320) * w + 448.694297) * w - 229.214931) * w + 44.557960;
+    return clamp(w2 * ((((p4 * alpha + p3) * alpha + p2) * alpha + p1) * alpha + p0), 0.0, 0.9);
+}
+
+/* The mean of Schlick's weight over the lobe towards a viewer at cosine n_v, as the weight of a facet at a
+ * mean cosine. A fit to quadrature of GGX as above: the directional albedo is within 1.2 % for an f0 of 0.04
+ * and more and a roughness of 0.05 and more. */
+float sdfgi_ggx_mean_fresnel_weight(float n_v, float alpha)
+{
+    const float r = sqrt(alpha), w = n_v * (1.0 + alpha) / (n_v + alpha);
+    const float p0 = ((-3.1123 * w + 6.8462) * w - 1.8866) * w - 2.2530;
+    const float p1 = ((26.3534 * w - 38.8747) * w + 10.6600) * w + 6.5418;
+    const float p2 = ((-45.7241 * w + 61.3439) * w - 17.8969) * w - 5.4955;
+    const float p3 = ((22.6039 * w - 29.3204) * w + 8.9432) * w + 1.4517;
+    const float a2 = alpha * alpha, cosine = sqrt((n_v * n_v + a2) / (1.0 + a2));
+    return sdfgi_ggx_fresnel_weight(cosine - alpha * (((p3 * r + p2) * r + p1) * r + p0));
 }
 
 #endif

@@ -22,6 +22,9 @@ const float EVEN = 0.1;
  * lamp, and a square of few rays would show it as a dot. */
 const float NARROW_SHARE = 0.9;
 
+/* Facets of smoother surfaces all face one way. */
+const float MIRROR_ALPHA = 0.0025;
+
 /* Cells: so far behind what a pixel shows is what was voxelised there. */
 const float BEHIND = 0.25;
 
@@ -34,11 +37,11 @@ vec2 pattern_point(ivec2 pixel)
     return sdfgi_random_r2(at.x + side.x * at.y, shift >> 4u);
 }
 
-/* The ray of a pixel of a surface. */
-vec3 ray_direction(vec2 point, picture_surface s, float roughness)
+/* What a facet of the pixel's surface reflects; it may lie below the surface. */
+vec3 facet_direction(vec2 point, picture_surface s, float roughness)
 {
     const float wide = smoothstep(PICTURE_WIDE_LOBES.x, PICTURE_WIDE_LOBES.y, roughness);
-    return sdfgi_ggx_direction(s.normal, s.to_eye, roughness * roughness,
+    return sdfgi_ggx_reflected(s.normal, s.to_eye, roughness * roughness,
                                point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
 }
 
@@ -54,17 +57,23 @@ bool is_metal(picture_surface s)
     return false;
 }
 
-/* How much the facet that sends light from `dir` to the viewer reflects, by the cosine to it, over the mean
- * of the lobe, which is what hosts multiply reflections by. At a small angle water mirrors lamps far off
- * better than the sky above. What metal reflects depends little on the angle. */
-float facet_share(picture_surface s, float roughness, vec3 dir)
+/* How much the facet that sends light from `dir` to the viewer reflects, over the mean of the lobe, which is
+ * what hosts multiply reflections by. At a small angle water mirrors lamps far off better than the sky above,
+ * and facets that lean hide each other: `is_hidden` says that they hide all of it. What metal reflects
+ * depends little on the angle. */
+float facet_share(picture_surface s, float roughness, vec3 dir, bool is_hidden)
 {
+    if (is_metal(s))
+        return 1.0;
     const vec3 eye = normalize(s.to_eye);
-    const float of_facet = sqrt(clamp(0.5 + 0.5 * dot(eye, dir), 0.0, 1.0)),
-                of_surface = clamp(dot(s.normal, eye), 0.0, 1.0);
-    const float share =
-        sdfgi_ggx_fresnel(1.0 - of_facet) / sdfgi_ggx_mean_fresnel(of_surface, roughness * roughness);
-    return is_metal(s) ? 1.0 : share;
+    const float alpha = roughness * roughness, n_v = clamp(dot(s.normal, eye), 0.01, 1.0),
+                n_l = clamp(dot(s.normal, dir), 0.001, 1.0),
+                of_facet = sqrt(clamp(0.5 + 0.5 * dot(eye, dir), 0.0, 1.0));
+    const float sent = sdfgi_ggx_dielectric(sdfgi_ggx_fresnel_weight(of_facet)) *
+                       sdfgi_ggx_unhidden(n_v, n_l, alpha),
+                mean = sdfgi_ggx_dielectric(sdfgi_ggx_mean_fresnel_weight(n_v, alpha)) *
+                       (1.0 - sdfgi_ggx_lost(n_v, alpha));
+    return mix(1.0, is_hidden ? 0.0 : sent / mean, min(alpha / MIRROR_ALPHA, 1.0));
 }
 
 /* From a point to the surface of another pixel; far away if there is none. */
@@ -120,9 +129,10 @@ void reflect_pixel(ivec2 pixel)
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
     const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
     bool even;
-    const vec3 face = face_normal(pixel, s, even), of_lobe = ray_direction(point, s, roughness),
-               dir = off_face(of_lobe, face);
-    const float share = (even ? open_share(of_lobe, face) : 1.0) * facet_share(s, roughness, dir);
+    const vec3 face = face_normal(pixel, s, even), of_facet = facet_direction(point, s, roughness),
+               of_lobe = sdfgi_ggx_above(of_facet, s.normal), dir = off_face(of_lobe, face);
+    const float share = (even ? open_share(of_lobe, face) : 1.0) *
+                        facet_share(s, roughness, dir, dot(of_facet, s.normal) <= 0.0);
     const reflect_found found =
         reflect_trace(sdfgi_first_from_position(s.pos), face, dir, packUnorm2x16(fract(5.0 * point)));
     const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);

@@ -71,8 +71,18 @@ static double fresnel(double cosine)
     return 0.04 + 0.96 * pow(1 - cosine, 5);
 }
 
+/* Share of what visible facets reflect towards height `h` that no other facet hides, for a viewer at height
+ * `viewer`: height-correlated Smith term. */
+static double unhidden(double viewer, double h, double alpha)
+{
+    const double a = sqrt(1 + alpha * alpha * (1 / (viewer * viewer) - 1)),
+                 b = sqrt(1 + alpha * alpha * (1 / (h * h) - 1));
+    return (1 + a) / (a + b);
+}
+
 /* Visible facets of GGX (Dupuy and Benyoub 2023) for a viewer at height `h`. The sky's light is the height of
- * the direction. `means`: of light alone, and of light by what facets reflect. */
+ * the direction. `means`: of light alone, where facets that face down have that of their neighbours, and of
+ * light by what facets reflect and others do not hide. */
 static void sky_of_lobe(double h, double alpha, double means[static 2])
 {
     const double side = sqrt(1 - h * h), length = hypot(side * alpha, h),
@@ -84,10 +94,11 @@ static void sky_of_lobe(double h, double alpha, double means[static 2])
         const double facet[3] = { alpha * (r * cos(turn) + view[0]), alpha * r * sin(turn), z + view[1] };
         const double norm = sqrt(facet[0] * facet[0] + facet[1] * facet[1] + facet[2] * facet[2]),
                      cosine = (side * facet[0] + h * facet[2]) / norm,
-                     height = fabs(2 * cosine * facet[2] / norm - h);
-        light += height;
-        reflected += fresnel(cosine) * height;
-        share += fresnel(cosine);
+                     height = 2 * cosine * facet[2] / norm - h,
+                     sent = height > 0 ? fresnel(cosine) * unhidden(h, height, alpha) : 0;
+        light += fabs(height);
+        reflected += sent * height;
+        share += sent;
     }
     means[0] = light / (STEPS * STEPS);
     means[1] = reflected / share;

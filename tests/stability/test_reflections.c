@@ -287,6 +287,91 @@ static void metal_shows_in_a_mirror_what_it_reflects(void **state)
     REQUIRE_CMP(nearest[0], >, 0.2);
 }
 
+/* ---- Gloss */
+
+/* What facets send to a viewer from a direction, up to a factor: GGX with the height-correlated Smith term
+ * and Schlick's Fresnel term of a dielectric. Y is up. */
+static double gloss_sends(const double eye[static 3], const double dir[static 3], double alpha)
+{
+    const double cosine = eye[0] * dir[0] + eye[1] * dir[1] + eye[2] * dir[2], alpha2 = alpha * alpha;
+    const double of_facet = sqrt(fmax(0.5 + 0.5 * cosine, 1e-12)), up = (eye[1] + dir[1]) / (2 * of_facet);
+    const double spread = up * up * (alpha2 - 1) + 1;
+    const double smith = dir[1] * sqrt(alpha2 + (1 - alpha2) * eye[1] * eye[1]) +
+                         eye[1] * sqrt(alpha2 + (1 - alpha2) * dir[1] * dir[1]);
+    return (0.04 + 0.96 * pow(1 - of_facet, 5)) * dir[1] / (spread * spread * smith);
+}
+
+/* True if a ray that starts above the middle of the surface, in the plane y = -1, meets a box. */
+static bool meets_box(const double low[static 3], const double high[static 3], const double dir[static 3])
+{
+    double enters = 0, leaves = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double from = i == 1 ? -1 + START_M : 0, a = (low[i] - from) / dir[i],
+                     b = (high[i] - from) / dir[i];
+        enters = fmax(enters, fmin(a, b));
+        leaves = fmin(leaves, fmax(a, b));
+    }
+    return enters < leaves;
+}
+
+/* The mean over the lobe in the light of a box that glows evenly, by quadrature. */
+static double gloss_of_box(const double low[static 3], const double high[static 3],
+                           const double eye[static 3], double alpha)
+{
+    enum { STRATA = 500 };
+    double light = 0, all = 0;
+    for (int i = 0; i < STRATA * STRATA; i++) {
+        const double y = (i / STRATA + 0.5) / STRATA, turn = 2 * PI * (i % STRATA + 0.5) / STRATA,
+                     out = sqrt(1 - y * y), dir[3] = { out * cos(turn), y, out * sin(turn) };
+        const double weight = gloss_sends(eye, dir, alpha);
+        light += meets_box(low, high, dir) ? weight : 0;
+        all += weight;
+    }
+    return light / all;
+}
+
+/* The mean of a picture whose pixels all have this roughness, and see about the same. */
+static double shown_by_gloss(struct gi_test *t, float gloss, const float towards[static 3])
+{
+    static uint16_t texels[ROW * ROW][4];
+    static float roughness[ROW * ROW];
+    struct mirror surface;
+    double sum = 0;
+    for (int i = 0; i < ROW * ROW; i++)
+        roughness[i] = gloss;
+    mirror_open_rough(&surface, t, ROW, ROW, 0.05f, roughness);
+    look_along(&surface, towards);
+    mirror_read(&surface, texels);
+    mirror_close(&surface);
+    for (int i = 0; i < ROW * ROW; i++)
+        sum += (double)gi_test_half(texels[i][1]);
+    return sum / (ROW * ROW);
+}
+
+/* Under a ceiling that glows. Facets that lean hide each other from what comes along the ground, and reflect
+ * more of that. */
+static void facets_of_gloss_count_by_what_they_send(void **state)
+{
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    const double low[3] = { -2, 0, -2 }, high[3] = { 2, 1, 2 };
+    const float along[] = { 0.7f, 1.5f }, gloss[] = { 0.25f, 0.35f, 0.49f };
+    double worst = 0;
+    gi_test_restart(t, &settings);
+    light_add_box(t, low, high, (float[]){ 0, 0, 0 }, 1);
+    gi_test_update(t, 4);
+    for (int i = 0; i < 6; i++) {
+        const double x = (double)along[i / 3], alpha = (double)(gloss[i % 3] * gloss[i % 3]),
+                     eye[3] = { -x / sqrt(1 + x * x), 1 / sqrt(1 + x * x), 0 };
+        const double want = gloss_of_box(low, high, eye, alpha),
+                     shown = shown_by_gloss(t, gloss[i % 3], (float[]){ along[i / 3], -1, 0 });
+        printf("gloss of %.2f, seen from a cosine of %.2f: %.4f instead of %.4f\n", (double)gloss[i % 3],
+               eye[1], shown, want);
+        worst = fmax(worst, fabs(shown / want - 1));
+    }
+    REQUIRE_CMP(worst, <=, 0.03);
+}
+
 /* ---- What calls for rays */
 
 enum { TILE = SDFGI_GROUP_PIXELS, SURFACE_SIDE = 5 * TILE };
@@ -338,6 +423,7 @@ TEST_GROUP(reflections)
         cmocka_unit_test(hard_69_views_of_one_row_reflect),
         cmocka_unit_test(a_mirror_shows_no_cells_of_a_wall),
         cmocka_unit_test(metal_shows_in_a_mirror_what_it_reflects),
+        cmocka_unit_test(facets_of_gloss_count_by_what_they_send),
         cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
     };
     return cmocka_run_group_tests_name("reflections", tests, light_open, light_close);
