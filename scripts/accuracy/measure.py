@@ -27,6 +27,9 @@ PARTS = ("picture", "indirect")
 # sdfgi_reflection_blend and sdfgi_reflection_end.
 TIERS = {"sharp": (0, 0.5), "medium": (0.5, 0.75), "rough": (0.75, 2)}
 
+# Pixels differ in roughness by no more if they show the same material.
+SAME_ROUGHNESS = 0.01
+
 # A tier that fewer pixels show than this share says nothing.
 MIN_SHARE = 0.005
 
@@ -189,15 +192,30 @@ def compare_all(bench, scene):
     }
 
 
+def unmixed(bench, roughness):
+    """Marks pixels with the roughness of all their neighbours: others may show a mirror in part of their samples."""
+    width, height = map(int, bench.args.size.split("x"))
+
+    def is_unmixed(x, y):
+        around = [
+            roughness[width * v + u]
+            for v in range(max(y - 1, 0), min(y + 2, height))
+            for u in range(max(x - 1, 0), min(x + 2, width))
+        ]
+        return max(around) - min(around) <= SAME_ROUGHNESS
+
+    return [is_unmixed(x, y) for y in range(height) for x in range(width)]
+
+
 def compare_tiers(bench, scene):
     """Per tier: its share of the pixels, and how far reflected light is from the truth. Pixels show surfaces."""
     if not any(read_pfm(bench.path(scene, "triangles.reflection"))):
         return {}
     roughness = read_pfm(bench.path(scene, "renderer.roughness"))[::3]
-    tiers = {"all": (0, 2)} | TIERS
     found = {}
-    for tier, (low, high) in tiers.items():
-        shown = [value > 0 and low <= value < high for value in roughness]
+    pure = unmixed(bench, roughness)
+    for tier, (low, high) in {"all": (0, 2), **TIERS}.items():
+        shown = [value > 0 and low <= value < high and (tier == "all" or p) for value, p in zip(roughness, pure)]
         share = sum(shown) / pixel_count(bench)
         if share >= MIN_SHARE:
             mask = write_pixels(bench, scene, tier, shown)
