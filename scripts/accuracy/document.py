@@ -175,7 +175,7 @@ ray but the camera's meets what the renderer's rays meet. *Voxels* compares the 
 
 TIERS = """What leaves the specular part of surfaces, without sun and punctual lights, against the truth over triangles, by
 roughness: *sharp* below {sharp} sends a ray over the lobe, *rough* from {rough} on takes irradiance, and *medium*
-blends the two."""
+blends the two. Of a tier are pixels whose neighbours have the same roughness: others may show a mirror in part."""
 
 LEAK = """The closed room is black in truth. A leak is the mean of its indirect light over that of the lit room
 (`{lit}`).
