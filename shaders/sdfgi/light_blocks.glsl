@@ -48,6 +48,13 @@ uint light_block_record(uint cascade, uint block)
     return 2u * (block | cascade << (3u * light_block_side_bits()));
 }
 
+/* What sdfgi_light_blocks holds for half a block: `bits` are those of the block, and `first` is the entry of
+ * its first light cell. */
+uvec2 light_block_half(uvec2 bits, uint first, bool is_upper)
+{
+    return is_upper ? uvec2(bits.y, first + uint(bitCount(bits.x))) : uvec2(bits.x, first);
+}
+
 uint light_block_count()
 {
     return 1u << (3u * light_block_side_bits());

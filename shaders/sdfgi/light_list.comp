@@ -135,9 +135,7 @@ bool find_previous(uint block, uvec3 texel, out uint previous)
 {
     const uint slot = light_block_slot(block);
     const uvec2 bits = uvec2(sdfgi_scratch_at(slot + 4u), sdfgi_scratch_at(slot + 5u));
-    const uint first = sdfgi_scratch_at(slot + 3u);
-    const uvec2 before =
-        (texel.z & 2u) == 0u ? uvec2(bits.x, first) : uvec2(bits.y, first + uint(bitCount(bits.x)));
+    const uvec2 before = light_block_half(bits, sdfgi_scratch_at(slot + 3u), (texel.z & 2u) != 0u);
     const ivec3 cell = sdfgi_cell_from_texel(args.cascade, texel);
     return sdfgi_light_block_entry(before, texel, previous) &&
            all(greaterThanEqual(cell, sdfgi_frame.cascades[args.cascade].kept_low)) &&
@@ -183,8 +181,8 @@ void list_kept_cell(uint entry, uint previous, uvec3 texel)
 void publish_block(uint block, uvec2 bits, uint first)
 {
     const uint record = light_block_record(args.cascade, block);
-    sdfgi_light_blocks[record] = uvec2(bits.x, first);
-    sdfgi_light_blocks[record + 1u] = uvec2(bits.y, first + uint(bitCount(bits.x)));
+    sdfgi_light_blocks[record] = light_block_half(bits, first, false);
+    sdfgi_light_blocks[record + 1u] = light_block_half(bits, first, true);
 }
 
 void main()
