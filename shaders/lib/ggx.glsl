@@ -3,9 +3,21 @@
 #ifndef SDFGI_GGX_GLSL
 #define SDFGI_GGX_GLSL
 
+/* Facets are chosen from a spherical cap about the viewer's direction in a space where the surface's facets
+ * face all ways alike (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"). This is
+ * how far the cap reaches below the horizon, for a viewer at cosine n_v: most of what would send light into
+ * the surface is cut off (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections"). `full`:
+ * how far it would reach with that. */
+float sdfgi_ggx_cap(float n_v, float alpha, out float full)
+{
+    const float z = max(n_v, 1e-3), side2 = max(1.0 - n_v * n_v, 0.0), a2 = alpha * alpha;
+    const float s = 1.0 + sqrt(side2), s2 = s * s;
+    full = z * inversesqrt(max(a2 * side2 + z * z, 1e-12));
+    return n_v > 0.0 ? full * (1.0 - a2) * s2 / (s2 + a2 * n_v * n_v) : full;
+}
+
 /* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
- * facet. Visible facets of GGX (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
- */
+ * facet. */
 vec3 sdfgi_ggx_reflected(vec3 normal, vec3 to_eye, float alpha, vec2 point)
 {
     const vec3 side =
@@ -13,7 +25,9 @@ vec3 sdfgi_ggx_reflected(vec3 normal, vec3 to_eye, float alpha, vec2 point)
     const mat3 basis = mat3(side, cross(normal, side), normal);
     const vec3 view = normalize(to_eye) * basis;
     const vec3 stretched = normalize(vec3(view.xy * alpha, max(view.z, 1e-3)));
-    const float turn = 6.2831853 * point.x, z = (1.0 - point.y) * (1.0 + stretched.z) - stretched.z;
+    float full;
+    const float low = sdfgi_ggx_cap(view.z, alpha, full), turn = 6.2831853 * point.x,
+                z = (1.0 - point.y) * (1.0 + low) - low;
     const vec3 cap = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(turn), sin(turn)), z) + stretched;
     const vec3 facet = normalize(vec3(cap.xy * alpha, max(cap.z, 1e-6)));
     return basis * reflect(-view, facet);
@@ -51,6 +65,14 @@ float sdfgi_ggx_unhidden(float n_v, float n_l, float alpha)
     const vec2 cosines2 = vec2(n_v * n_v, n_l * n_l), alpha2 = vec2(alpha * alpha);
     const vec2 slopes = sqrt(1.0 + alpha2 * (1.0 - cosines2) / cosines2);
     return (1.0 + slopes.x) / (slopes.x + slopes.y);
+}
+
+/* Share of the facets that a viewer sees from which some are chosen. */
+float sdfgi_ggx_chosen(float n_v, float alpha)
+{
+    float full;
+    const float low = sdfgi_ggx_cap(n_v, alpha, full);
+    return (1.0 + low) / (1.0 + full);
 }
 
 /* Share of even light that the lobe loses towards a viewer at cosine n_v where all Fresnel terms are 1: what

@@ -73,7 +73,8 @@ float facet_share(picture_surface s, float roughness, vec3 dir, bool is_hidden)
                        sdfgi_ggx_unhidden(n_v, n_l, alpha),
                 mean = sdfgi_ggx_dielectric(sdfgi_ggx_mean_fresnel_weight(n_v, alpha)) *
                        (1.0 - sdfgi_ggx_lost(n_v, alpha));
-    return mix(1.0, is_hidden ? 0.0 : sent / mean, min(alpha / MIRROR_ALPHA, 1.0));
+    const float share = is_hidden ? 0.0 : sent / mean * sdfgi_ggx_chosen(n_v, alpha);
+    return mix(1.0, share, min(alpha / MIRROR_ALPHA, 1.0));
 }
 
 /* From a point to the surface of another pixel; far away if there is none. */
