@@ -369,7 +369,7 @@ static void facets_of_gloss_count_by_what_they_send(void **state)
                eye[1], shown, want);
         worst = fmax(worst, fabs(shown / want - 1));
     }
-    REQUIRE_CMP(worst, <=, 0.03);
+    REQUIRE_CMP(worst, <=, 0.02);
 }
 
 /* ---- What calls for rays */
