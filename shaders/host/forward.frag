@@ -85,7 +85,7 @@ brdf_surface surface_here(vec4 base_color, bool front_facing)
     s.normal = material_normal(in_uv, in_normal, in_tangent, front_facing);
     s.view = -normalize(camera_offset(in_position));
     s.diffuse = base_color.rgb * (1.0 - metallic);
-    s.f0 = mix(vec3(0.04), base_color.rgb, metallic);
+    s.f0 = mix(vec3(SDFGI_GGX_DIELECTRIC_F0), base_color.rgb, metallic);
     /* Smoother lobes than this cannot be hit by point lights and overflow the HDR target. */
     s.alpha = max(metallic_roughness.y * metallic_roughness.y, 1e-3);
     s.specular = lambert ? 0.0 : 1.0;

@@ -5,8 +5,6 @@
 #include "../lib/ggx.glsl"
 
 const float BRDF_PI = 3.14159265359;
-/* Of an interface of refractive index 1.5, as glTF has it. */
-const float BRDF_DIELECTRIC_F0 = 0.04;
 
 struct brdf_surface {
     vec3 normal;
@@ -24,8 +22,7 @@ float brdf_diffuse_transmission(brdf_surface s)
 {
     if (s.specular == 0.0)
         return 1.0;
-    const float weight = sdfgi_ggx_fresnel_weight(dot(s.normal, s.view));
-    return 1.0 - mix(BRDF_DIELECTRIC_F0, 1.0, weight);
+    return 1.0 - sdfgi_ggx_dielectric(sdfgi_ggx_fresnel_weight(dot(s.normal, s.view)));
 }
 
 /* Factor on the lobe that gives back what facets send to one another (Turquin 2019, "Practical Multiple

@@ -4,16 +4,13 @@
 #define SDFGI_GGX_GLSL
 
 /* Facets are chosen from a spherical cap about the viewer's direction in a space where the surface's facets
- * face all ways alike (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"). This is
- * how far the cap reaches below the horizon, for a viewer at cosine n_v: most of what would send light into
- * the surface is cut off (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections"). `full`:
- * how far it would reach with that. */
-float sdfgi_ggx_cap(float n_v, float alpha, out float full)
+ * face all ways alike (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"). Of the
+ * part below the horizon this share is kept, for a viewer at cosine n_v: most of what would send light into
+ * the surface is cut off (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections"). */
+float sdfgi_ggx_kept_below(float n_v, float alpha)
 {
-    const float z = max(n_v, 1e-3), side2 = max(1.0 - n_v * n_v, 0.0), a2 = alpha * alpha;
-    const float s = 1.0 + sqrt(side2), s2 = s * s;
-    full = z * inversesqrt(max(a2 * side2 + z * z, 1e-12));
-    return n_v > 0.0 ? full * (1.0 - a2) * s2 / (s2 + a2 * n_v * n_v) : full;
+    const float s = 1.0 + sqrt(max(1.0 - n_v * n_v, 0.0)), s2 = s * s, a2 = alpha * alpha;
+    return n_v > 0.0 ? (1.0 - a2) * s2 / (s2 + a2 * n_v * n_v) : 1.0;
 }
 
 /* The direction in which a facet that the viewer sees reflects him; `point` in the unit square chooses the
@@ -25,8 +22,7 @@ vec3 sdfgi_ggx_reflected(vec3 normal, vec3 to_eye, float alpha, vec2 point)
     const mat3 basis = mat3(side, cross(normal, side), normal);
     const vec3 view = normalize(to_eye) * basis;
     const vec3 stretched = normalize(vec3(view.xy * alpha, max(view.z, 1e-3)));
-    float full;
-    const float low = sdfgi_ggx_cap(view.z, alpha, full), turn = 6.2831853 * point.x,
+    const float low = sdfgi_ggx_kept_below(view.z, alpha) * stretched.z, turn = 6.2831853 * point.x,
                 z = (1.0 - point.y) * (1.0 + low) - low;
     const vec3 cap = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(turn), sin(turn)), z) + stretched;
     const vec3 facet = normalize(vec3(cap.xy * alpha, max(cap.z, 1e-6)));
@@ -45,6 +41,9 @@ vec3 sdfgi_ggx_direction(vec3 normal, vec3 to_eye, float alpha, vec2 point)
     return sdfgi_ggx_above(sdfgi_ggx_reflected(normal, to_eye, alpha, point), normal);
 }
 
+/* Of an interface of refractive index 1.5, as glTF has it. */
+const float SDFGI_GGX_DIELECTRIC_F0 = 0.04;
+
 /* Schlick's weight: the Fresnel term is mix(f0, 1, weight). */
 float sdfgi_ggx_fresnel_weight(float cosine)
 {
@@ -52,10 +51,10 @@ float sdfgi_ggx_fresnel_weight(float cosine)
     return x * x * x * x * x;
 }
 
-/* Schlick's Fresnel term of a dielectric of refractive index 1.5, from his weight. */
+/* Schlick's Fresnel term of a dielectric, from his weight. */
 float sdfgi_ggx_dielectric(float weight)
 {
-    return mix(0.04, 1.0, weight);
+    return mix(SDFGI_GGX_DIELECTRIC_F0, 1.0, weight);
 }
 
 /* Share of what a facet sends out that no other facet hides, for cosines of the viewer and of the light to
@@ -67,12 +66,11 @@ float sdfgi_ggx_unhidden(float n_v, float n_l, float alpha)
     return (1.0 + slopes.x) / (slopes.x + slopes.y);
 }
 
-/* Share of the facets that a viewer sees from which some are chosen. */
-float sdfgi_ggx_chosen(float n_v, float alpha)
+/* Share of the cap that is left for a viewer at a cosine above 0. */
+float sdfgi_ggx_kept(float n_v, float alpha)
 {
-    float full;
-    const float low = sdfgi_ggx_cap(n_v, alpha, full);
-    return (1.0 + low) / (1.0 + full);
+    const float below = n_v * inversesqrt(mix(alpha * alpha, 1.0, n_v * n_v));
+    return (1.0 + sdfgi_ggx_kept_below(n_v, alpha) * below) / (1.0 + below);
 }
 
 /* Share of even light that the lobe loses towards a viewer at cosine n_v where all Fresnel terms are 1: what

@@ -22,7 +22,7 @@ const float EVEN = 0.1;
  * lamp, and a square of few rays would show it as a dot. */
 const float NARROW_SHARE = 0.9;
 
-/* Facets of smoother surfaces all face one way. */
+/* Facets of smoother surfaces count as those of a mirror, which face one way: the fits are not as exact. */
 const float MIRROR_ALPHA = 0.0025;
 
 /* Cells: so far behind what a pixel shows is what was voxelised there. */
@@ -73,7 +73,7 @@ float facet_share(picture_surface s, float roughness, vec3 dir, bool is_hidden)
                        sdfgi_ggx_unhidden(n_v, n_l, alpha),
                 mean = sdfgi_ggx_dielectric(sdfgi_ggx_mean_fresnel_weight(n_v, alpha)) *
                        (1.0 - sdfgi_ggx_lost(n_v, alpha));
-    const float share = is_hidden ? 0.0 : sent / mean * sdfgi_ggx_chosen(n_v, alpha);
+    const float share = is_hidden ? 0.0 : sent / mean * sdfgi_ggx_kept(n_v, alpha);
     return mix(1.0, share, min(alpha / MIRROR_ALPHA, 1.0));
 }
 
