@@ -4,6 +4,7 @@
  * belongs to is dark. */
 #include "gather_picture.h"
 #include "light_scene.h"
+#include "oracle_gloss.h"
 #include "require.h"
 #include "test_group.h"
 
@@ -66,20 +67,6 @@ static struct picture draw_floor(const struct picture_scene *scene, double lean)
 
 /* ---- The mean over the lobe, by quadrature. Heights are cosines to the normal. */
 
-static double fresnel(double cosine)
-{
-    return 0.04 + 0.96 * pow(1 - cosine, 5);
-}
-
-/* Share of what visible facets reflect towards height `h` that no other facet hides, for a viewer at height
- * `viewer`: height-correlated Smith term. */
-static double unhidden(double viewer, double h, double alpha)
-{
-    const double a = sqrt(1 + alpha * alpha * (1 / (viewer * viewer) - 1)),
-                 b = sqrt(1 + alpha * alpha * (1 / (h * h) - 1));
-    return (1 + a) / (a + b);
-}
-
 /* Visible facets of GGX (Dupuy and Benyoub 2023) for a viewer at height `h`. The sky's light is the height of
  * the direction. `means`: of light alone, where facets that face down have that of their neighbours, and of
  * light by what facets reflect and others do not hide. */
@@ -95,7 +82,7 @@ static void sky_of_lobe(double h, double alpha, double means[static 2])
         const double norm = sqrt(facet[0] * facet[0] + facet[1] * facet[1] + facet[2] * facet[2]),
                      cosine = (side * facet[0] + h * facet[2]) / norm,
                      height = 2 * cosine * facet[2] / norm - h,
-                     sent = height > 0 ? fresnel(cosine) * unhidden(h, height, alpha) : 0;
+                     sent = height > 0 ? oracle_fresnel(0.04, cosine) * oracle_smith(h, height, alpha) : 0;
         light += fabs(height);
         reflected += sent * height;
         share += sent;

@@ -277,7 +277,8 @@ static uint32_t rays_sent(struct stage *s, const sdfgi_view *view)
 }
 
 /* A quarter and a sixteenth of the rays, and those of pixels that lie fewer than a step beside the wall,
- * which is background, and of a ridge that lies between rays. So do rough surfaces at full resolution. */
+ * which is background, and of a ridge that lies between rays. So do rough surfaces at full resolution. Few
+ * rays of a sixteenth meet the part of the wall that glows: the mean is up to 2.1 % off. */
 static void fewer_rays_show_the_same(void **state)
 {
     (void)state;

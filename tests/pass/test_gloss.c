@@ -2,6 +2,7 @@
  * How much of even light the host's gloss sends to the viewer, against quadrature of its lobe: reflections
  * are multiplied by that. */
 #include "gpu_test_compute.h"
+#include "oracle_gloss.h"
 #include "require.h"
 #include "test_group.h"
 
@@ -17,11 +18,6 @@ enum { STRATA = 192 };
 struct shares {
     double x, y;
 };
-
-static double smith_lambda(double cosine, double alpha)
-{
-    return (sqrt(1 + alpha * alpha * (1 - cosine * cosine) / (cosine * cosine)) - 1) / 2;
-}
 
 /* What the facet sends to the viewer that a point of the unit square chooses from those of GGX that the
  * viewer sees (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"). */
@@ -40,8 +36,8 @@ static struct shares of_facet(double cosine, double alpha, double u, double v)
     const double of_facet = (x * sine + z * cosine) / length, out = 2 * of_facet * z / length - cosine;
     if (out <= 0)
         return (struct shares){ 0, 0 };
-    const double seen = 1 + smith_lambda(cosine, alpha), share = seen / (seen + smith_lambda(out, alpha));
-    return (struct shares){ share, share * pow(1 - of_facet, 5) };
+    const double share = oracle_smith(cosine, out, alpha) / oracle_smith(cosine, 1, alpha);
+    return (struct shares){ share, share * oracle_fresnel(0, of_facet) };
 }
 
 static struct shares of_lobe(double cosine, double alpha)

@@ -3,6 +3,7 @@
  * one row (HARD_CASES rows 55 and 69). What a picture shows calls for rays (EFFECTS rows 20 to 22). */
 #include "hard_case.h"
 #include "light_scene.h"
+#include "oracle_gloss.h"
 #include "require.h"
 #include "test_group.h"
 
@@ -289,16 +290,13 @@ static void metal_shows_in_a_mirror_what_it_reflects(void **state)
 
 /* ---- Gloss */
 
-/* What facets send to a viewer from a direction, up to a factor: GGX with the height-correlated Smith term
- * and Schlick's Fresnel term of a dielectric. Y is up. */
+/* What facets of a dielectric send to a viewer from a direction, up to a factor. Y is up. */
 static double gloss_sends(const double eye[static 3], const double dir[static 3], double alpha)
 {
     const double cosine = eye[0] * dir[0] + eye[1] * dir[1] + eye[2] * dir[2], alpha2 = alpha * alpha;
     const double of_facet = sqrt(fmax(0.5 + 0.5 * cosine, 1e-12)), up = (eye[1] + dir[1]) / (2 * of_facet);
     const double spread = up * up * (alpha2 - 1) + 1;
-    const double smith = dir[1] * sqrt(alpha2 + (1 - alpha2) * eye[1] * eye[1]) +
-                         eye[1] * sqrt(alpha2 + (1 - alpha2) * dir[1] * dir[1]);
-    return (0.04 + 0.96 * pow(1 - of_facet, 5)) * dir[1] / (spread * spread * smith);
+    return oracle_fresnel(0.04, of_facet) * oracle_smith(eye[1], dir[1], alpha) / (spread * spread);
 }
 
 /* True if a ray that starts above the middle of the surface, in the plane y = -1, meets a box. */
