@@ -132,7 +132,8 @@ static const struct row rows[] = {
     LIVE(cell_rays_per_frame, "sdfgi_cell_rays_per_frame", INT, 131072, 1024, 16777216, "rays", "",
         "light on surfaces that follows changes sooner", "tracing time in proportion",
         "Rays that light cells send in a frame, until light has converged. Near cascades get most of them. "
-        "Where sdfgi_gather is used, most go to what pictures show and to what lights it."),
+        "Where sdfgi_gather is used, most go to what pictures show and to what lights it. In the first 20 "
+        "frames, and after a teleport, new cells send four times as many: smooth walls on arrival."),
     LOOKUPS(reflection_blend, "sdfgi_reflection_blend", FLOAT, 0.5, 0, 1, "roughness", "",
         "rays for rougher surfaces: reflections that follow what is near", "a little noise on these",
         "Surfaces up to this roughness reflect what rays meet. From here to sdfgi_reflection_end irradiance "

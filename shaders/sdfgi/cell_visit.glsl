@@ -25,6 +25,7 @@ struct visited_cell {
     ivec3 cell;
     uint entry;
     gathered_state state; /* with which the visit begins */
+    uint times_rays;      /* how many times RAYS and EMITTER_RAYS its surfaces send */
     bool woken;           /* what it has gathered so far is outdated */
     float importance;     /* of all emitters, for the cell */
     bool watched;         /* what its rays hit is marked */
@@ -162,10 +163,10 @@ float share_of_emitter_rays(emitter e, float chance, vec3 dir, float range, floa
     return towards / max(towards + at_random, 1e-30);
 }
 
-/* Light that a surface gets from the emitters, by one ray. */
-vec4 send_emitter_ray(uint cascade, ray_source source, uint ray)
+/* Light that a surface gets from the emitters, by one ray: the `index`-th of a cycle. */
+vec4 send_emitter_ray(uint cascade, ray_source source, uint index)
 {
-    vec3 place = sdfgi_random_r3(source.visits * EMITTER_RAYS + ray, source.shift);
+    vec3 place = sdfgi_random_r3(index, source.shift);
     emitter chosen;
     float chance;
     if (!choose_emitter(cascade, source.own, place.x, chosen, chance))
@@ -266,10 +267,19 @@ vec4 send_random_ray(uint cascade, ray_source source, uint index)
 
 /* ---- A visit */
 
-/* Rays of a surface in a visit. */
-uint rays_of_visit(uint cascade)
+/* Rays that a surface of a cell sends in a visit: at random, and towards emitters. */
+struct visit_rays {
+    uint at_random, to_emitters;
+};
+
+visit_rays rays_times(uint cascade, uint times)
 {
-    return emitter_count(cascade) > 0u ? MOST_RAYS : RAYS;
+    return visit_rays(RAYS * times, emitter_count(cascade) > 0u ? EMITTER_RAYS * times : 0u);
+}
+
+visit_rays rays_of(uint cascade, uint own)
+{
+    return rays_times(cascade, cell_of(own).times_rays);
 }
 
 /* What is kept of a ray: radiance, and 1 if it is known. */
@@ -288,7 +298,7 @@ float variance_of_mean(float sum, float squares, float count)
 /* What rays of a surface have found. */
 struct visit_light {
     vec4 sum;      /* of those at random, and how many are known */
-    vec3 emitters; /* of those towards emitters */
+    vec4 emitters; /* of those towards emitters, and how many there are */
     vec2 squares;  /* of luminances, of both kinds */
 };
 
@@ -298,7 +308,7 @@ void visit_add(inout visit_light found, vec4 ray, bool at_random)
     if (at_random)
         found.sum += vec4(ray.rgb * ray.a, ray.a);
     else
-        found.emitters += ray.rgb;
+        found.emitters += vec4(ray.rgb, 1.0);
     found.squares += light * light * (at_random ? vec2(ray.a, 0.0) : vec2(0.0, 1.0));
 }
 
@@ -306,16 +316,21 @@ void visit_add(inout visit_light found, vec4 ray, bool at_random)
  * variance of its luminance. */
 vec4 visit_mean(visit_light found)
 {
-    const float count = max(found.sum.a, 1.0);
-    return vec4(
-        found.sum.rgb / count + found.emitters / float(EMITTER_RAYS),
-        variance_of_mean(sdfgi_light_luminance(found.sum.rgb), found.squares.x, count) +
-            variance_of_mean(sdfgi_light_luminance(found.emitters), found.squares.y, float(EMITTER_RAYS)));
+    const float count = max(found.sum.a, 1.0), emitters = max(found.emitters.a, 1.0);
+    return vec4(found.sum.rgb / count + found.emitters.rgb / emitters,
+                variance_of_mean(sdfgi_light_luminance(found.sum.rgb), found.squares.x, count) +
+                    variance_of_mean(sdfgi_light_luminance(found.emitters.rgb), found.squares.y, emitters));
 }
 
 bool is_new(gathered_state state)
 {
     return state.mean == GATHERED_NOTHING && state.visits == 0u;
+}
+
+/* visited_cell::times_rays of a cell in a state. */
+uint times_rays_of(gathered_state state)
+{
+    return state.mean == GATHERED_NOTHING ? args.new_rays : 1u;
 }
 
 /* The state of a cell that is woken: a cycle begins anew. */

@@ -41,18 +41,21 @@ bool choose_emitter(uint cascade, uint own, inout float place, out emitter chose
                         chosen, chance);
 }
 
+vec4 kept(vec4 ray)
+{
+    return sdfgi_half4_decode(ray_pack_light(ray));
+}
+
 /* The mean of a surface's rays. */
 vec4 send_rays(uint cascade, ray_source source)
 {
-    visit_light light = visit_light(vec4(0.0), vec3(0.0), vec2(0.0));
-    for (uint ray = 0u; ray < RAYS; ray++)
-        visit_add(
-            light,
-            sdfgi_half4_decode(ray_pack_light(send_random_ray(cascade, source, source.visits * RAYS + ray))),
-            true);
-    const uint to_emitters = rays_of_visit(cascade) - RAYS;
-    for (uint ray = 0u; ray < to_emitters; ray++)
-        visit_add(light, sdfgi_half4_decode(ray_pack_light(send_emitter_ray(cascade, source, ray))), false);
+    const visit_rays rays = rays_of(cascade, 0u);
+    visit_light light = visit_light(vec4(0.0), vec4(0.0), vec2(0.0));
+    for (uint ray = 0u; ray < rays.at_random; ray++)
+        visit_add(light, kept(send_random_ray(cascade, source, source.visits * rays.at_random + ray)), true);
+    for (uint ray = 0u; ray < rays.to_emitters; ray++)
+        visit_add(light, kept(send_emitter_ray(cascade, source, source.visits * rays.to_emitters + ray)),
+                  false);
     return visit_mean(light);
 }
 
@@ -67,6 +70,7 @@ void visit_cell(uint cascade)
         return;
     notes = visit_notes(0.0, 0.0, 0.0);
     visited.state = state_of_visit(cascade, visited.entry, visited.woken);
+    visited.times_rays = times_rays_of(visited.state);
     visited.watched = watched_holds(cascade, visited.entry);
     visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
     const bool woken_before = visited.woken;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade. Its threads share the rays of all their surfaces.
+ * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade, or fewer where new ones send more rays. Its
+ * threads share the rays of all their surfaces.
  * A surface adds its rays in order, so that sums do not depend on which thread sent which ray. Shared memory:
  * 9 KiB. */
 #ifndef SDFGI_CELL_VISIT_SHARED_GLSL
@@ -18,8 +19,15 @@ shared bool wakes[CELLS];         /* a ray has met what has changed */
 shared uint facing[CELLS];        /* a bit per axis; 0 for a cell that is not there */
 shared uint surfaces[6u * CELLS]; /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
-shared uvec2 found[6u * CELLS * MOST_RAYS]; /* per ray: radiance, and 1 if it is known */
-shared float importance[CELLS * PARTS];     /* per cell and part of the list: sums over emitters */
+/* Per surface and ray at random, and then those towards emitters: radiance, and 1 if it is known. */
+shared uvec2 found[6u * CELLS * MOST_RAYS];
+shared float importance[CELLS * PARTS]; /* per cell and part of the list: sums over emitters */
+
+/* How many cells the workgroup visits. */
+uint cell_count()
+{
+    return CELLS / args.new_rays;
+}
 
 visited_cell cell_of(uint own)
 {
@@ -88,41 +96,59 @@ void keep_ray(uint i, vec4 light)
     found[i] = ray_pack_light(light);
 }
 
-/* Sends the rays of all surfaces, of which each has `rays`. */
-void send_rays(uint cascade, uint rays)
+/* Where the rays of a surface are kept. */
+uint first_found(uint surface)
 {
-    const uint at_random = surface_count * RAYS, to_emitters = surface_count * (rays - RAYS);
-    for (uint i = gl_LocalInvocationIndex; i < at_random; i += THREADS) {
-        const uint of_surface = i / RAYS, ray = i % RAYS;
+    return surface * args.new_rays * MOST_RAYS;
+}
+
+/* Sends the rays of all surfaces. There is a place for as many as new cells send. */
+void send_rays(uint cascade)
+{
+    const visit_rays most = rays_times(cascade, args.new_rays);
+    for (uint i = gl_LocalInvocationIndex; i < surface_count * most.at_random; i += THREADS) {
+        const uint of_surface = i / most.at_random, ray = i % most.at_random,
+                   rays = rays_of(cascade, surfaces[of_surface] / 6u).at_random;
+        if (ray >= rays)
+            continue;
         const ray_source source = source_of(cascade, surfaces[of_surface]);
-        keep_ray(of_surface * rays + ray, send_random_ray(cascade, source, source.visits * RAYS + ray));
+        keep_ray(first_found(of_surface) + ray, send_random_ray(cascade, source, source.visits * rays + ray));
     }
-    for (uint i = gl_LocalInvocationIndex; i < to_emitters; i += THREADS) {
-        const uint of_surface = i / EMITTER_RAYS, ray = i % EMITTER_RAYS;
+    for (uint i = gl_LocalInvocationIndex; i < surface_count * most.to_emitters; i += THREADS) {
+        const uint of_surface = i / most.to_emitters, ray = i % most.to_emitters,
+                   rays = rays_of(cascade, surfaces[of_surface] / 6u).to_emitters;
+        if (ray >= rays)
+            continue;
         const ray_source source = source_of(cascade, surfaces[of_surface]);
-        keep_ray(of_surface * rays + RAYS + ray, send_emitter_ray(cascade, source, ray));
+        keep_ray(first_found(of_surface) + most.at_random + ray,
+                 send_emitter_ray(cascade, source, source.visits * rays + ray));
     }
 }
 
-vec4 light_of_rays(uint first, uint rays)
+/* What the rays of a surface, the i-th, have found. */
+vec4 light_of_rays(uint cascade, uint i)
 {
-    visit_light light = visit_light(vec4(0.0), vec3(0.0), vec2(0.0));
-    for (uint i = 0u; i < rays; i++)
-        visit_add(light, sdfgi_half4_decode(found[first + i]), i < RAYS);
+    const visit_rays rays = rays_of(cascade, surfaces[i] / 6u);
+    const uint first = first_found(i), first_emitter = first + RAYS * args.new_rays;
+    visit_light light = visit_light(vec4(0.0), vec4(0.0), vec2(0.0));
+    for (uint ray = 0u; ray < rays.at_random; ray++)
+        visit_add(light, sdfgi_half4_decode(found[first + ray]), true);
+    for (uint ray = 0u; ray < rays.to_emitters; ray++)
+        visit_add(light, sdfgi_half4_decode(found[first_emitter + ray]), false);
     return visit_mean(light);
 }
 
 /* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */
 void find_surfaces(uint cascade)
 {
-    const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u;
+    const uint lane = gl_LocalInvocationIndex, own = lane / 8u, axis = lane % 8u, count = cell_count();
     uint of_cell, entry;
-    const bool visited = own < CELLS && visit_find(CELLS * workgroup_index() + own, of_cell, entry);
+    const bool visited = own < count && visit_find(count * workgroup_index() + own, of_cell, entry);
     ivec3 cell = ivec3(0);
     if (visited)
         cell = light_cell_from_index(cascade, sdfgi_light_cells_at(light_cell_slot(cascade, entry)));
     const bool there = visited && sdfgi_cell_is_valid(cascade, cell);
-    if (axis == 0u && own < CELLS) {
+    if (axis == 0u && own < count) {
         cells[own].cell = cell;
         cells[own].entry = entry;
         notes[own] = uvec3(0u);
@@ -130,6 +156,7 @@ void find_surfaces(uint cascade)
         wakes[own] = false;
         if (there) {
             cells[own].state = state_of_visit(cascade, entry, cells[own].woken);
+            cells[own].times_rays = times_rays_of(cells[own].state);
             cells[own].watched = watched_holds(cascade, entry);
         }
     }
@@ -137,21 +164,21 @@ void find_surfaces(uint cascade)
     if (there && axis < 6u && light_cell_faces(cascade, cell, axis))
         atomicOr(facing[own], 1u << axis);
     barrier();
-    if (axis > 0u || own >= CELLS)
+    if (axis > 0u || own >= count)
         return;
     uint n = 0u;
     for (uint i = 0u; i < own; i++)
         n += uint(bitCount(facing[i]));
     for (uint rest = facing[own]; rest != 0u; rest &= rest - 1u)
         surfaces[n++] = 6u * own + uint(findLSB(rest));
-    if (own + 1u == CELLS)
+    if (own + 1u == count)
         surface_count = n;
 }
 
 /* Wakes the cell of a number if its rays have met what has changed. */
 void wake_cell(uint own)
 {
-    if (own >= CELLS || !wakes[own])
+    if (own >= cell_count() || !wakes[own])
         return;
     cells[own].state = state_woken(cells[own].state);
     cells[own].woken = true;
@@ -159,28 +186,29 @@ void wake_cell(uint own)
 
 void visit()
 {
-    const uint word = visit_word(CELLS * workgroup_index());
+    const uint word = visit_word(cell_count() * workgroup_index());
     if (word == VISIT_NOTHING)
         return;
-    const uint cascade = visit_cascade(word), lane = gl_LocalInvocationIndex, rays = rays_of_visit(cascade);
+    const uint cascade = visit_cascade(word), lane = gl_LocalInvocationIndex, count = cell_count();
+    const bool lists_emitters = emitter_count(cascade) > 0u;
     find_surfaces(cascade);
     barrier();
-    for (uint i = lane; rays > RAYS && i < CELLS * PARTS; i += THREADS)
+    for (uint i = lane; lists_emitters && i < count * PARTS; i += THREADS)
         importance[i] = sum_part(cascade, i / PARTS, i % PARTS);
     barrier();
-    if (rays > RAYS && lane < CELLS)
+    if (lists_emitters && lane < count)
         cells[lane].importance = sum_of_parts(lane);
     barrier();
-    send_rays(cascade, rays);
+    send_rays(cascade);
     barrier();
     if (gathered_changes_are_local()) {
         wake_cell(lane);
         barrier();
     }
     for (uint i = lane; i < surface_count; i += THREADS)
-        add_visit(cascade, surfaces[i], light_of_rays(i * rays, rays));
+        add_visit(cascade, surfaces[i], light_of_rays(cascade, i));
     barrier();
-    if (lane < CELLS && facing[lane] != 0u)
+    if (lane < count && facing[lane] != 0u)
         end_visit(cascade, lane);
 }
 

@@ -114,7 +114,8 @@ static double difference(const float a[static PIXELS], const float b[static PIXE
     return sqrt(squares) / sum;
 }
 
-/* Against 2,048 rays a surface, after two cycles and after some long ones. */
+/* Against 2,048 rays a surface, after two cycles and after some long ones. The first cycle has as many rays
+ * as a complete one: with a quarter of them light was off by 0.071 then. */
 static void seen_cells_gather_four_times_the_rays(void **state)
 {
     (void)state;
@@ -145,7 +146,8 @@ static void seen_cells_gather_four_times_the_rays(void **state)
         SOON, after, LATE);
     REQUIRE_CMP(found[SEEN].after_long, >=, found[SEEN].cells * 9 / 10);
     REQUIRE_CMP(found[OTHERS].after_long + found[HIT].after_long, ==, 0u);
-    REQUIRE_CMP(after, <=, 0.53 * before);
+    REQUIRE_CMP(before, <=, 0.045);
+    REQUIRE_CMP(after, <=, 0.045);
     picture_finish(&picture);
     picture_scene_finish(&scene);
     gi_test_close(&t);

@@ -127,6 +127,9 @@ static void add_args(struct text *text, const struct work *work)
     case PASS_LIGHT_BOUNCE:
         add_light_bounce(text, &args->light_bounce);
         break;
+    case PASS_CELL_GATHER:
+        text_add(text, " new cells x %u", args->cell_gather.new_rays);
+        break;
     case PASS_VISIT_LIST:
         add_visit_list(text, &args->visit_list);
         break;

@@ -83,6 +83,37 @@ static void a_sweep_visits_each_cell_once(void **state)
             REQUIRE_TRUE(visits[c][i] == visits[c][i + 1] || visits[c][i] == visits[c][i + 1] + 1);
 }
 
+/* Frames in which new cells send more rays, of the next hundred. */
+static uint32_t frames_of_many_rays(struct scene *s)
+{
+    uint32_t frames = 0;
+    for (uint32_t i = 0; i < 100; i++) {
+        take(s, 100);
+        const uint32_t rays = sdfgi_gathering_new_rays(&s->gathering);
+        REQUIRE_TRUE(rays == 1 || rays == SDFGI_NEW_RAYS);
+        REQUIRE_TRUE(rays == 1 || frames == i);
+        frames += rays > 1;
+    }
+    return frames;
+}
+
+/* At the start and after a teleport, for about as long as what is seen has a rough cycle. */
+static void new_cells_send_more_rays_while_all_are_new(void **state)
+{
+    (void)state;
+    struct scene s;
+    open_scene(&s);
+    const uint32_t frames = frames_of_many_rays(&s);
+    REQUIRE_CMP(frames, >=, 2u * ROUGH);
+    REQUIRE_CMP(frames, <=, 4u * ROUGH);
+    REQUIRE_CMP(frames_of_many_rays(&s), ==, 0u);
+    sdfgi_gathering_outdate(&s.gathering);
+    sdfgi_gathering_begin(&s.gathering, 1);
+    REQUIRE_CMP(frames_of_many_rays(&s), ==, 0u);
+    sdfgi_gathering_restart(&s.gathering);
+    REQUIRE_CMP(frames_of_many_rays(&s), ==, frames);
+}
+
 static void a_cycle_ends_with_its_last_visit(void **state)
 {
     (void)state;
@@ -405,6 +436,7 @@ int main(void)
         cmocka_unit_test(boxes_of_what_moves_stay_apart),
         cmocka_unit_test(near_cascades_get_most_of_the_budget),
         cmocka_unit_test(a_sweep_visits_each_cell_once),
+        cmocka_unit_test(new_cells_send_more_rays_while_all_are_new),
         cmocka_unit_test(a_cycle_ends_with_its_last_visit),
         cmocka_unit_test(cycles_grow_long_when_light_changes_little),
         cmocka_unit_test(a_cascade_that_drifts_has_not_settled),

@@ -289,7 +289,7 @@ static void few_rays_leave_no_marble(void **state)
 }
 
 /* Noise grows nowhere after the seventh visit, is low throughout the second cycle, whose first visits alone
- * tell little, and stays so. Measured, of that visit's: 0.73, 0.52 and 0.53. */
+ * tell little, and stays so. Measured, of that visit's: 0.94 and 0.54; in the end, 0.037. */
 static void noise_falls_from_visit_to_visit(void **state)
 {
     (void)state;
@@ -313,7 +313,7 @@ static void noise_falls_from_visit_to_visit(void **state)
     gi_test_close(&t);
     REQUIRE_CMP(most, <=, noise[IN_FIRST]);
     REQUIRE_CMP(second, <=, 0.65 * noise[IN_FIRST]);
-    REQUIRE_CMP(noise[VISITS - 1], <=, 0.6 * noise[IN_FIRST]);
+    REQUIRE_CMP(noise[VISITS - 1], <=, 0.038);
 }
 
 /* A budget that visits all cells in a frame, and one that takes several frames. */

@@ -103,8 +103,10 @@ static void plan_cycle(struct frame *frame, const struct frame_input *input)
 {
     struct accumulation *a = &frame->next.accumulation;
     const uint32_t cycle_frames = sdfgi_settings_cycle_frames(input->settings);
-    if (restarts(frame))
+    if (restarts(frame)) {
         sdfgi_accumulation_restart(a);
+        sdfgi_gathering_restart(&frame->next.gathering);
+    }
     frame->situation.scroll_completes = scroll_completes(frame);
     frame->situation.light_waits = light_waits(frame);
     if (frame->scroll.from_nothing)
@@ -158,6 +160,7 @@ static void plan_gathering(struct frame *frame, const struct frame_input *input)
         sdfgi_gathering_take(&next->gathering, &next->relight, &input->lists,
                              input->settings->cell_rays_per_frame / sdfgi_extent_visit_rays(&input->extent),
                              visits, frame->gathers);
+    frame->new_rays = sdfgi_gathering_new_rays(&next->gathering);
     frame->situation.gathers = ranges_hold_cells(frame);
     frame->situation.gathering = next->accumulation.phase >= LIGHTING_RUNNING;
 }

@@ -11,6 +11,10 @@
 #define SEEN_FRAMES 64
 #define HIT_FRAMES  8
 
+/* First frames in which new cells send SDFGI_NEW_RAYS times as many rays: what is seen has had a rough cycle
+ * then. Later few cells are new at a time. */
+#define FIRST_FRAMES 20
+
 void sdfgi_gathering_init(struct gathering *gathering)
 {
     *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
@@ -19,6 +23,16 @@ void sdfgi_gathering_init(struct gathering *gathering)
         gathering->at[c].rough = true;
         sdfgi_convergence_reset(&gathering->at[c].convergence);
     }
+}
+
+void sdfgi_gathering_restart(struct gathering *gathering)
+{
+    gathering->first_frames = 0;
+}
+
+uint32_t sdfgi_gathering_new_rays(const struct gathering *gathering)
+{
+    return gathering->first_frames <= FIRST_FRAMES ? SDFGI_NEW_RAYS : 1;
 }
 
 void sdfgi_edited_places_add(struct edited_places *places, const struct box *box)
@@ -186,6 +200,7 @@ uint32_t sdfgi_gathering_take(struct gathering *gathering, const struct relight 
 {
     uint32_t count = 0, unsettled = 0, watched[SDFGI_MAX_CASCADES];
     gathering->seen_frames = (gathering->seen_frames + 1) % SEEN_FRAMES;
+    gathering->first_frames += gathering->first_frames <= FIRST_FRAMES;
     if (sdfgi_gathering_forgets_hit(gathering))
         read_hit(gathering, lists, visits_for_watched(cells));
     uint32_t rest = cells - share_watched(gathering, lists, visits_for_watched(cells), watched);

@@ -47,6 +47,7 @@ struct gathering {
     struct edited_places edited;      /* since the epoch began, */
     struct edited_places edited_last; /* and in the one before */
     uint32_t seen_frames;             /* since it was forgotten which cells were seen */
+    uint32_t first_frames;            /* that have taken cells since all of them were new */
     uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
 
@@ -68,6 +69,10 @@ struct gather_change {
 };
 
 void sdfgi_gathering_init(struct gathering *gathering);
+/* All cells are new. */
+void sdfgi_gathering_restart(struct gathering *gathering);
+/* Times as many rays as others new cells send in this frame. */
+uint32_t sdfgi_gathering_new_rays(const struct gathering *gathering);
 /* With no room left, places that are near each other become one. */
 void sdfgi_edited_places_add(struct edited_places *places, const struct box *box);
 /* What all cells have gathered is outdated: sun or sky is another one, or everything. */
