@@ -25,13 +25,17 @@
 /* That place, and the number of those from which a surface point tries to read after it. */
 #define SDFGI_CELLS_MOVING (-1)
 #define SDFGI_CELLS_TRIES  3
-/* A bit for each face of a cell. */
+/* A bit for each face of a cell, and after these one for each axis: the cells before and behind the cell
+ * count, on both sides of what stands in it. */
 #define SDFGI_CELLS_ALL_FACES 63u
+#define SDFGI_CELLS_ASTRIDE   6
 /* Square of the normal's component along an axis from which on the surface faces it: steps of light cells are
  * one cell high then, up to an angle of 39 degrees. From an occupied cell the way out is along the longest
  * component, or the two that are as long. */
 #define SDFGI_CELLS_FACED          0.6
 #define SDFGI_CELLS_FACED_IN_SOLID 0.45
+/* The normal's component upwards from which on ground is level: up to 6 degrees. */
+#define SDFGI_CELLS_FLAT 0.995
 /* Inverse of the sine of the angle, 6 degrees, from which on cells count that are a step up or down, and how
  * much they count where the surface is level. */
 #define SDFGI_CELLS_STEEP          10.0
@@ -227,6 +231,36 @@ sdfgi_cells_place sdfgi_cells_move(vec3 from, uvec2 bits, uint open, vec3 to, uv
                              beyond ? SDFGI_CELLS_ALL_FACES : open, bits != uvec2(0u) && !beyond);
 }
 
+/* Level ground may run on below the edge of a thing that hangs into the upper quarter of an occupied cell,
+ * from one side of it to the other; a ceiling above one likewise. Across the thing the cells on both sides
+ * count then, instead of that cell and one beside it: in the middle of the cell light would jump from one
+ * side to the other. The place moves half a cell to the nearer one, and the farther one is beside it there.
+ * Few points are on such ground: whether this one is is asked first. */
+void sdfgi_cells_stand_astride(uint cascade, uvec2 bits, vec3 normal, inout sdfgi_cells_place place)
+{
+    const bool z_is_up = (sdfgi_frame.up_axis & 1u) != 0u;
+    const float up = z_is_up ? normal.z : normal.y;
+    if (abs(up) < SDFGI_CELLS_FLAT)
+        return;
+    const uvec2 above = up > 0.0 ? (z_is_up ? uvec2(0u, 0xffff0000u) : uvec2(0xf000f000u))
+                                 : (z_is_up ? uvec2(0xffffu, 0u) : uvec2(0x000f000fu));
+    const uvec2 thing = bits & above;
+    const uint slices = thing.x | thing.y;
+    const bool along_x = (slices & 0x11111111u) != 0u && (slices & 0x88888888u) != 0u,
+               along_y = (slices & 0x000f000fu) != 0u && (slices & 0xf000f000u) != 0u,
+               along_z = (thing.x & 0xffffu) != 0u && (thing.y >> 16u) != 0u,
+               along_other = z_is_up ? along_y : along_z;
+    const uint axis = along_other ? 0u : (z_is_up ? 1u : 2u);
+    if (along_x == along_other || (place.open >> 2u * axis & 3u) != 3u)
+        return;
+    const vec3 unit = vec3(axis == 0u, axis == 1u, axis == 2u);
+    const vec3 at = place.at + unit * (0.5 * sign(dot(unit, fract(place.at)) - 0.5));
+    if (sdfgi_cell_bits(cascade, ivec3(floor(at))) != uvec2(0u))
+        return;
+    place.at = at;
+    place.open = SDFGI_CELLS_ALL_FACES | 1u << SDFGI_CELLS_ASTRIDE + axis;
+}
+
 /* ---- Interpolation */
 
 /* The light cells of an interpolation, numbered by the axes along which they differ from the cell that holds
@@ -282,8 +316,9 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3
     const vec3 off = place.at - vec3(own) - 0.5, square = normal * normal;
     const sdfgi_cells_steps steps =
         sdfgi_cells_steps_at(lessThan(off, vec3(0.0)), normal, square, place.in_solid);
+    const ivec3 apart = 1 + (ivec3(int(place.open)) >> ivec3(0, 1, 2) + SDFGI_CELLS_ASTRIDE & 1);
     const uvec3 here = sdfgi_cell_texel(cascade, own),
-                beside = sdfgi_cell_texel(cascade, own + 1 - 2 * ivec3(steps.low));
+                beside = sdfgi_cell_texel(cascade, own + apart * (1 - 2 * ivec3(steps.low)));
     sdfgi_cells_cage cage;
     uint light = 0u; /* a bit per cell: it is a light cell */
     for (uint i = 0u; i < 8u; i++) {
@@ -422,6 +457,8 @@ vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, i
     if (found && i < 0 && !in_air) {
         const uint open = bits == uvec2(0u) ? SDFGI_CELLS_ALL_FACES : sdfgi_cells_open_faces(bits, at);
         read = sdfgi_cells_move(at, bits, open, middle, middle_bits);
+        if (read.in_solid)
+            sdfgi_cells_stand_astride(cascade, bits, normal, read);
     } else if (found) {
         found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, read.at);
     }

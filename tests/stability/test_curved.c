@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Light on balls that are hardly larger than cells, and on walls at an angle to them: it changes along the
- * surface as smoothly as what lights it, whichever light cells answer. */
+ * Light on balls that are hardly larger than cells, on walls at an angle to them, and on the ground below the
+ * edge of a bed: it changes along the surface as smoothly as what lights it, whichever light cells answer. */
 #include "light_scene.h"
 #include "require.h"
 #include "test_group.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { BALLS = 4, POINTS = 360, WALL_POINTS = 241, FRAMES = 60 };
+enum { BALLS = 4, POINTS = 360, WALL_POINTS = 241, BED_POINTS = 91, FRAMES = 60 };
 
 static const double center[3] = { 0.07, -0.04, 0.11 };
 
@@ -126,6 +126,58 @@ static void light_on_walls_at_an_angle_changes_smoothly(void **state)
     REQUIRE_CMP(sum / WALLS, <=, 0.07);
 }
 
+/* A black bed under a bright sky. The board along its front hangs into the cells above the ground. */
+static void build_bed(struct gi_test *t, enum sdfgi_up_axis up, double front)
+{
+    const struct sdfgi_settings settings = light_cell_settings(32, 0.25f);
+    static const float black[3] = { 0 };
+    t->up_axis = up;
+    gi_test_restart(t, &settings);
+    light_add_turned_box(t, (double[]){ -3, -1, -3 }, (double[]){ 3, 0, 3 }, black);
+    light_add_turned_box(t, (double[]){ -1.6, 0.3, -1.5 }, (double[]){ 1.6, 0.6, front }, black);
+    light_add_turned_box(t, (double[]){ -1.6, 0.19, front - 0.07 }, (double[]){ 1.6, 0.6, front }, black);
+    light_set_uniform_sky(t, 1);
+    gi_test_update(t, FRAMES);
+}
+
+/* Along a line on the ground across the front of the bed, 1 cm at a time. */
+static double worst_step_below(struct gi_test *t, double x)
+{
+    struct gi_test_point points[BED_POINTS];
+    float found[BED_POINTS][3];
+    double normal[3];
+    light_turn(t->up_axis, (double[]){ 0, 1, 0 }, normal);
+    for (int i = 0; i < BED_POINTS; i++) {
+        double at[3];
+        light_turn(t->up_axis, (double[]){ x, 0, -0.4 + 0.01 * i }, at);
+        for (int k = 0; k < 3; k++) {
+            points[i].position[k] = (float)at[k];
+            points[i].normal[k] = (float)normal[k];
+        }
+    }
+    gi_test_irradiance(t, points, BED_POINTS, found);
+    return worst_of_range(found, BED_POINTS, false);
+}
+
+/* Where the board's cell counted by its nearer side alone, light jumped in the middle of the cell, by
+ * 0.92 of the range. Now it is 0.037. */
+static void light_below_the_edge_of_a_bed_changes_smoothly(void **state)
+{
+    static const enum sdfgi_up_axis ups[] = { SDFGI_UP_Y, SDFGI_UP_Z, SDFGI_UP_MINUS_Y, SDFGI_UP_MINUS_Z };
+    static const double fronts[] = { 0.08, 0.24 }, along[] = { -0.6, 0.11 };
+    struct gi_test *t = *state;
+    for (size_t i = 0; i < 8; i++) {
+        build_bed(t, ups[i / 2], fronts[i % 2]);
+        for (size_t k = 0; k < 2; k++) {
+            const double step = worst_step_below(t, along[k]);
+            printf("board at %.2f m, line at %.2f m: steps of %.3f of the range\n", fronts[i % 2], along[k],
+                   step);
+            REQUIRE_CMP(step, <=, 0.05);
+        }
+    }
+    t->up_axis = SDFGI_UP_Y;
+}
+
 TEST_GROUP(curved)
 {
     if (!gpu_test_available())
@@ -133,6 +185,7 @@ TEST_GROUP(curved)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_on_balls_changes_smoothly),
         cmocka_unit_test(light_on_walls_at_an_angle_changes_smoothly),
+        cmocka_unit_test(light_below_the_edge_of_a_bed_changes_smoothly),
     };
     return cmocka_run_group_tests(tests, light_open, light_close);
 }

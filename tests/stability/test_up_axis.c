@@ -17,20 +17,10 @@ static const char *const names[UPS] = { "+Y", "+Z", "-Y", "-Z" };
 
 static struct gi_test t;
 
-/* What is v in a world with +Y up, in one with `up`; sdfgi/sky.h, backwards. */
-static void turned(enum sdfgi_up_axis up, const double v[static 3], double out[static 3])
-{
-    const double worlds[UPS][3] = { [SDFGI_UP_Y] = { v[0], v[1], v[2] },
-                                    [SDFGI_UP_Z] = { v[0], -v[2], v[1] },
-                                    [SDFGI_UP_MINUS_Y] = { v[0], -v[1], -v[2] },
-                                    [SDFGI_UP_MINUS_Z] = { v[0], v[2], -v[1] } };
-    memcpy(out, worlds[up], sizeof worlds[up]);
-}
-
 static void turned_float(enum sdfgi_up_axis up, const float v[static 3], float out[static 3])
 {
     double world[3];
-    turned(up, (double[3]){ (double)v[0], (double)v[1], (double)v[2] }, world);
+    light_turn(up, (double[3]){ (double)v[0], (double)v[1], (double)v[2] }, world);
     for (int i = 0; i < 3; i++)
         out[i] = (float)world[i];
 }
@@ -115,29 +105,16 @@ static void skies_stand_upright(void **state)
 
 /* ---- A room without a roof */
 
-static void add_turned_box(enum sdfgi_up_axis up, const double a[static 3], const double b[static 3],
-                           const float albedo[static 3])
-{
-    double low[3], high[3], from[3], to[3];
-    turned(up, a, from);
-    turned(up, b, to);
-    for (int i = 0; i < 3; i++) {
-        low[i] = fmin(from[i], to[i]);
-        high[i] = fmax(from[i], to[i]);
-    }
-    light_add_box(&t, low, high, albedo, 0);
-}
-
 static void add_room(enum sdfgi_up_axis up)
 {
     static const float white[3] = { 0.8f, 0.8f, 0.8f }, red[3] = { 0.8f, 0.1f, 0.1f },
                        green[3] = { 0.1f, 0.7f, 0.1f };
-    add_turned_box(up, (double[]){ -3, -1.5, -3 }, (double[]){ 3, -1, 3 }, white);
-    add_turned_box(up, (double[]){ -3, -1, -3 }, (double[]){ -2.5, 1.5, 3 }, red);
-    add_turned_box(up, (double[]){ -2.5, -1, -3 }, (double[]){ 3, 1, -2.5 }, green);
-    add_turned_box(up, (double[]){ 0.5, -1, 0.5 }, (double[]){ 1.5, 0, 1.5 }, white);
+    light_add_turned_box(&t, (double[]){ -3, -1.5, -3 }, (double[]){ 3, -1, 3 }, white);
+    light_add_turned_box(&t, (double[]){ -3, -1, -3 }, (double[]){ -2.5, 1.5, 3 }, red);
+    light_add_turned_box(&t, (double[]){ -2.5, -1, -3 }, (double[]){ 3, 1, -2.5 }, green);
+    light_add_turned_box(&t, (double[]){ 0.5, -1, 0.5 }, (double[]){ 1.5, 0, 1.5 }, white);
     struct sdfgi_light_desc lamp = light_point(0, 0, 0, 3);
-    turned(up, (double[3]){ -1, 0.4, -1 }, lamp.position);
+    light_turn(up, (double[3]){ -1, 0.4, -1 }, lamp.position);
     light_create(&t, &lamp);
     set_skies();
 }

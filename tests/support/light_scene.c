@@ -115,6 +115,28 @@ sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], cons
     return instance;
 }
 
+void light_turn(enum sdfgi_up_axis up, const double v[static 3], double out[static 3])
+{
+    const double worlds[][3] = { [SDFGI_UP_Y] = { v[0], v[1], v[2] },
+                                 [SDFGI_UP_Z] = { v[0], -v[2], v[1] },
+                                 [SDFGI_UP_MINUS_Y] = { v[0], -v[1], -v[2] },
+                                 [SDFGI_UP_MINUS_Z] = { v[0], v[2], -v[1] } };
+    memcpy(out, worlds[up], sizeof worlds[up]);
+}
+
+sdfgi_instance light_add_turned_box(struct gi_test *t, const double a[static 3], const double b[static 3],
+                                    const float albedo[static 3])
+{
+    double low[3], high[3], from[3], to[3];
+    light_turn(t->up_axis, a, from);
+    light_turn(t->up_axis, b, to);
+    for (int i = 0; i < 3; i++) {
+        low[i] = fmin(from[i], to[i]);
+        high[i] = fmax(from[i], to[i]);
+    }
+    return light_add_box(t, low, high, albedo, 0);
+}
+
 struct sdfgi_light_desc light_sun(float x, float y, float z, float irradiance)
 {
     return (struct sdfgi_light_desc){ .type = SDFGI_LIGHT_DIRECTIONAL,

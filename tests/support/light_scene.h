@@ -30,6 +30,11 @@ sdfgi_instance light_add_metal(struct gi_test *t, struct test_mesh mesh, float a
 /* An axis-aligned box between two corners. */
 sdfgi_instance light_add_box(struct gi_test *t, const double low[static 3], const double high[static 3],
                              const float albedo[static 3], float emission);
+/* What is v in a world with +Y up, in one with `up`; sdfgi/sky.h, backwards. */
+void light_turn(enum sdfgi_up_axis up, const double v[static 3], double out[static 3]);
+/* The box that lies in the test's world as one between two corners does in a world with +Y up. */
+sdfgi_instance light_add_turned_box(struct gi_test *t, const double a[static 3], const double b[static 3],
+                                    const float albedo[static 3]);
 /* A ball that emits outwards, of this intensity in all directions. */
 void light_add_ball(struct gi_test *t, const double center[static 3], double radius, double watts_per_sr);
 /* White lights. `direction` is the way the light travels. */
