@@ -396,12 +396,21 @@ bool sdfgi_trace_light_cell(uint cascade, sdfgi_trace_path path, int first_axis,
 
 /* ---- Rays */
 
-/* What is hit, and where. `pos` is in the cell space of `cascade`; `range` in its cell widths. */
+/* The axis along which a ray leads farthest. */
+int sdfgi_trace_main_axis(vec3 dir)
+{
+    const vec3 along = abs(dir);
+    return along.x >= max(along.y, along.z) ? 0 : (along.y >= along.z ? 1 : 2);
+}
+
+/* What is hit, and where. `pos` is in the cell space of `cascade`; `range` in its cell widths. A ray that
+ * begins in a set sub-voxel hits the face through which it would most likely have come. */
 sdfgi_trace_hit sdfgi_trace_solid(uint cascade, uint last_cascade, vec3 pos, vec3 dir, float range)
 {
     const sdfgi_trace_query query =
         sdfgi_trace_query(cascade, last_cascade, ivec3(0), pos, dir, range, 1e9, false);
     sdfgi_trace_state ray = sdfgi_trace_start(query);
+    ray.axis = sdfgi_trace_main_axis(dir);
     const uint end = sdfgi_trace_march(query, ray);
     return sdfgi_trace_result(query, ray, end);
 }

@@ -254,6 +254,25 @@ static void a_mirror_shows_no_cells_of_a_wall(void **state)
     }
 }
 
+/* Rays begin in the sub-voxels of what is as near as that, and hit the face towards the mirror. Its other
+ * faces are far off, and black where the mirror is. */
+static void a_mirror_close_below_a_lamp_shows_it(void **state)
+{
+    struct gi_test *t = *state;
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    uint16_t texel[1][4];
+    struct mirror mirror;
+    gi_test_restart(t, &settings);
+    light_add_box(t, (double[]){ -2, -0.9, -2 }, (double[]){ 2, -0.4, 2 }, (float[]){ 0, 0, 0 }, 1);
+    gi_test_update(t, 20);
+    mirror_open(&mirror, t, 1, 1, HALF_M);
+    look_along(&mirror, (float[]){ 0.2f, -0.96f, 0.2f });
+    mirror_read(&mirror, texel);
+    mirror_close(&mirror);
+    printf("10 cm below a lamp a mirror shows %.3f of it\n", (double)gi_test_half(texel[0][1]));
+    REQUIRE_NEAR(gi_test_half(texel[0][1]), 1, 0.03);
+}
+
 /* ---- Metal in mirrors */
 
 /* The ray goes up to a wall and from there, mirrored again, up to the sky. As long as the wall is matt, the
@@ -420,6 +439,7 @@ TEST_GROUP(reflections)
         cmocka_unit_test(hard_55_reflected_rays_cross_cascades),
         cmocka_unit_test(hard_69_views_of_one_row_reflect),
         cmocka_unit_test(a_mirror_shows_no_cells_of_a_wall),
+        cmocka_unit_test(a_mirror_close_below_a_lamp_shows_it),
         cmocka_unit_test(metal_shows_in_a_mirror_what_it_reflects),
         cmocka_unit_test(facets_of_gloss_count_by_what_they_send),
         cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
