@@ -232,19 +232,19 @@ sdfgi_cells_place sdfgi_cells_move(vec3 from, uvec2 bits, uint open, vec3 to, uv
 }
 
 /* Level ground may run on below the edge of a thing that hangs into the upper quarter of an occupied cell,
- * from one side of it to the other; a ceiling above one likewise. Across the thing the cells on both sides
- * count then, instead of that cell and one beside it: in the middle of the cell light would jump from one
- * side to the other. The place moves half a cell to the nearer one, and the farther one is beside it there.
- * Few points are on such ground: whether this one is is asked first. */
-void sdfgi_cells_stand_astride(uint cascade, uvec2 bits, vec3 normal, inout sdfgi_cells_place place)
+ * from one side of it to the other. Across the thing the cells on both sides count then, instead of that cell
+ * and one beside it: in the middle of the cell light would jump from one side to the other. The place moves
+ * half a cell to the nearer one, and the farther one is beside it there. Few points are on such ground:
+ * whether this one is is asked first. */
+void sdfgi_cells_stand_astride(uvec2 bits, vec3 normal, inout sdfgi_cells_place place)
 {
-    const bool z_is_up = (sdfgi_frame.up_axis & 1u) != 0u;
-    const float up = z_is_up ? normal.z : normal.y;
-    if (abs(up) < SDFGI_CELLS_FLAT)
+    const bool z_is_up = (sdfgi_frame.up_axis & 1u) != 0u, against = (sdfgi_frame.up_axis & 2u) != 0u;
+    const float along_up = z_is_up ? normal.z : normal.y;
+    if ((against ? -along_up : along_up) < SDFGI_CELLS_FLAT)
         return;
-    const uvec2 above = up > 0.0 ? (z_is_up ? uvec2(0u, 0xffff0000u) : uvec2(0xf000f000u))
-                                 : (z_is_up ? uvec2(0xffffu, 0u) : uvec2(0x000f000fu));
-    const uvec2 thing = bits & above;
+    const uvec2 upper = z_is_up ? (against ? uvec2(0xffffu, 0u) : uvec2(0u, 0xffff0000u))
+                                : uvec2(against ? 0x000f000fu : 0xf000f000u);
+    const uvec2 thing = bits & upper;
     const uint slices = thing.x | thing.y;
     const bool along_x = (slices & 0x11111111u) != 0u && (slices & 0x88888888u) != 0u,
                along_y = (slices & 0x000f000fu) != 0u && (slices & 0xf000f000u) != 0u,
@@ -254,10 +254,7 @@ void sdfgi_cells_stand_astride(uint cascade, uvec2 bits, vec3 normal, inout sdfg
     if (along_x == along_other || (place.open >> 2u * axis & 3u) != 3u)
         return;
     const vec3 unit = vec3(axis == 0u, axis == 1u, axis == 2u);
-    const vec3 at = place.at + unit * (0.5 * sign(dot(unit, fract(place.at)) - 0.5));
-    if (sdfgi_cell_bits(cascade, ivec3(floor(at))) != uvec2(0u))
-        return;
-    place.at = at;
+    place.at += unit * (0.5 * sign(dot(unit, fract(place.at)) - 0.5));
     place.open = SDFGI_CELLS_ALL_FACES | 1u << SDFGI_CELLS_ASTRIDE + axis;
 }
 
@@ -327,7 +324,9 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3
             sdfgi_light_block_entry(sdfgi_light_block_of_texel(cascade, texel), texel, cage.entries[i]);
         light |= is_light ? 1u << i : 0u;
     }
-    const uvec3 open = uvec3(place.open, place.open >> 2u, place.open >> 4u) >> uvec3(steps.low) & 1u;
+    /* Astride, the place's cell alone leads to those beside it. */
+    const uint faces = place.open > SDFGI_CELLS_ALL_FACES && (light & 1u) == 0u ? 0u : place.open;
+    const uvec3 open = uvec3(faces, faces >> 2u, faces >> 4u) >> uvec3(steps.low) & 1u;
     uvec3 ways = open & uvec3(light >> 1u, light >> 2u, light >> 4u);
     if ((light & ~sdfgi_cells_led(ways)) != 0u)
         ways = open & uvec3(sdfgi_cells_is_empty(cascade, uvec3(beside.x, here.yz)),
@@ -458,7 +457,7 @@ vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, i
         const uint open = bits == uvec2(0u) ? SDFGI_CELLS_ALL_FACES : sdfgi_cells_open_faces(bits, at);
         read = sdfgi_cells_move(at, bits, open, middle, middle_bits);
         if (read.in_solid)
-            sdfgi_cells_stand_astride(cascade, bits, normal, read);
+            sdfgi_cells_stand_astride(bits, normal, read);
     } else if (found) {
         found = bits == uvec2(0u) || sdfgi_cells_leave(cascade, bits, normal, read.at);
     }
