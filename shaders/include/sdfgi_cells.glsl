@@ -214,7 +214,8 @@ bool sdfgi_cells_unset(uint cascade, vec3 normal, vec3 eye, inout vec3 at, inout
 /* Where light is interpolated. */
 struct sdfgi_cells_place {
     vec3 at;
-    uint open;     /* the faces by which a point may leave the cell that holds the place */
+    uint open;     /* the faces by which a point may leave the cell that holds the place, and
+                      SDFGI_CELLS_ASTRIDE */
     bool in_solid; /* sub-voxels of that cell are set */
 };
 

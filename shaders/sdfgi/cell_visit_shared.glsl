@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * A workgroup visits SDFGI_VISIT_CELLS cells of a cascade, or fewer where new ones send more rays. Its
- * threads share the rays of all their surfaces.
- * A surface adds its rays in order, so that sums do not depend on which thread sent which ray. Shared memory:
- * 9 KiB. */
+ * threads share the rays of all their surfaces. A surface adds its rays in order, so that sums do not depend
+ * on which thread sent which ray. Shared memory: 9 KiB. */
 #ifndef SDFGI_CELL_VISIT_SHARED_GLSL
 #define SDFGI_CELL_VISIT_SHARED_GLSL
 
