@@ -43,7 +43,6 @@ struct frame {
     struct work_list work;
     struct gather_range gathers[SDFGI_MAX_CASCADES];
     uint32_t gather_count;
-    uint32_t new_rays;               /* see sdfgi_gathering_new_rays */
     int rescale_power;               /* light is stored with an exposure so many powers of two larger */
     uint32_t uploads;                /* enum frame_upload */
     uint64_t instances_since;        /* revision of the scene: instances that changed later are uploaded */

@@ -160,7 +160,6 @@ static void plan_gathering(struct frame *frame, const struct frame_input *input)
         sdfgi_gathering_take(&next->gathering, &next->relight, &input->lists,
                              input->settings->cell_rays_per_frame / sdfgi_extent_visit_rays(&input->extent),
                              visits, frame->gathers);
-    frame->new_rays = sdfgi_gathering_new_rays(&next->gathering);
     frame->situation.gathers = ranges_hold_cells(frame);
     frame->situation.gathering = next->accumulation.phase >= LIGHTING_RUNNING;
 }

@@ -180,7 +180,7 @@ static void list_visits(const struct plan_stage *stage)
     for (uint32_t i = 0; i < SDFGI_VISITS_RECORDS; i++)
         args->groups[i] = sdfgi_work_group_size(passes[i], stage->input->software);
     if (!stage->input->software) /* a workgroup has shared memory for so many rays */
-        args->groups[SDFGI_VISITS_GATHER] /= frame->new_rays;
+        args->groups[SDFGI_VISITS_GATHER] /= sdfgi_gathering_new_rays(&frame->next.gathering);
     for (uint32_t i = 0; i < frame->gather_count; i++) {
         const struct gather_range *range = &frame->gathers[i];
         const uint32_t words = words_of(&frame->next.gathering, range);
@@ -205,8 +205,8 @@ static void gather(const struct plan_stage *stage)
         args->visits[range->cascade] = range->visits;
         args->marks |= (uint32_t)range->marks << range->cascade;
     }
-    args->new_rays = frame->new_rays;
-    work->units *= sdfgi_extent_visit_rays(&stage->input->extent) * frame->new_rays;
+    args->new_rays = sdfgi_gathering_new_rays(&frame->next.gathering);
+    work->units *= sdfgi_extent_visit_rays(&stage->input->extent) * args->new_rays;
 }
 
 /* A pass of the distances that are made beside light. */
