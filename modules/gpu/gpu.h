@@ -238,6 +238,8 @@ void gpu_recorder_end(struct gpu_recorder *rec);
 void gpu_order(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes);
 /* Declares what the next command touches, and orders it. */
 void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes);
+/* Declares it for a command that the caller has ordered. */
+void gpu_touch(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes);
 
 void gpu_label_begin(struct gpu_recorder *rec, const char *name);
 void gpu_label_end(struct gpu_recorder *rec);

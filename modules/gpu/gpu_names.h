@@ -41,6 +41,7 @@
 #define gpu_timer_read              sdfgi_gpu_timer_read
 #define gpu_timer_reset             sdfgi_gpu_timer_reset
 #define gpu_timer_stamp             sdfgi_gpu_timer_stamp
+#define gpu_touch                   sdfgi_gpu_touch
 #define gpu_update                  sdfgi_gpu_update
 #define gpu_use                     sdfgi_gpu_use
 

@@ -71,14 +71,19 @@ void gpu_order(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, u
         order(rec, usage);
 }
 
-void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes)
+void gpu_touch(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes)
 {
-    gpu_order(rec, usage, reads, writes);
     rec->reads |= reads;
     rec->writes |= writes;
     rec->stages |= usages[usage].stages;
     if (writes)
         rec->write_access |= usages[usage].access & WRITE_ACCESS;
+}
+
+void gpu_use(struct gpu_recorder *rec, enum gpu_usage usage, uint64_t reads, uint64_t writes)
+{
+    gpu_order(rec, usage, reads, writes);
+    gpu_touch(rec, usage, reads, writes);
 }
 
 void gpu_label_begin(struct gpu_recorder *rec, const char *name)

@@ -6,8 +6,9 @@
 
 #include "shaders/shared/bindings.h"
 
-/* Timestamps: before each pass, and after the last one; the two runs of the filter share theirs. */
-enum { STAMPS_ALONE = 2, STAMPS_REFLECTIONS = 5 };
+/* Timestamps: before each pass, and after the last one. Those that run side by side share theirs, and so do
+ * the two runs of the filter. */
+enum { STAMPS_ALONE = 2, STAMPS_REFLECTIONS = 4 };
 
 static void begin(struct sdfgi *gi, VkCommandBuffer cmd, const struct sdfgi_view *view, uint32_t stamps)
 {
@@ -141,7 +142,6 @@ static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct 
     return result == VK_SUCCESS ? sdfgi_view_add_reflection(&gi->backend, view) : result;
 }
 
-/* Before the gather, which does not wait for it. */
 static void clear_tiles(struct sdfgi *gi, const struct sdfgi_view *view)
 {
     struct gpu_recorder *rec = &gi->recorder.gpu;
@@ -149,24 +149,30 @@ static void clear_tiles(struct sdfgi *gi, const struct sdfgi_view *view)
     gpu_fill(rec, &view->tiles, 0, sizeof(uint32_t) * SDFGI_TILES_HEADER, 0);
 }
 
-static void record_reflections(struct sdfgi *gi, struct sdfgi_view *view, const struct work *gather)
+/* The gather and the rays run side by side: each makes the reflections of other pixels. Rays come first, as
+ * some of them take longest. */
+static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, struct work gather)
 {
     struct pass_recorder *rec = &gi->recorder;
-    struct work tiles = *gather;
+    gather.args.gather.ray_step = sdfgi_picture_step(view->desc.reflection);
+    struct work tiles = gather, filter[2] = { gather, gather };
     tiles.pass = PASS_REFLECT_TILES;
-    tiles.args.gather.ray_step = sdfgi_picture_step(view->desc.reflection);
-    struct work rays = tiles, filter[2] = { tiles, tiles };
-    rays.pass = PASS_REFLECT_RAYS;
+    gather.group = 1;
+    struct work beside[] = { gather, gather }, *rays = &beside[0];
+    rays->pass = PASS_REFLECT_RAYS;
     filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;
     filter[0].args.gather.filter_step = 1;
     filter[1].args.gather.filter_step = SDFGI_RAYS_SIDE;
+    clear_tiles(gi, view);
     if (!view->reflection_ready) {
         gpu_image_to_general(&rec->gpu, &view->reflection, 1);
         gpu_image_to_general(&rec->gpu, &view->filtered, 1);
     }
     view->reflection_ready = true;
     sdfgi_pass_record(rec, &tiles);
-    sdfgi_pass_record_indirect(rec, &rays, &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
+    sdfgi_pass_begin_beside(rec, beside, 2);
+    sdfgi_pass_record_indirect(rec, rays, &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
+    sdfgi_pass_record(rec, &gather);
     for (int run = 0; run < 2; run++)
         sdfgi_pass_record_indirect(rec, &filter[run], &view->tiles, sizeof(uint32_t) * SDFGI_TILES_TILES);
     sdfgi_pass_close(rec);
@@ -191,17 +197,16 @@ enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffe
         return sdfgi_message_vulkan(&gi->backend.hooks, result, "sdfgi_view_resolve");
     const struct view_pictures pictures = { desc->depth, desc->normal, desc->roughness, desc->input_layout,
                                             view->diffuse.view };
+    view->reflects = wants_reflections(gi, desc);
     sdfgi_view_write_set(&gi->backend, holder, view, &pictures);
     begin(gi, cmd, holder, STAMPS_REFLECTIONS);
     if (!view->diffuse_ready)
         gpu_image_to_general(&gi->recorder.gpu, &view->diffuse, 1);
     view->diffuse_ready = true;
-    view->reflects = wants_reflections(gi, desc);
     if (view->reflects)
-        clear_tiles(gi, view);
-    sdfgi_pass_record(&gi->recorder, &work);
-    if (view->reflects)
-        record_reflections(gi, view, &work);
+        record_with_reflections(gi, view, work);
+    else
+        sdfgi_pass_record(&gi->recorder, &work);
     sdfgi_pass_recorder_end(&gi->recorder);
     for (int pass = work.pass; pass < PASS_COUNT; pass++)
         report(gi, (enum pass)pass);

@@ -108,12 +108,12 @@
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
     X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \
-      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE))                                     \
+      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE) | V(REFLECTION))                     \
     X(GATHER_SPARSE, COMPUTE, gather_sparse, PIXELS, GATHER_SPARSE, OWN, DEMAND,                             \
       TILES, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |                            \
-      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE))                                     \
+      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE) | V(REFLECTION))                     \
     X(REFLECT_TILES, COMPUTE, reflect_tiles, PIXELS, REFLECTIONS, OWN, DEMAND,                               \
-      PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, V(DIFFUSE), V(REFLECTION) | V(TILES))                        \
+      PIXELS, gather, SDFGI_GROUP_TILES, VIEW, 0, V(REFLECTION) | V(TILES))                                  \
     X(REFLECT_RAYS, COMPUTE, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                                 \
       TILE_LIST, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) | R(LIGHT) |             \
       R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(ALBEDO) | R(NORMALS) | V(TILES), V(REFLECTION))        \

@@ -194,7 +194,7 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
         if (i == 0u)
             rough = found.rgb;
         else
-            light += weight * (found.a > 0.0 ? found.rgb : rough);
+            light += weight * found.rgb;
         const sdfgi_reflection_hit hit = i == 0u ? ray.first : ray.second;
         weight = hit.weight;
         query = sdfgi_reflection_leaving(hit, dir);

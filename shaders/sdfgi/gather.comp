@@ -15,7 +15,7 @@ void main()
     picture_surface s;
     const bool is_surface = picture_surface_at(pixel, s);
     const vec3 irradiance = is_surface ? picture_irradiance(s) : vec3(0.0);
-    imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
+    picture_store(pixel, is_surface, irradiance);
     if (is_surface)
         picture_mark(s, gl_LocalInvocationIndex);
 }

@@ -118,7 +118,8 @@ void pixel_interpolate(ivec2 at)
         return;
     picture_surface s;
     vec3 irradiance = vec3(0.0);
-    if (picture_surface_at(pixel, s)) {
+    const bool is_surface = picture_surface_at(pixel, s);
+    if (is_surface) {
         const mean m = mean_at(at, s);
         if (!mean_is_good(m)) {
             listed[atomicAdd(listed_count, 1u)] = uint(at.x) | uint(at.y) << 16u;
@@ -126,7 +127,7 @@ void pixel_interpolate(ivec2 at)
         }
         irradiance = m.sum / m.weight;
     }
-    imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
+    picture_store(pixel, is_surface, irradiance);
 }
 
 /* Neighbouring threads take neighbouring pixels. */
@@ -153,7 +154,7 @@ void look_up(bool is_sample, uint index)
     if (is_sample && is_surface)
         picture_mark(s, index);
     if (!is_sample)
-        imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
+        picture_store(pixel, is_surface, irradiance);
 }
 
 void main()

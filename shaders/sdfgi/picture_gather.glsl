@@ -6,7 +6,7 @@
 
 #define SDFGI_WRITES_SEEN
 #include "seen.glsl"
-#include "picture.glsl"
+#include "picture_rays.glsl"
 #include "../include/sdfgi.glsl"
 #include "../lib/random.glsl"
 
@@ -49,6 +49,15 @@ void picture_mark(picture_surface s, uint lane)
 vec3 picture_irradiance(picture_surface s)
 {
     return min(sdfgi_irradiance(s.pos, s.normal, s.to_eye) * args.scale, vec3(PICTURE_BRIGHTEST));
+}
+
+/* Stores the irradiance of a pixel, and as its reflection where a view has reflections and no ray makes it.
+ */
+void picture_store(ivec2 pixel, bool is_surface, vec3 irradiance)
+{
+    imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
+    if (args.ray_step > 0u && !(is_surface && picture_is_smooth(picture_roughness(pixel))))
+        imageStore(reflection_image, pixel, vec4(irradiance / 3.14159265, 0.0));
 }
 
 #endif

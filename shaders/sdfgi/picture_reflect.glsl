@@ -4,15 +4,10 @@
 #ifndef SDFGI_PICTURE_REFLECT_GLSL
 #define SDFGI_PICTURE_REFLECT_GLSL
 
-#include "picture.glsl"
+#include "picture_rays.glsl"
 
-/* Radiance times the scale in rgb, and metres to what is reflected in a: PICTURE_NO_RAY where a pixel needs
- * its neighbours' rays. Rays, and at last the result; and what the filter's first run has made of the rays,
- * in listed tiles. */
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_REFLECTION,
-       rgba16f) uniform image2D reflection_image;
+/* What the filter's first run has made of the rays, in listed tiles. */
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_FILTERED, rgba16f) uniform image2D filtered_image;
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_ROUGHNESS) uniform sampler2D roughness_image;
 
 /* The counts and indirect arguments of both lists, all tiles, and all pixels: x | y << 16. */
 layout(std430, set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_TILES) buffer sdfgi_tiles_buffer
@@ -21,7 +16,6 @@ layout(std430, set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_TILES) buffer 
 };
 
 const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TILES_TILES) + 3u;
-const float PICTURE_NO_RAY = -1.0;
 /* Roughness from which on the filter takes squares of squares in part, and wholly. */
 const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
 /* Roughness from which on every second pixel along each axis sends a ray, and every fourth. */
@@ -50,12 +44,6 @@ uint picture_ray_word(uint i)
     return uint(SDFGI_TILES_HEADER) + tiles.x * tiles.y + i;
 }
 
-float picture_roughness(ivec2 pixel)
-{
-    const float roughness = texelFetch(roughness_image, pixel, 0).r;
-    return roughness >= 0.0 && roughness <= 1.0 ? roughness : 1.0;
-}
-
 /* The pixel of this thread in the tile of a number of the list. */
 ivec2 picture_listed(uint i)
 {
@@ -70,7 +58,7 @@ bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
     if (!picture_contains(pixel) || !picture_surface_at(pixel, s))
         return false;
     roughness = picture_roughness(pixel);
-    return sdfgi_reflection_ray_share(roughness) > 0.0;
+    return picture_is_smooth(roughness);
 }
 
 /* Pixels from ray to ray, along each axis. Wide lobes do with fewer rays: the filter's second run takes the
@@ -81,6 +69,15 @@ int picture_ray_step(float roughness)
     return int(args.ray_step) * sparse;
 }
 
+/* Metres from the plane of a surface to what lies at a depth of a pixel. */
+float picture_height(picture_surface s, ivec2 pixel, float depth)
+{
+    const mat4 to_position = picture_to_position();
+    const vec4 place = vec4(picture_ndc(pixel), depth, 1.0), plane = vec4(s.normal, -dot(s.normal, s.pos)),
+               w = vec4(to_position[0].w, to_position[1].w, to_position[2].w, to_position[3].w);
+    return dot(plane * to_position, place) / dot(w, place);
+}
+
 /* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
  * the square that the filter looks at, differs in roughness by a fifth, or leans by more than the lobe is
  * wide: 2 alpha. Nothing is loaded under a condition: loads that wait for each other take most time. */
@@ -88,15 +85,16 @@ float picture_likeness(picture_surface s, float roughness, float reach, ivec2 pi
 {
     const ivec2 last = ivec2(args.width, args.height) - 1, at = clamp(pixel, ivec2(0), last);
     const float other_roughness = picture_roughness(at);
-    picture_surface other;
-    const bool is_surface = picture_surface_at(at, other);
-    const bool counts = is_surface && at == pixel && sdfgi_reflection_ray_share(other_roughness) > 0.0;
-    const float off_plane = abs(dot(other.pos - s.pos, s.normal)) / (reach * s.pixel_m);
-    const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, other.normal);
+    const vec3 normal = texelFetch(normal_image, at, 0).xyz;
+    const float depth = texelFetch(depth_image, at, 0).r, length2 = dot(normal, normal);
+    const bool counts = depth != args.background_depth && length2 > 1e-20 && picture_is_finite(length2) &&
+                        at == pixel && picture_is_smooth(other_roughness);
+    const float off_plane = abs(picture_height(s, at, depth)) / (reach * s.pixel_m);
+    const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, normal) * inversesqrt(length2);
     const float likeness = max(1.0 - off_plane, 0.0) *
                            max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
                            max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
-    return counts ? likeness : 0.0;
+    return counts && off_plane < 1.0 ? likeness : 0.0;
 }
 
 #endif

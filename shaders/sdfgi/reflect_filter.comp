@@ -5,6 +5,7 @@
  * Illumination Filtering"). Mirrors keep their own ray. A workgroup per listed tile, a thread per pixel. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "../lib/on_cpu.glsl"
 #include "../include/sdfgi_reflection.glsl"
 #include "picture_reflect.glsl"
@@ -55,7 +56,8 @@ float spread_of(picture_surface s, float roughness, float distance_m, float reac
     return max(by_roughness, smoothstep(LOBE.x, LOBE.y, lobe_pixels(s, roughness, distance_m) / reach));
 }
 
-/* The first run interpolates between rays, which may lie apart; the second begins with pixels. */
+/* The mean of what the rays around have found; PICTURE_NO_RAY in a where none tells of the pixel's surface.
+ * The first run interpolates between rays, which may lie apart; the second begins with pixels. */
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
 {
     const int ray_step = picture_ray_step(roughness), step = ray_step * int(args.filter_step);
@@ -66,19 +68,27 @@ vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
     const float spread = spread_of(s, roughness, own.a, reach);
     float weights = own.a < 0.0 ? 0.0 : 1.0;
     vec4 sum = weights * own;
-    const int taps = spread > 0.0 || interpolates ? SDFGI_RAYS_SIDE * SDFGI_RAYS_SIDE : 0;
-    for (int i = 0; i < taps; i++) {
-        const ivec2 tap = ivec2(i % SDFGI_RAYS_SIDE, i / SDFGI_RAYS_SIDE) - (SDFGI_RAYS_SIDE / 2 - 1);
-        const ivec2 at = center + tap * step;
-        const float near = interpolates ? nearness(pixel, at, ray_step) : 0.0;
-        const vec4 value = before_at(at);
-        const float share = at == pixel || value.a < 0.0 ? 0.0 : mix(near, 1.0, spread),
-                    weight = share * picture_likeness(s, roughness, reach, at);
-        /* What nobody wrote may be no number. */
-        sum += weight > 0.0 ? weight * value : vec4(0.0);
-        weights += weight;
+    /* The loads of a row overlap. */
+    const int rows = spread > 0.0 || interpolates ? SDFGI_RAYS_SIDE : 0;
+    for (int row = 0; row < rows; row++) {
+        [[unroll]] for (int column = 0; column < SDFGI_RAYS_SIDE; column++)
+        {
+            const ivec2 at = center + (ivec2(column, row) - (SDFGI_RAYS_SIDE / 2 - 1)) * step;
+            const float near = interpolates ? nearness(pixel, at, ray_step) : 0.0;
+            const vec4 value = before_at(at);
+            const float share = at == pixel || value.a < 0.0 ? 0.0 : mix(near, 1.0, spread),
+                        weight = share * picture_likeness(s, roughness, reach, at);
+            /* What nobody wrote may be no number. */
+            sum += weight > 0.0 ? weight * value : vec4(0.0);
+            weights += weight;
+        }
     }
-    return weights > 0.0 ? sum / weights : vec4(own.rgb, 0.0);
+    return weights > 0.0 ? sum / weights : vec4(0.0, 0.0, 0.0, PICTURE_NO_RAY);
+}
+
+vec4 blended(vec3 rough, vec4 mean, float roughness)
+{
+    return vec4(mix(rough, mean.rgb, sdfgi_reflection_ray_share(roughness)), mean.a);
 }
 
 void filter_pixel(ivec2 pixel)
@@ -93,7 +103,7 @@ void filter_pixel(ivec2 pixel)
         imageStore(filtered_image, pixel, mean);
     else
         imageStore(reflection_image, pixel,
-                   vec4(mix(rough, mean.rgb, sdfgi_reflection_ray_share(roughness)), mean.a));
+                   mean.a < 0.0 ? vec4(rough, 0.0) : blended(rough, mean, roughness));
 }
 
 void main()

@@ -158,17 +158,16 @@ reflect_found reflect_trace(vec3 pos_first, vec3 normal, vec3 dir, uint point)
     return found;
 }
 
-/* All light that a ray brings. `rough` stands for that of surfaces of which nothing is known. One loop, so
- * that drivers compile the lookup once. */
-vec3 reflect_light(reflect_found found, vec3 rough)
+/* All light that a ray brings. Surfaces that no light cell faces bring none: they lie deep in what is
+ * crowded, where little light comes. One loop, so that drivers compile the lookup once. */
+vec3 reflect_light(reflect_found found)
 {
     vec3 light = found.light;
     reflect_end end = found.first;
     for (uint i = 0u; i < 2u && end_share(end) > 0.0; i++) {
         const vec3 normal = vec3(sdfgi_axis_direction(end.albedo_axis & 7u));
-        const vec4 leaving =
-            sdfgi_lookup(sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, end.pos, normal, -end_way(end)));
-        light += end_share(end) * albedo_unpack(end.albedo_axis) * (leaving.a > 0.0 ? leaving.rgb : rough);
+        light += end_share(end) * albedo_unpack(end.albedo_axis) *
+                 sdfgi_lookup(sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, end.pos, normal, -end_way(end))).rgb;
         end = found.second;
     }
     return light;

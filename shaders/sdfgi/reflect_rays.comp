@@ -136,8 +136,7 @@ void reflect_pixel(ivec2 pixel)
                         facet_share(s, roughness, dir, dot(of_facet, s.normal) <= 0.0);
     const reflect_found found =
         reflect_trace(sdfgi_first_from_position(s.pos), face, dir, packUnorm2x16(fract(5.0 * point)));
-    const vec3 rough = imageLoad(reflection_image, pixel).rgb / max(scale, 1e-30);
-    const vec3 light = scale * share * reflect_light(found, rough);
+    const vec3 light = scale * share * reflect_light(found);
     imageStore(reflection_image, pixel, vec4(min(light, vec3(PICTURE_BRIGHTEST)), found.length_m));
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Begins the reflections of a picture with what rough surfaces reflect: their irradiance over pi. Lists the
- * tiles in which a surface is smoother, and the pixels that send a ray: those of a grid, and those that are
- * unlike the pixels of the grid around them. A workgroup per tile, a thread per pixel. */
+ * Begins the reflections of a picture: lists the tiles in which a surface is smooth, and the pixels that send
+ * a ray: those of a grid, and those that are unlike the pixels of the grid around them. A workgroup takes a
+ * square of tiles, a thread a pixel of each. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
@@ -9,14 +9,16 @@
 #include "picture_reflect.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
-layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DIFFUSE,
-       rgba16f) uniform readonly image2D diffuse_image;
 
 /* Share of the four pixels around, by their weights, that must be like a pixel that sends no ray. */
 const float ENOUGH_LIKE = 0.4;
 
-shared uint rays, first_ray; /* of this tile; its first place in the list */
-shared uint is_smooth;
+/* A workgroup takes squares of so many tiles a side: fewer workgroups count in the same words. */
+const int SIDE = SDFGI_GROUP_TILES / SDFGI_GROUP_PIXELS;
+const uint TILES = uint(SIDE * SIDE);
+
+shared uint rays, first_ray;       /* of these tiles; their first place in the list */
+shared uint is_smooth, first_tile; /* a bit for each tile that shows something smooth; place of the first */
 
 /* True if a pixel sends a ray of its own. */
 bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
@@ -37,20 +39,54 @@ bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
     return like < ENOUGH_LIKE;
 }
 
-/* Makes room for the rays of a tile. */
-void list_tile()
+/* Where a tile lies, in tiles. */
+ivec2 tile_at(uint tile)
+{
+    return SIDE * ivec2(gl_WorkGroupID.xy) + ivec2(tile % uint(SIDE), tile / uint(SIDE));
+}
+
+/* The pixel of this thread in a tile. */
+ivec2 pixel_of(uint tile)
+{
+    return SDFGI_GROUP_PIXELS * tile_at(tile) + ivec2(gl_LocalInvocationID.xy);
+}
+
+/* Looks at a pixel of a tile. True if it sends a ray. */
+bool look_at(uint tile)
+{
+    const ivec2 pixel = pixel_of(tile);
+    picture_surface s;
+    float roughness;
+    if (!picture_reflects(pixel, s, roughness))
+        return false;
+    atomicOr(is_smooth, 1u << tile);
+    if (sends_ray(pixel, s, roughness))
+        return true;
+    imageStore(reflection_image, pixel, vec4(0.0, 0.0, 0.0, PICTURE_NO_RAY));
+    return false;
+}
+
+/* Makes room for the tiles and their rays. */
+void make_room()
 {
     if (gl_WorkGroupID.xy == uvec2(0u))
         for (uint i = 1u; i <= 2u; i++)
             sdfgi_tiles[uint(SDFGI_TILES_RAYS) + i] = sdfgi_tiles[uint(SDFGI_TILES_TILES) + i] = 1u;
-    if (is_smooth == 0u)
+    const uint tiles = uint(bitCount(is_smooth));
+    if (tiles == 0u)
         return;
-    const uint i = atomicAdd(sdfgi_tiles[TILES_COUNT], 1u);
-    atomicMax(sdfgi_tiles[SDFGI_TILES_TILES], min(i + 1u, uint(SDFGI_MAX_GROUPS)));
-    sdfgi_tiles[picture_tile_word(i)] = picture_pack(ivec2(gl_WorkGroupID.xy));
+    first_tile = atomicAdd(sdfgi_tiles[TILES_COUNT], tiles);
+    atomicMax(sdfgi_tiles[SDFGI_TILES_TILES], min(first_tile + tiles, uint(SDFGI_MAX_GROUPS)));
     first_ray = atomicAdd(sdfgi_tiles[RAYS_COUNT], rays);
     const uint groups = (first_ray + rays + uint(SDFGI_GROUP_LINEAR) - 1u) / uint(SDFGI_GROUP_LINEAR);
     atomicMax(sdfgi_tiles[SDFGI_TILES_RAYS], min(groups, uint(SDFGI_MAX_GROUPS)));
+}
+
+void list_tile(uint tile)
+{
+    const uint before = is_smooth & (1u << tile) - 1u;
+    if ((is_smooth >> tile & 1u) != 0u)
+        sdfgi_tiles[picture_tile_word(first_tile + uint(bitCount(before)))] = picture_pack(tile_at(tile));
 }
 
 void main()
@@ -58,24 +94,19 @@ void main()
     if (gl_LocalInvocationIndex == 0u)
         rays = is_smooth = 0u;
     barrier();
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    picture_surface s;
-    float roughness;
-    const bool reflects = picture_reflects(pixel, s, roughness),
-               sends = reflects && sends_ray(pixel, s, roughness);
-    uint ray = 0u;
-    if (reflects)
-        is_smooth = 1u;
-    if (sends)
-        ray = atomicAdd(rays, 1u);
-    if (pixel.x < int(args.width) && pixel.y < int(args.height)) {
-        const vec3 light = imageLoad(diffuse_image, pixel).rgb / 3.14159265;
-        imageStore(reflection_image, pixel, vec4(light, reflects && !sends ? PICTURE_NO_RAY : 0.0));
-    }
+    uint ray[TILES], sends = 0u; /* a bit per tile */
+    for (uint tile = 0u; tile < TILES; tile++)
+        if (look_at(tile)) {
+            ray[tile] = atomicAdd(rays, 1u);
+            sends |= 1u << tile;
+        }
     barrier();
     if (gl_LocalInvocationIndex == 0u)
-        list_tile();
+        make_room();
     barrier();
-    if (sends)
-        sdfgi_tiles[picture_ray_word(first_ray + ray)] = picture_pack(pixel);
+    if (gl_LocalInvocationIndex < TILES)
+        list_tile(gl_LocalInvocationIndex);
+    for (uint tile = 0u; tile < TILES; tile++)
+        if ((sends >> tile & 1u) != 0u)
+            sdfgi_tiles[picture_ray_word(first_ray + ray[tile])] = picture_pack(pixel_of(tile));
 }

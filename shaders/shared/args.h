@@ -141,7 +141,7 @@ struct sdfgi_gather_args {
     float background_depth;
     uint step;        /* gather_sparse: pixels from one sample to the next, a power of two */
     float scale;      /* factor on the output */
-    uint ray_step;    /* reflect_*: pixels from one ray to the next, a power of two */
+    uint ray_step;    /* pixels from one ray to the next, a power of two; 0: there are no reflections */
     uint filter_step; /* reflect_filter: rays from tap to tap */
 };
 SDFGI_ASSERT_SIZE(sdfgi_gather_args, 92);

@@ -1,173 +1,69 @@
 /* SPDX-License-Identifier: MIT
  * Views: what a resolve makes of a picture, what it needs for that, and what it leaves out. */
-#include "gi_test.h"
 #include "require.h"
 #include "test_group.h"
+#include "view_stage.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDE = 24, PIXELS = SIDE * SIDE, SURFACES = 20 * SIDE };
-
-static const float ZENITH[3] = { 1, 1.5f, 2 };
-
-/* A level floor beside a wall, seen from straight above: clip x, y in [-1, 1] are metres over 3, depth 0 to 1
- * is y from -1.9 to -2.1. Part of the wall glows. Four columns show it, as background. */
-struct stage {
-    struct gi_test t;
-    sdfgi_material smooth; /* of nothing that is there: it calls for reflections */
-    struct gpu_test_image depth, normal;
-    float depths[PIXELS], normals[PIXELS][4];
-    int ridge;  /* this column leans towards +x; 0: none does */
-    float lean; /* of all other normals: tangent of the angle */
-};
-
-static void fill_picture(struct stage *s)
-{
-    for (int i = 0; i < PIXELS; i++) {
-        const float u = ((float)(i % SIDE) + 0.5f) / SIDE * 2 - 1;
-        const bool in_wall = fabsf(3 * u + 2) < 0.6f;
-        s->depths[i] = in_wall ? 1.0f : 0.5f;
-        const bool leans = s->ridge && i % SIDE == s->ridge;
-        memcpy(s->normals[i], (float[]){ leans ? 1 : s->lean, 1, 0, 0 }, sizeof s->normals[i]);
-    }
-}
-
-static void open_stage(struct stage *s, float smoothness)
-{
-    struct sdfgi_settings settings = gi_test_settings();
-    settings.resolution = 32;
-    settings.min_cell_size_m = 0.4f;
-    gi_test_renew(&s->t, &settings);
-    struct test_mesh box = test_mesh_box((double[]){ 0, -3, 0 }, (double[]){ 4, 1, 4 }, test_rotation_none),
-                     wall =
-                         test_mesh_box((double[]){ -2, 0, 0 }, (double[]){ 0.4, 2, 3 }, test_rotation_none);
-    gi_test_add(&s->t, &box, gi_test_material(&s->t, (float[]){ 0.7f, 0.7f, 0.7f }, (float[]){ 0, 0, 0 }));
-    gi_test_add(&s->t, &wall,
-                gi_test_material(&s->t, (float[]){ 0.8f, 0.2f, 0.1f }, (float[]){ 1, 0.5f, 0 }));
-    test_mesh_destroy(&box);
-    test_mesh_destroy(&wall);
-    const struct sdfgi_material_desc desc = { .smoothness = smoothness };
-    REQUIRE_CMP((int)sdfgi_material_create(s->t.gi, &desc, &s->smooth), ==, (int)SDFGI_OK);
-    struct sdfgi_sky sky = { .horizon = { 1, 1, 1 } };
-    memcpy(sky.zenith, ZENITH, sizeof ZENITH);
-    REQUIRE_CMP((int)sdfgi_set_sky(s->t.gi, &sky), ==, (int)SDFGI_OK);
-    gi_test_update(&s->t, 8);
-    fill_picture(s);
-    s->depth = gi_test_gather_image(&s->t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, s->depths);
-    s->normal = gi_test_gather_image(&s->t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, SIDE, SIDE, s->normals);
-}
-
-static void close_stage(struct stage *s)
-{
-    gpu_test_image_destroy(&s->t.gpu, &s->depth);
-    gpu_test_image_destroy(&s->t.gpu, &s->normal);
-}
-
-/* ---- Resolves */
-
-static sdfgi_view *create_view_at(struct stage *s, enum sdfgi_gather_resolution reflection)
-{
-    sdfgi_view *view = NULL;
-    const struct sdfgi_view_desc desc = { .width = SIDE, .height = SIDE, .reflection = reflection };
-    REQUIRE_CMP((int)sdfgi_view_create(s->t.gi, &desc, &view), ==, (int)SDFGI_OK);
-    return view;
-}
-
-static sdfgi_view *create_view(struct stage *s)
-{
-    return create_view_at(s, SDFGI_GATHER_FULL);
-}
-
-static struct sdfgi_resolve_desc resolve_desc(const struct stage *s, VkImageView roughness)
-{
-    return (struct sdfgi_resolve_desc){
-        .depth = s->depth.view,
-        .normal = s->normal.view,
-        .roughness = roughness,
-        .background_depth = 1,
-        .inverse_view_projection = { 3, 0, 0, 0, 0, 0, 3, 0, 0, -2, 0, 0, 0, -1, 0, 1 },
-    };
-}
-
-/* Resolves a picture of one roughness; below 0: none is given. */
-static void resolve(struct stage *s, sdfgi_view *view, float roughness)
-{
-    float pixels[PIXELS];
-    for (int i = 0; i < PIXELS; i++)
-        pixels[i] = roughness;
-    struct gpu_test_image image = gi_test_gather_image(&s->t, VK_FORMAT_R32_SFLOAT, 4, SIDE, SIDE, pixels);
-    const struct sdfgi_resolve_desc desc = resolve_desc(s, roughness < 0 ? VK_NULL_HANDLE : image.view);
-    gi_test_resolve(&s->t, view, &desc);
-    gpu_test_image_destroy(&s->t.gpu, &image);
-}
-
-static void read_picture(struct stage *s, const struct gpu_image *image, float (*out)[4])
-{
-    static uint16_t texels[PIXELS][4];
-    gpu_test_image_read(&s->t.gpu, image->handle, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_ASPECT_COLOR_BIT,
-                        (VkExtent3D){ SIDE, SIDE, 1 }, 8, texels);
-    for (int i = 0; i < PIXELS; i++)
-        for (int k = 0; k < 4; k++)
-            out[i][k] = gi_test_half(texels[i][k]);
-}
-
-static uint32_t dispatches(struct stage *s, enum pass pass)
-{
-    static struct sdfgi_report report;
-    sdfgi_get_report(s->t.gi, &report);
-    return report.passes[pass].dispatches;
-}
-
-static uint64_t view_bytes(struct stage *s)
-{
-    static struct sdfgi_report report;
-    sdfgi_get_report(s->t.gi, &report);
-    return report.memory.bytes[SDFGI_MEMORY_VIEWS];
-}
-
-/* ---- Tests */
-
-static struct stage stage;
+static struct view_stage stage;
 
 static void a_scene_without_smooth_materials_makes_nothing_for_reflections(void **state)
 {
     (void)state;
-    open_stage(&stage, 0.05f);
-    sdfgi_view *view = create_view(&stage);
-    const uint64_t before = view_bytes(&stage);
-    resolve(&stage, view, 0.1f);
+    view_stage_open(&stage, 0.05f);
+    sdfgi_view *view = view_stage_view(&stage);
+    const uint64_t before = view_stage_bytes(&stage);
+    view_stage_resolve(&stage, view, 0.1f);
     struct sdfgi_view_images images;
     sdfgi_view_get_images(view, &images);
     REQUIRE_TRUE(images.diffuse != VK_NULL_HANDLE && images.reflection == VK_NULL_HANDLE);
-    REQUIRE_CMP(view_bytes(&stage), ==, before);
-    REQUIRE_CMP(dispatches(&stage, PASS_GATHER), ==, 1u);
+    REQUIRE_CMP(view_stage_bytes(&stage), ==, before);
+    REQUIRE_CMP(view_stage_dispatches(&stage, PASS_GATHER), ==, 1u);
     for (int pass = PASS_REFLECT_TILES; pass <= PASS_REFLECT_FILTER; pass++) {
-        REQUIRE_CMP(dispatches(&stage, (enum pass)pass), ==, 0u);
+        REQUIRE_CMP(view_stage_dispatches(&stage, (enum pass)pass), ==, 0u);
         REQUIRE_TRUE(!stage.t.gi->backend.pipelines.passes[pass][0]);
     }
-    close_stage(&stage);
+    view_stage_close(&stage);
+}
+
+/* Its pictures are in no layout yet, and no pass may touch them. */
+static void a_view_with_pictures_of_reflections_does_without(void **state)
+{
+    (void)state;
+    view_stage_open(&stage, 0.05f);
+    sdfgi_view *view = NULL;
+    const struct sdfgi_view_desc desc = { .width = VIEW_STAGE_SIDE,
+                                          .height = VIEW_STAGE_SIDE,
+                                          .reflections = true };
+    REQUIRE_CMP((int)sdfgi_view_create(stage.t.gi, &desc, &view), ==, (int)SDFGI_OK);
+    view_stage_resolve(&stage, view, 0.1f);
+    struct sdfgi_view_images images;
+    sdfgi_view_get_images(view, &images);
+    REQUIRE_TRUE(images.reflection == VK_NULL_HANDLE);
+    view_stage_close(&stage);
 }
 
 static void surfaces_of_roughness_1_reflect_irradiance(void **state)
 {
     (void)state;
-    static float diffuse[PIXELS][4], reflection[PIXELS][4];
-    open_stage(&stage, 1);
-    sdfgi_view *view = create_view(&stage);
-    resolve(&stage, view, 1);
-    read_picture(&stage, &view->diffuse, diffuse);
-    read_picture(&stage, &view->reflection, reflection);
+    static float diffuse[VIEW_STAGE_PIXELS][4], reflection[VIEW_STAGE_PIXELS][4];
+    view_stage_open(&stage, 1);
+    sdfgi_view *view = view_stage_view(&stage);
+    view_stage_resolve(&stage, view, 1);
+    view_stage_read(&stage, &view->diffuse, diffuse);
+    view_stage_read(&stage, &view->reflection, reflection);
     double worst = 0, brightest = 0;
-    for (int i = 0; i < PIXELS; i++)
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double want = (double)diffuse[i][k] / 3.14159265;
             worst = fmax(worst, fabs((double)reflection[i][k] - want) / fmax(want, 0.01));
             brightest = fmax(brightest, want);
         }
     printf("roughness 1: off by %.2e at most, brightest %.3f\n", worst, brightest);
-    close_stage(&stage);
+    view_stage_close(&stage);
     REQUIRE_CMP(brightest, >, 0.3);
     REQUIRE_CMP(worst, <=, 0.002);
 }
@@ -175,28 +71,54 @@ static void surfaces_of_roughness_1_reflect_irradiance(void **state)
 static void mirrors_show_the_sky_where_nothing_is_above(void **state)
 {
     (void)state;
-    static float reflection[PIXELS][4];
-    open_stage(&stage, 1);
-    sdfgi_view *view = create_view(&stage);
-    resolve(&stage, view, 0);
-    read_picture(&stage, &view->reflection, reflection);
+    static float reflection[VIEW_STAGE_PIXELS][4];
+    view_stage_open(&stage, 1);
+    sdfgi_view *view = view_stage_view(&stage);
+    view_stage_resolve(&stage, view, 0);
+    view_stage_read(&stage, &view->reflection, reflection);
     double worst = 0;
-    for (int i = 0; i < PIXELS; i++)
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
         for (int k = 0; k < 3; k++) {
-            const double want = stage.depths[i] < 1 ? (double)ZENITH[k] : 0;
+            const double want = stage.depths[i] < 1 ? (double)view_stage_zenith[k] : 0;
             worst = fmax(worst, fabs((double)reflection[i][k] - want));
         }
     printf("mirror: off by %.2e at most\n", worst);
-    close_stage(&stage);
+    view_stage_close(&stage);
     REQUIRE_CMP(worst, <=, 0.002);
+}
+
+/* Rays make the reflections of the smooth half, and the gather those of the other one. Pictures before had it
+ * the other way round. */
+static void smooth_and_rough_surfaces_share_a_picture(void **state)
+{
+    (void)state;
+    static float mirror[VIEW_STAGE_PIXELS][4], matt[VIEW_STAGE_PIXELS][4], both[VIEW_STAGE_PIXELS][4];
+    view_stage_open(&stage, 1);
+    sdfgi_view *views[] = { view_stage_view(&stage),
+                            view_stage_view_of(&stage, SDFGI_GATHER_HALF, SDFGI_GATHER_FULL) };
+    for (int v = 0; v < 2; v++) {
+        view_stage_resolve(&stage, views[v], 0);
+        view_stage_read(&stage, &views[v]->reflection, mirror);
+        view_stage_resolve(&stage, views[v], 1);
+        view_stage_read(&stage, &views[v]->reflection, matt);
+        view_stage_resolve_halves(&stage, views[v], 1, 0);
+        view_stage_resolve_halves(&stage, views[v], 0, 1);
+        view_stage_read(&stage, &views[v]->reflection, both);
+        REQUIRE_CMP(memcmp(mirror, matt, sizeof both), !=, 0);
+        for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+            REQUIRE_CMP(memcmp(both[i], i % VIEW_STAGE_SIDE < VIEW_STAGE_SIDE / 2 ? mirror[i] : matt[i],
+                               sizeof *both),
+                        ==, 0);
+    }
+    view_stage_close(&stage);
 }
 
 static double mean_luminance(float (*pixels)[4])
 {
     double sum = 0;
-    for (int i = 0; i < PIXELS; i++)
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
         sum += 0.2126 * (double)pixels[i][0] + 0.7152 * (double)pixels[i][1] + 0.0722 * (double)pixels[i][2];
-    return sum / PIXELS;
+    return sum / VIEW_STAGE_PIXELS;
 }
 
 /* Normals of a texture lean by 60 degrees: reflected rays would lead into the floor. Right of the wall they
@@ -204,30 +126,30 @@ static double mean_luminance(float (*pixels)[4])
 static void normals_that_lean_reflect_no_surface_of_their_own(void **state)
 {
     (void)state;
-    static float reflection[PIXELS][4];
+    static float reflection[VIEW_STAGE_PIXELS][4];
     stage.lean = 1.732f;
-    open_stage(&stage, 1);
+    view_stage_open(&stage, 1);
     stage.lean = 0;
-    sdfgi_view *view = create_view(&stage);
-    resolve(&stage, view, 0);
-    read_picture(&stage, &view->reflection, reflection);
-    for (int i = 0; i < PIXELS; i++)
-        if (i % SIDE > SIDE / 2)
+    sdfgi_view *view = view_stage_view(&stage);
+    view_stage_resolve(&stage, view, 0);
+    view_stage_read(&stage, &view->reflection, reflection);
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+        if (i % VIEW_STAGE_SIDE > VIEW_STAGE_SIDE / 2)
             REQUIRE_CMP(reflection[i][3], >=, 65000.0f);
-    close_stage(&stage);
+    view_stage_close(&stage);
 }
 
 /* 64 steps from a mirror to a matt surface. */
 static void roughness_changes_reflections_without_a_step(void **state)
 {
     (void)state;
-    static float reflection[PIXELS][4];
-    open_stage(&stage, 1);
-    sdfgi_view *view = create_view(&stage);
+    static float reflection[VIEW_STAGE_PIXELS][4];
+    view_stage_open(&stage, 1);
+    sdfgi_view *view = view_stage_view(&stage);
     double before = 0, worst = 0, first = 0;
     for (int step = 0; step <= 64; step++) {
-        resolve(&stage, view, (float)step / 64);
-        read_picture(&stage, &view->reflection, reflection);
+        view_stage_resolve(&stage, view, (float)step / 64);
+        view_stage_read(&stage, &view->reflection, reflection);
         const double mean = mean_luminance(reflection);
         if (step > 0)
             worst = fmax(worst, fabs(mean - before) / fmax(mean, before));
@@ -235,7 +157,7 @@ static void roughness_changes_reflections_without_a_step(void **state)
         before = mean;
     }
     printf("roughness 0: %.3f, 1: %.3f, largest step %.2f %%\n", first, before, 100 * worst);
-    close_stage(&stage);
+    view_stage_close(&stage);
     REQUIRE_CMP(fabs(first - before) / first, >, 0.05);
     REQUIRE_CMP(worst, <=, 0.03);
 }
@@ -243,33 +165,33 @@ static void roughness_changes_reflections_without_a_step(void **state)
 static void views_have_pictures_of_their_own_and_give_them_back(void **state)
 {
     (void)state;
-    static float a[PIXELS][4], b[PIXELS][4];
-    open_stage(&stage, 1);
-    const uint64_t none = view_bytes(&stage);
-    sdfgi_view *one = create_view(&stage), *two = create_view(&stage);
-    const uint64_t diffuse = view_bytes(&stage);
-    resolve(&stage, one, 0);
-    resolve(&stage, two, 1);
-    read_picture(&stage, &two->reflection, b);
-    resolve(&stage, two, 0);
-    read_picture(&stage, &one->reflection, a);
+    static float a[VIEW_STAGE_PIXELS][4], b[VIEW_STAGE_PIXELS][4];
+    view_stage_open(&stage, 1);
+    const uint64_t none = view_stage_bytes(&stage);
+    sdfgi_view *one = view_stage_view(&stage), *two = view_stage_view(&stage);
+    const uint64_t diffuse = view_stage_bytes(&stage);
+    view_stage_resolve(&stage, one, 0);
+    view_stage_resolve(&stage, two, 1);
+    view_stage_read(&stage, &two->reflection, b);
+    view_stage_resolve(&stage, two, 0);
+    view_stage_read(&stage, &one->reflection, a);
     REQUIRE_CMP(memcmp(a, b, sizeof a), !=, 0);
-    read_picture(&stage, &two->reflection, b);
+    view_stage_read(&stage, &two->reflection, b);
     REQUIRE_CMP(memcmp(a, b, sizeof a), ==, 0);
-    const uint64_t all = view_bytes(&stage);
-    REQUIRE_CMP(diffuse, >=, none + 2 * 8 * PIXELS);
-    REQUIRE_CMP(all, >=, diffuse + 2 * 20 * PIXELS);
+    const uint64_t all = view_stage_bytes(&stage);
+    REQUIRE_CMP(diffuse, >=, none + 2 * 8 * VIEW_STAGE_PIXELS);
+    REQUIRE_CMP(all, >=, diffuse + 2 * 20 * VIEW_STAGE_PIXELS);
     sdfgi_view_destroy(stage.t.gi, one);
     sdfgi_view_destroy(stage.t.gi, NULL);
     gi_test_update(&stage.t, 4);
-    REQUIRE_CMP(view_bytes(&stage), ==, none + (all - none) / 2);
+    REQUIRE_CMP(view_stage_bytes(&stage), ==, none + (all - none) / 2);
     sdfgi_view_destroy(stage.t.gi, two);
     gi_test_update(&stage.t, 4);
-    REQUIRE_CMP(view_bytes(&stage), ==, none);
-    close_stage(&stage);
+    REQUIRE_CMP(view_stage_bytes(&stage), ==, none);
+    view_stage_close(&stage);
 }
 
-static uint32_t rays_sent(struct stage *s, const sdfgi_view *view)
+static uint32_t rays_sent(struct view_stage *s, const sdfgi_view *view)
 {
     uint32_t header[SDFGI_TILES_HEADER];
     gpu_test_buffer_read(&s->t.gpu, view->tiles.handle, 0, sizeof header, header);
@@ -282,7 +204,7 @@ static uint32_t rays_sent(struct stage *s, const sdfgi_view *view)
 static void fewer_rays_show_the_same(void **state)
 {
     (void)state;
-    static float full[PIXELS][4], other[PIXELS][4];
+    static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
     static const struct {
         enum sdfgi_gather_resolution resolution;
         float roughness, beside; /* of the picture that it is compared with */
@@ -292,60 +214,61 @@ static void fewer_rays_show_the_same(void **state)
                  { SDFGI_GATHER_HALF, 0.3f, 0.3f, 2 },   { SDFGI_GATHER_QUARTER, 0.3f, 0.3f, 4 },
                  { SDFGI_GATHER_FULL, 0.56f, 0.54f, 2 }, { SDFGI_GATHER_FULL, 0.65f, 0.63f, 4 } };
     stage.ridge = 13;
-    open_stage(&stage, 1);
+    view_stage_open(&stage, 1);
     stage.ridge = 0;
-    sdfgi_view *whole = create_view(&stage);
+    sdfgi_view *whole = view_stage_view(&stage);
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const float roughness = rows[k].roughness;
-        sdfgi_view *view = create_view_at(&stage, rows[k].resolution);
-        resolve(&stage, whole, rows[k].beside);
+        sdfgi_view *view = view_stage_view_at(&stage, rows[k].resolution);
+        view_stage_resolve(&stage, whole, rows[k].beside);
         const uint32_t all = rays_sent(&stage, whole);
-        REQUIRE_TRUE(all == SURFACES || rows[k].beside > 0.55f);
-        read_picture(&stage, &whole->reflection, full);
-        resolve(&stage, view, roughness);
-        read_picture(&stage, &view->reflection, other);
+        REQUIRE_TRUE(all == VIEW_STAGE_SURFACES || rows[k].beside > 0.55f);
+        view_stage_read(&stage, &whole->reflection, full);
+        view_stage_resolve(&stage, view, roughness);
+        view_stage_read(&stage, &view->reflection, other);
         const uint32_t sent = rays_sent(&stage, view), step = rows[k].step;
         const double off = fabs(mean_luminance(other) / mean_luminance(full) - 1);
-        for (int i = 0; i < PIXELS; i++)
+        for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
             REQUIRE_TRUE(other[i][3] >= 0 && (other[i][3] > 0) == (stage.depths[i] < 1));
-        for (int i = 13; i < PIXELS && roughness == 0; i += SIDE)
-            REQUIRE_TRUE(fabsf(other[i][0] / full[i][0] - 1) < 1e-3f && full[i][2] < ZENITH[2]);
+        for (int i = 13; i < VIEW_STAGE_PIXELS && roughness == 0; i += VIEW_STAGE_SIDE)
+            REQUIRE_TRUE(fabsf(other[i][0] / full[i][0] - 1) < 1e-3f && full[i][2] < view_stage_zenith[2]);
         printf("roughness %.2f: %u rays instead of %u, mean off by %.4f\n", (double)roughness, sent, all,
                off);
-        REQUIRE_CMP(sent, >=, SURFACES / (step * step));
-        REQUIRE_CMP(sent, <, SURFACES / (step * step) + (2 * step + 1) * SIDE);
+        REQUIRE_CMP(sent, >=, VIEW_STAGE_SURFACES / (step * step));
+        REQUIRE_CMP(sent, <, VIEW_STAGE_SURFACES / (step * step) + (2 * step + 1) * VIEW_STAGE_SIDE);
         REQUIRE_CMP(off, <=, roughness > 0 ? 0.022 : 1e-5);
         sdfgi_view_destroy(stage.t.gi, view);
     }
-    close_stage(&stage);
+    view_stage_close(&stage);
 }
 
 /* Two eyes, 40 cm apart from a metre above, whose pictures show the same points of the floor. */
 static void eyes_share_an_update_and_see_the_same_light(void **state)
 {
     (void)state;
-    static float pictures[2][PIXELS][4];
-    open_stage(&stage, 1);
-    const uint32_t gathers = dispatches(&stage, PASS_GATHER), traces = dispatches(&stage, PASS_PROBE_TRACE);
+    static float pictures[2][VIEW_STAGE_PIXELS][4];
+    view_stage_open(&stage, 1);
+    const uint32_t gathers = view_stage_dispatches(&stage, PASS_GATHER),
+                   traces = view_stage_dispatches(&stage, PASS_PROBE_TRACE);
     double worst = 0, brightest = 0;
     for (int eye = 0; eye < 2; eye++) {
-        sdfgi_view *view = create_view(&stage);
-        struct sdfgi_resolve_desc desc = resolve_desc(&stage, VK_NULL_HANDLE);
+        sdfgi_view *view = view_stage_view(&stage);
+        struct sdfgi_resolve_desc desc = view_stage_desc(&stage, VK_NULL_HANDLE);
         desc.inverse_view_projection[8] = eye == 0 ? 0.4f : -0.4f;
         desc.inverse_view_projection[12] = eye == 0 ? -0.2f : 0.2f;
         gi_test_resolve(&stage.t, view, &desc);
-        read_picture(&stage, &view->diffuse, pictures[eye]);
+        view_stage_read(&stage, &view->diffuse, pictures[eye]);
     }
-    REQUIRE_CMP(dispatches(&stage, PASS_GATHER), ==, gathers + 2);
-    REQUIRE_CMP(dispatches(&stage, PASS_PROBE_TRACE), ==, traces);
-    for (int i = 0; i < PIXELS; i++)
+    REQUIRE_CMP(view_stage_dispatches(&stage, PASS_GATHER), ==, gathers + 2);
+    REQUIRE_CMP(view_stage_dispatches(&stage, PASS_PROBE_TRACE), ==, traces);
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double left = (double)pictures[0][i][k], right = (double)pictures[1][i][k];
             worst = fmax(worst, fabs(left - right) / fmax(fmax(left, right), 0.01));
             brightest = fmax(brightest, left);
         }
     printf("eyes: off by %.2e at most, brightest %.3f\n", worst, brightest);
-    close_stage(&stage);
+    view_stage_close(&stage);
     REQUIRE_CMP(brightest, >, 0.3);
     REQUIRE_CMP(worst, <=, 0.01);
 }
@@ -353,16 +276,16 @@ static void eyes_share_an_update_and_see_the_same_light(void **state)
 static void without_a_picture_of_roughness_there_are_no_reflections(void **state)
 {
     (void)state;
-    open_stage(&stage, 1);
-    sdfgi_view *view = create_view(&stage);
+    view_stage_open(&stage, 1);
+    sdfgi_view *view = view_stage_view(&stage);
     struct sdfgi_view_images images;
-    resolve(&stage, view, 0);
+    view_stage_resolve(&stage, view, 0);
     sdfgi_view_get_images(view, &images);
     REQUIRE_TRUE(images.reflection != VK_NULL_HANDLE);
-    resolve(&stage, view, -1);
+    view_stage_resolve(&stage, view, -1);
     sdfgi_view_get_images(view, &images);
     REQUIRE_TRUE(images.reflection == VK_NULL_HANDLE);
-    close_stage(&stage);
+    view_stage_close(&stage);
 }
 
 /* ---- Thresholds */
@@ -386,12 +309,12 @@ static void set_thresholds(float blend, float end)
 /* Share of a picture of roughness 0.6 that is not what irradiance makes of it. */
 static double unlike_irradiance(sdfgi_view *view)
 {
-    static float diffuse[PIXELS][4], reflection[PIXELS][4];
+    static float diffuse[VIEW_STAGE_PIXELS][4], reflection[VIEW_STAGE_PIXELS][4];
     double unlike = 0, sum = 0;
-    resolve(&stage, view, 0.6f);
-    read_picture(&stage, &view->diffuse, diffuse);
-    read_picture(&stage, &view->reflection, reflection);
-    for (int i = 0; i < PIXELS; i++)
+    view_stage_resolve(&stage, view, 0.6f);
+    view_stage_read(&stage, &view->diffuse, diffuse);
+    view_stage_read(&stage, &view->reflection, reflection);
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             unlike += fabs((double)reflection[i][k] - (double)diffuse[i][k] / 3.14159265);
             sum += (double)diffuse[i][k] / 3.14159265;
@@ -404,13 +327,13 @@ static void thresholds_of_roughness_are_followed_and_wake_no_light(void **state)
     (void)state;
     static struct sdfgi_report report;
     struct sdfgi_view_images images;
-    open_stage(&stage, 1);
+    view_stage_open(&stage, 1);
     for (int i = 0; i < 400 && !report.converged; i++) {
         gi_test_update(&stage.t, 1);
         sdfgi_get_report(stage.t.gi, &report);
     }
     REQUIRE_TRUE(report.converged);
-    sdfgi_view *view = create_view(&stage);
+    sdfgi_view *view = view_stage_view(&stage);
     const double blended = unlike_irradiance(view);
     set_thresholds(1, 1);
     const double rays = unlike_irradiance(view);
@@ -424,17 +347,17 @@ static void thresholds_of_roughness_are_followed_and_wake_no_light(void **state)
     REQUIRE_CMP(blended, >, 0.01);
     REQUIRE_CMP(rough, <=, 1e-3);
     set_thresholds(0.4f, 0);
-    resolve(&stage, view, 0);
+    view_stage_resolve(&stage, view, 0);
     sdfgi_view_get_images(view, &images);
     REQUIRE_TRUE(images.reflection == VK_NULL_HANDLE);
-    REQUIRE_CMP(dispatches(&stage, PASS_REFLECT_TILES), ==, 0u);
-    close_stage(&stage);
+    REQUIRE_CMP(view_stage_dispatches(&stage, PASS_REFLECT_TILES), ==, 0u);
+    view_stage_close(&stage);
 }
 
 static void bad_views_are_refused(void **state)
 {
     (void)state;
-    open_stage(&stage, 1);
+    view_stage_open(&stage, 1);
     static const struct sdfgi_view_desc wrong[] = { { .height = 4 },
                                                     { .width = 4 },
                                                     { .width = 4, .height = UINT32_MAX },
@@ -446,13 +369,13 @@ static void bad_views_are_refused(void **state)
                     (int)SDFGI_ERROR_INVALID_ARGUMENT);
         REQUIRE_TRUE(view == (sdfgi_view *)&stage);
     }
-    sdfgi_view *view = create_view(&stage);
-    struct sdfgi_resolve_desc desc = resolve_desc(&stage, VK_NULL_HANDLE);
+    sdfgi_view *view = view_stage_view(&stage);
+    struct sdfgi_resolve_desc desc = view_stage_desc(&stage, VK_NULL_HANDLE);
     desc.depth = VK_NULL_HANDLE;
     REQUIRE_CMP((int)sdfgi_view_resolve(stage.t.gi, view, (VkCommandBuffer)&stage, &desc), ==,
                 (int)SDFGI_ERROR_INVALID_ARGUMENT);
     REQUIRE_TRUE(strstr(stage.t.last_message, "depth is null") != NULL);
-    desc = resolve_desc(&stage, VK_NULL_HANDLE);
+    desc = view_stage_desc(&stage, VK_NULL_HANDLE);
     desc.scale = NAN;
     REQUIRE_CMP((int)sdfgi_view_resolve(stage.t.gi, view, (VkCommandBuffer)&stage, &desc), ==,
                 (int)SDFGI_ERROR_INVALID_ARGUMENT);
@@ -465,7 +388,7 @@ static void bad_views_are_refused(void **state)
     REQUIRE_CMP((int)sdfgi_material_create(stage.t.gi, &bad_metal, &material), ==,
                 (int)SDFGI_ERROR_INVALID_ARGUMENT);
     REQUIRE_TRUE(strstr(stage.t.last_message, "metallic") != NULL);
-    close_stage(&stage);
+    view_stage_close(&stage);
 }
 
 static int finish(void **state)
@@ -479,9 +402,11 @@ TEST_GROUP(view)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_without_smooth_materials_makes_nothing_for_reflections),
+        cmocka_unit_test(a_view_with_pictures_of_reflections_does_without),
         cmocka_unit_test(surfaces_of_roughness_1_reflect_irradiance),
         cmocka_unit_test(mirrors_show_the_sky_where_nothing_is_above),
         cmocka_unit_test(normals_that_lean_reflect_no_surface_of_their_own),
+        cmocka_unit_test(smooth_and_rough_surfaces_share_a_picture),
         cmocka_unit_test(roughness_changes_reflections_without_a_step),
         cmocka_unit_test(views_have_pictures_of_their_own_and_give_them_back),
         cmocka_unit_test(fewer_rays_show_the_same),

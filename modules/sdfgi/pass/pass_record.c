@@ -120,9 +120,19 @@ static uint64_t reads_of(const struct work *work)
     return sdfgi_pass_row(work->pass)->reads | records;
 }
 
+/* Declares what an item touches. It waits for what it needs, unless the items with which it runs side by side
+ * have done so for all of them. */
+static void use(struct pass_recorder *r, enum gpu_usage usage, uint64_t reads, uint64_t writes)
+{
+    if (r->beside)
+        gpu_touch(&r->gpu, usage, reads, writes);
+    else
+        gpu_use(&r->gpu, usage, reads, writes);
+}
+
 static void dispatch(struct pass_recorder *r, const struct work *work)
 {
-    gpu_use(&r->gpu, usage_of(work), reads_of(work), sdfgi_pass_row(work->pass)->writes);
+    use(r, usage_of(work), reads_of(work), sdfgi_pass_row(work->pass)->writes);
     if (work->indirect != WORK_DIRECT) {
         gpu_dispatch_indirect(&r->gpu, &r->resources->buffers[work->records],
                               record_offset(work, &r->resources->extent));
@@ -136,6 +146,7 @@ static void begin_item(struct pass_recorder *r, const struct work *work)
 {
     const struct pass_row *row = sdfgi_pass_row(work->pass);
     assert(work->kind == WORK_PASS && row->domain != DOMAIN_INSTANCES);
+    r->beside = runs_beside(r->open, work);
     sdfgi_pass_open(r, work);
     if (row->args_size > 0)
         gpu_push(&r->gpu, r->backend->pipelines.layouts[row->set], row->args_size, &work->args);
@@ -154,7 +165,7 @@ void sdfgi_pass_record_indirect(struct pass_recorder *r, const struct work *work
 {
     const struct pass_row *row = sdfgi_pass_row(work->pass);
     begin_item(r, work);
-    gpu_use(&r->gpu, GPU_USAGE_INDIRECT, row->reads, row->writes);
+    use(r, GPU_USAGE_INDIRECT, row->reads, row->writes);
     gpu_dispatch_indirect(&r->gpu, arguments, offset);
 }
 
@@ -196,9 +207,8 @@ static uint32_t passes_at_once(const struct work *items, uint32_t count)
     return passes;
 }
 
-/* One barrier for what any of them needs: a later one would have the next pass wait for the one before. It
- * comes after the stamp, because software drivers take the time when they wait. */
-static void record_passes(struct pass_recorder *r, const struct work *items, uint32_t count)
+/* The barrier comes after the stamp, because software drivers take the time when they wait. */
+void sdfgi_pass_begin_beside(struct pass_recorder *r, const struct work *items, uint32_t count)
 {
     uint64_t reads = 0, writes = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -207,6 +217,11 @@ static void record_passes(struct pass_recorder *r, const struct work *items, uin
     }
     sdfgi_pass_open(r, items);
     gpu_order(&r->gpu, GPU_USAGE_INDIRECT, reads, writes);
+}
+
+static void record_passes(struct pass_recorder *r, const struct work *items, uint32_t count)
+{
+    sdfgi_pass_begin_beside(r, items, count);
     for (uint32_t i = 0; i < count; i++)
         sdfgi_pass_record(r, &items[i]);
 }

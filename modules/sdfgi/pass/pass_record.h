@@ -21,6 +21,7 @@ struct pass_recorder {
     uint32_t stamps_left;    /* timestamps that it may still take */
     bool stamped;            /* a stamp has been taken */
     bool timed;              /* a time span is open */
+    bool beside;             /* the newest item runs beside the one before */
     uint32_t bound;          /* a bit per bind point that has the resources' sets */
 };
 
@@ -38,6 +39,10 @@ void sdfgi_pass_open(struct pass_recorder *r, const struct work *work);
 /* Closes what is open. */
 void sdfgi_pass_close(struct pass_recorder *r);
 
+/* Begins items that run side by side, which the caller then records one by one. They wait at once for what
+ * any of them needs: a barrier between them would have the next pass wait for the one before. None needs what
+ * another one writes, and what two of them write lies apart. */
+void sdfgi_pass_begin_beside(struct pass_recorder *r, const struct work *items, uint32_t count);
 /* An item of any domain but DOMAIN_INSTANCES and DOMAIN_TILE_LIST. */
 void sdfgi_pass_record(struct pass_recorder *r, const struct work *work);
 /* An item whose size a view's buffer holds, at `offset`. */

@@ -176,10 +176,12 @@ void sdfgi_view_write_set(const struct backend *backend, const struct sdfgi_view
     struct writes w = { .count = 0 };
     add_image(&w, set, SDFGI_BINDING_VIEW_DEPTH, in, p->depth, layout);
     add_image(&w, set, SDFGI_BINDING_VIEW_NORMAL, in, p->normal, layout);
-    /* Some drivers look at what no shader reads: no binding may name a picture that is gone. */
+    /* Some drivers look at what no shader reads: no binding may name a picture that is gone. Others stand for
+     * what this resolve does without. */
     add_image(&w, set, SDFGI_BINDING_VIEW_ROUGHNESS, in, p->roughness ? p->roughness : p->depth, layout);
     add_image(&w, set, SDFGI_BINDING_VIEW_DIFFUSE, out, p->diffuse, VK_IMAGE_LAYOUT_GENERAL);
-    add_image(&w, set, SDFGI_BINDING_VIEW_REFLECTION, out, view->reflection.view, VK_IMAGE_LAYOUT_GENERAL);
+    add_image(&w, set, SDFGI_BINDING_VIEW_REFLECTION, out,
+              view->reflects ? view->reflection.view : p->diffuse, VK_IMAGE_LAYOUT_GENERAL);
     add_image(&w, set, SDFGI_BINDING_VIEW_FILTERED, out, view->filtered.view, VK_IMAGE_LAYOUT_GENERAL);
     if (view->tiles.handle)
         w.items[w.count++] = (VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
