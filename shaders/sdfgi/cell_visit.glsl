@@ -330,7 +330,7 @@ bool is_new(gathered_state state)
 /* visited_cell::times_rays of a cell in a state. */
 uint times_rays_of(gathered_state state)
 {
-    return state.mean == GATHERED_NOTHING ? args.new_rays : 1u;
+    return state.mean < GATHERED_FIRST ? args.new_rays : 1u;
 }
 
 /* The state of a cell that is woken: a cycle begins anew. */

@@ -113,7 +113,7 @@ SDFGI_ASSERT_SIZE(sdfgi_light_bounce_args, 52);
 struct sdfgi_cell_gather_args {
     uint visits[SDFGI_MAX_CASCADES]; /* in a gather cycle of the cascade */
     uint marks;                      /* a bit per cascade: its cells mark how much light they have */
-    uint new_rays; /* times as many rays as others new cells send: 1 or SDFGI_NEW_RAYS */
+    uint new_rays; /* times as many rays as others cells send in a first cycle: 1 or SDFGI_NEW_RAYS */
 };
 SDFGI_ASSERT_SIZE(sdfgi_cell_gather_args, 40);
 

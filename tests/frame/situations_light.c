@@ -12,6 +12,20 @@ static void light_created(struct show *show)
     show_frames(show, 2);
 }
 
+/* Cells that it wakes send more rays for 20 frames. */
+static void light_created_after_a_while(struct show *show)
+{
+    const struct sdfgi_settings settings = drive_settings(2, 32);
+    const struct sdfgi_light_desc lamp = drive_lamp();
+    show_begin_unlit(show, &settings);
+    drive_converge(&show->d);
+    drive_frames(&show->d, 130);
+    drive_add_light(&show->d, &lamp);
+    show_frames(show, 2);
+    drive_frames(&show->d, 20);
+    show_frames(show, 1);
+}
+
 static void light_updated_and_removed(struct show *show)
 {
     const struct sdfgi_settings settings = drive_settings(2, 32);
@@ -147,6 +161,7 @@ static void list_grew_while_a_scroll_completes(struct show *show)
 
 static const struct situation_row rows[] = {
     { "a_new_light_lights_all_cells", light_created },
+    { "a_new_light_after_a_while_has_cells_send_more_rays", light_created_after_a_while },
     { "a_light_is_updated_and_removed", light_updated_and_removed },
     { "a_light_in_the_second_frame_lights_all_that_lists_have_room_for", light_updated_in_the_second_frame },
     { "a_light_while_a_scroll_completes", light_updated_while_a_scroll_completes },

@@ -114,6 +114,39 @@ static void new_cells_send_more_rays_while_all_are_new(void **state)
     REQUIRE_CMP(frames_of_many_rays(&s), ==, frames);
 }
 
+static void let_frames_pass(struct scene *s, int frames)
+{
+    for (int i = 0; i < frames; i++)
+        sdfgi_gathering_begin(&s->gathering, s->gathering.invalidations);
+}
+
+/* Frames in which cells that change now send more rays. */
+static uint32_t frames_of_change(struct scene *s, int calm, bool all, const struct box *edited)
+{
+    let_frames_pass(s, calm);
+    if (all)
+        sdfgi_gathering_outdate(&s->gathering);
+    else
+        sdfgi_gathering_change(&s->gathering, edited);
+    let_frames_pass(s, 20);
+    return frames_of_many_rays(s);
+}
+
+/* Not where lights change again and again, and not for geometry, which wakes few cells. */
+static void cells_send_more_rays_when_lights_change_after_a_while(void **state)
+{
+    (void)state;
+    const struct box box = { { 0, 0, 0 }, { 4, 4, 4 } };
+    struct scene s;
+    open_scene(&s);
+    const uint32_t frames = frames_of_many_rays(&s);
+    REQUIRE_CMP(frames_of_change(&s, 0, true, NULL), ==, 0u);
+    REQUIRE_CMP(frames_of_change(&s, 200, true, NULL), ==, frames);
+    REQUIRE_CMP(frames_of_change(&s, 60, true, NULL), ==, 0u);
+    REQUIRE_CMP(frames_of_change(&s, 200, false, NULL), ==, frames);
+    REQUIRE_CMP(frames_of_change(&s, 200, false, &box), ==, 0u);
+}
+
 static void a_cycle_ends_with_its_last_visit(void **state)
 {
     (void)state;
@@ -437,6 +470,7 @@ int main(void)
         cmocka_unit_test(near_cascades_get_most_of_the_budget),
         cmocka_unit_test(a_sweep_visits_each_cell_once),
         cmocka_unit_test(new_cells_send_more_rays_while_all_are_new),
+        cmocka_unit_test(cells_send_more_rays_when_lights_change_after_a_while),
         cmocka_unit_test(a_cycle_ends_with_its_last_visit),
         cmocka_unit_test(cycles_grow_long_when_light_changes_little),
         cmocka_unit_test(a_cascade_that_drifts_has_not_settled),

@@ -15,6 +15,10 @@
  * then. Later few cells are new at a time. */
 #define FIRST_FRAMES 20
 
+/* Frames without a change after which cells that a change of lights wakes send as many, for as long. Where
+ * lights change all the time they do not: frames would take longer for ever. */
+#define CALM_FRAMES 120
+
 void sdfgi_gathering_init(struct gathering *gathering)
 {
     *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
@@ -42,13 +46,14 @@ void sdfgi_edited_places_add(struct edited_places *places, const struct box *box
 
 void sdfgi_gathering_outdate(struct gathering *gathering)
 {
-    gathering->epoch_over = true;
+    gathering->epoch_over = gathering->lights_over = true;
     gathering->all_over = true;
 }
 
 void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited)
 {
     gathering->epoch_over = true;
+    gathering->lights_over = gathering->lights_over || !edited;
     if (edited)
         sdfgi_edited_places_add(&gathering->edited, edited);
 }
@@ -82,14 +87,16 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
         for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
             unsettle(&gathering->at[c]);
     gathering->invalidations = invalidations;
-    gathering->epoch_frames += gathering->epoch_frames < EPOCH_FRAMES;
+    gathering->epoch_frames += gathering->epoch_frames < CALM_FRAMES;
     if (!gathering->epoch_over || gathering->epoch_frames < EPOCH_FRAMES)
         return;
+    if (gathering->lights_over && gathering->epoch_frames >= CALM_FRAMES)
+        sdfgi_gathering_restart(gathering);
     gathering->epoch++;
     if (gathering->all_over)
         gathering->epoch_of_all = gathering->epoch;
     gathering->epoch_frames = 0;
-    gathering->epoch_over = gathering->all_over = false;
+    gathering->epoch_over = gathering->lights_over = gathering->all_over = false;
     gathering->edited_last = gathering->edited;
     gathering->edited.count = 0;
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {

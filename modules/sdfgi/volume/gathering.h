@@ -40,14 +40,15 @@ struct gathering {
     struct gather_cursor at[SDFGI_MAX_CASCADES];
     uint64_t invalidations;           /* of the light, as far as they are taken in */
     uint32_t epoch;                   /* changes of a time: of lights and of geometry */
-    uint32_t epoch_frames;            /* since it began */
+    uint32_t epoch_frames;            /* since it began, as far as they matter */
     bool epoch_over;                  /* something has changed since, */
-    bool all_over;                    /* and changes the light of all cells */
+    bool lights_over;                 /* lights, sun or sky among that, */
+    bool all_over;                    /* and it changes the light of all cells */
     uint32_t epoch_of_all;            /* the last one that did */
     struct edited_places edited;      /* since the epoch began, */
     struct edited_places edited_last; /* and in the one before */
     uint32_t seen_frames;             /* since it was forgotten which cells were seen */
-    uint32_t first_frames;            /* that have taken cells since all of them were new */
+    uint32_t first_frames;            /* that have taken cells since many of them were new, or were woken */
     uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
 
@@ -69,9 +70,9 @@ struct gather_change {
 };
 
 void sdfgi_gathering_init(struct gathering *gathering);
-/* All cells are new. */
+/* All cells are new, or many are woken. */
 void sdfgi_gathering_restart(struct gathering *gathering);
-/* Times as many rays as others new cells send in this frame. */
+/* Times as many rays as others new and woken cells send in this frame. */
 uint32_t sdfgi_gathering_new_rays(const struct gathering *gathering);
 /* With no room left, places that are near each other become one. */
 void sdfgi_edited_places_add(struct edited_places *places, const struct box *box);
