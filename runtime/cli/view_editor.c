@@ -27,7 +27,8 @@ static uint32_t switches_fill(const struct host_overlay_frame *host, struct edit
         switches[count++] =
             (struct editor_switch){ .name = "Reflections",
                                     .text = "What smooth opaque surfaces reflect. Off, they "
-                                            "reflect as much as rough ones.",
+                                            "reflect as much as rough ones. The time has that of "
+                                            "diffuse light in it, which is looked up beside rays.",
                                     .passes = { "reflect_tiles", "reflect_rays", "reflect_filter" },
                                     .on = !host->left_out.reflections };
     if (host->possible.fog)
