@@ -155,11 +155,10 @@ static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, s
 {
     struct pass_recorder *rec = &gi->recorder;
     gather.args.gather.ray_step = sdfgi_picture_step(view->desc.reflection);
-    struct work tiles = gather, filter[2] = { gather, gather };
+    struct work tiles = gather, beside[2] = { gather, gather }, filter[2] = { gather, gather };
     tiles.pass = PASS_REFLECT_TILES;
-    gather.group = 1;
-    struct work beside[] = { gather, gather }, *rays = &beside[0];
-    rays->pass = PASS_REFLECT_RAYS;
+    beside[0].pass = PASS_REFLECT_RAYS;
+    beside[0].group = beside[1].group = 1;
     filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;
     filter[0].args.gather.filter_step = 1;
     filter[1].args.gather.filter_step = SDFGI_RAYS_SIDE;
@@ -171,8 +170,8 @@ static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, s
     view->reflection_ready = true;
     sdfgi_pass_record(rec, &tiles);
     sdfgi_pass_begin_beside(rec, beside, 2);
-    sdfgi_pass_record_indirect(rec, rays, &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
-    sdfgi_pass_record(rec, &gather);
+    sdfgi_pass_record_indirect(rec, &beside[0], &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
+    sdfgi_pass_record(rec, &beside[1]);
     for (int run = 0; run < 2; run++)
         sdfgi_pass_record_indirect(rec, &filter[run], &view->tiles, sizeof(uint32_t) * SDFGI_TILES_TILES);
     sdfgi_pass_close(rec);

@@ -134,7 +134,7 @@ static const struct row rows[] = {
         "Rays that light cells send in a frame, until light has converged. Near cascades get most of them. "
         "Where sdfgi_gather is used, most go to what pictures show and to what lights it. In the first 20 "
         "frames, and after a teleport, new cells send four times as many: smooth walls on arrival. So do "
-        "cells that lights wake which have not changed for 120 frames."),
+        "cells that a change of lights wakes after 120 frames without one."),
     LOOKUPS(reflection_blend, "sdfgi_reflection_blend", FLOAT, 0.5, 0, 1, "roughness", "",
         "rays for rougher surfaces: reflections that follow what is near", "a little noise on these",
         "Surfaces up to this roughness reflect what rays meet. From here to sdfgi_reflection_end irradiance "

@@ -25,6 +25,12 @@ bool picture_is_finite(float squared_length)
     return squared_length < 1e30;
 }
 
+/* Vectors of other lengths, and what is no number, are no normals. */
+bool picture_is_normal(float squared_length)
+{
+    return squared_length > 1e-20 && picture_is_finite(squared_length);
+}
+
 mat4 picture_to_position()
 {
     return mat4(args.inverse_view_projection[0], args.inverse_view_projection[1],
@@ -66,7 +72,7 @@ bool picture_surface_at(ivec2 pixel, out picture_surface s)
     const vec3 down = (to_position[1].xyz - s.pos * to_position[1].w) / (position.w * float(args.height));
     s.pixel_m = 2.0 * sqrt(max(dot(right, right), dot(down, down)));
     const float length2 = dot(normal, normal);
-    return is_drawn && length2 > 1e-20 && picture_is_finite(length2) && picture_is_finite(dot(s.pos, s.pos));
+    return is_drawn && picture_is_normal(length2) && picture_is_finite(dot(s.pos, s.pos));
 }
 
 #endif

@@ -51,8 +51,7 @@ vec3 picture_irradiance(picture_surface s)
     return min(sdfgi_irradiance(s.pos, s.normal, s.to_eye) * args.scale, vec3(PICTURE_BRIGHTEST));
 }
 
-/* Stores the irradiance of a pixel, and as its reflection where a view has reflections and no ray makes it.
- */
+/* Stores the irradiance of a pixel, and what it reflects where a view has reflections and rays make none. */
 void picture_store(ivec2 pixel, bool is_surface, vec3 irradiance)
 {
     imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));

@@ -87,8 +87,8 @@ float picture_likeness(picture_surface s, float roughness, float reach, ivec2 pi
     const float other_roughness = picture_roughness(at);
     const vec3 normal = texelFetch(normal_image, at, 0).xyz;
     const float depth = texelFetch(depth_image, at, 0).r, length2 = dot(normal, normal);
-    const bool counts = depth != args.background_depth && length2 > 1e-20 && picture_is_finite(length2) &&
-                        at == pixel && picture_is_smooth(other_roughness);
+    const bool counts = depth != args.background_depth && picture_is_normal(length2) && at == pixel &&
+                        picture_is_smooth(other_roughness);
     const float off_plane = abs(picture_height(s, at, depth)) / (reach * s.pixel_m);
     const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, normal) * inversesqrt(length2);
     const float likeness = max(1.0 - off_plane, 0.0) *

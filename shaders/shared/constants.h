@@ -79,8 +79,8 @@
 #define SDFGI_ROUGH_VISITS 8
 #define SDFGI_VISIT_RAYS   16
 #define SDFGI_VISIT_CELLS  8
-/* In the first frames of all, a visit to a new cell sends so many times as many rays, and a workgroup visits
- * so many times fewer cells. */
+/* In the first frames of all, and in those after lights have changed, a visit in a first cycle sends so many
+ * times as many rays, and a workgroup visits so many times fewer cells. */
 #define SDFGI_NEW_RAYS     4
 #define SDFGI_FILTER_CELLS 16 /* that a workgroup of the filter takes */
 /* Entries whose bits share a word of SEEN, and parts of that buffer: see shared/seen.h. */

@@ -132,7 +132,8 @@ static uint32_t frames_of_change(struct scene *s, int calm, bool all, const stru
     return frames_of_many_rays(s);
 }
 
-/* Not where lights change again and again, and not for geometry, which wakes few cells. */
+/* Not where lights change again and again, and not for geometry, which wakes few cells: lights are calm while
+ * it moves. */
 static void cells_send_more_rays_when_lights_change_after_a_while(void **state)
 {
     (void)state;
@@ -145,6 +146,7 @@ static void cells_send_more_rays_when_lights_change_after_a_while(void **state)
     REQUIRE_CMP(frames_of_change(&s, 60, true, NULL), ==, 0u);
     REQUIRE_CMP(frames_of_change(&s, 200, false, NULL), ==, frames);
     REQUIRE_CMP(frames_of_change(&s, 200, false, &box), ==, 0u);
+    REQUIRE_CMP(frames_of_change(&s, 0, false, NULL), ==, frames);
 }
 
 static void a_cycle_ends_with_its_last_visit(void **state)

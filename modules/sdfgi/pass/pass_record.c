@@ -85,14 +85,14 @@ void sdfgi_pass_recorder_end(struct pass_recorder *r)
 
 void sdfgi_pass_open(struct pass_recorder *r, const struct work *work)
 {
+    r->beside = runs_beside(r->open, work);
     if (same_pass(r->open, work)) {
         r->open = work;
         return;
     }
-    const bool beside = runs_beside(r->open, work);
     end_label(r);
     gpu_label_begin(&r->gpu, sdfgi_pass_row(work->pass)->name);
-    if (!beside)
+    if (!r->beside)
         stamp(r, (uint32_t)work->pass);
     r->open = work;
     if (sdfgi_pass_row(work->pass)->kind != PASS_KIND_COMPUTE)
@@ -146,7 +146,6 @@ static void begin_item(struct pass_recorder *r, const struct work *work)
 {
     const struct pass_row *row = sdfgi_pass_row(work->pass);
     assert(work->kind == WORK_PASS && row->domain != DOMAIN_INSTANCES);
-    r->beside = runs_beside(r->open, work);
     sdfgi_pass_open(r, work);
     if (row->args_size > 0)
         gpu_push(&r->gpu, r->backend->pipelines.layouts[row->set], row->args_size, &work->args);

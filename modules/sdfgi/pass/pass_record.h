@@ -21,7 +21,7 @@ struct pass_recorder {
     uint32_t stamps_left;    /* timestamps that it may still take */
     bool stamped;            /* a stamp has been taken */
     bool timed;              /* a time span is open */
-    bool beside;             /* the newest item runs beside the one before */
+    bool beside;             /* the item opened last runs beside the one before */
     uint32_t bound;          /* a bit per bind point that has the resources' sets */
 };
 

@@ -15,8 +15,8 @@
  * then. Later few cells are new at a time. */
 #define FIRST_FRAMES 20
 
-/* Frames without a change after which cells that a change of lights wakes send as many, for as long. Where
- * lights change all the time they do not: frames would take longer for ever. */
+/* Frames without a change of lights after which cells that one wakes send as many, for as long. Where lights
+ * change all the time they do not: frames would take longer for ever. */
 #define CALM_FRAMES 120
 
 void sdfgi_gathering_init(struct gathering *gathering)
@@ -87,11 +87,14 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
         for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
             unsettle(&gathering->at[c]);
     gathering->invalidations = invalidations;
-    gathering->epoch_frames += gathering->epoch_frames < CALM_FRAMES;
+    gathering->epoch_frames += gathering->epoch_frames < EPOCH_FRAMES;
+    gathering->calm_frames += gathering->calm_frames < CALM_FRAMES;
     if (!gathering->epoch_over || gathering->epoch_frames < EPOCH_FRAMES)
         return;
-    if (gathering->lights_over && gathering->epoch_frames >= CALM_FRAMES)
+    if (gathering->lights_over && gathering->calm_frames == CALM_FRAMES)
         sdfgi_gathering_restart(gathering);
+    if (gathering->lights_over)
+        gathering->calm_frames = 0;
     gathering->epoch++;
     if (gathering->all_over)
         gathering->epoch_of_all = gathering->epoch;

@@ -40,7 +40,8 @@ struct gathering {
     struct gather_cursor at[SDFGI_MAX_CASCADES];
     uint64_t invalidations;           /* of the light, as far as they are taken in */
     uint32_t epoch;                   /* changes of a time: of lights and of geometry */
-    uint32_t epoch_frames;            /* since it began, as far as they matter */
+    uint32_t epoch_frames;            /* since it began, as far as they matter, */
+    uint32_t calm_frames;             /* and since one began in which lights had changed */
     bool epoch_over;                  /* something has changed since, */
     bool lights_over;                 /* lights, sun or sky among that, */
     bool all_over;                    /* and it changes the light of all cells */
