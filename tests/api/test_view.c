@@ -113,6 +113,60 @@ static void smooth_and_rough_surfaces_share_a_picture(void **state)
     view_stage_close(&stage);
 }
 
+/* What a resolve records: b barriers, d dispatches, i indirect ones. */
+static struct {
+    struct gpu_functions below;
+    char commands[64];
+    size_t count;
+} recorded;
+
+static void note(char command)
+{
+    REQUIRE_CMP(recorded.count, <, sizeof recorded.commands - 1);
+    recorded.commands[recorded.count++] = command;
+}
+
+static VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer cmd, VkPipelineStageFlags from,
+                                          VkPipelineStageFlags to, VkDependencyFlags flags,
+                                          uint32_t memory_count, const VkMemoryBarrier *memory,
+                                          uint32_t buffer_count, const VkBufferMemoryBarrier *buffers,
+                                          uint32_t image_count, const VkImageMemoryBarrier *images)
+{
+    note('b');
+    recorded.below.CmdPipelineBarrier(cmd, from, to, flags, memory_count, memory, buffer_count, buffers,
+                                      image_count, images);
+}
+
+static VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer cmd, uint32_t x, uint32_t y, uint32_t z)
+{
+    note('d');
+    recorded.below.CmdDispatch(cmd, x, y, z);
+}
+
+static VKAPI_ATTR void VKAPI_CALL dispatch_indirect(VkCommandBuffer cmd, VkBuffer buffer, VkDeviceSize offset)
+{
+    note('i');
+    recorded.below.CmdDispatchIndirect(cmd, buffer, offset);
+}
+
+/* Tiles; rays, and the gather without a barrier between them; both runs of the filter. */
+static void rays_do_not_wait_for_the_gather(void **state)
+{
+    (void)state;
+    view_stage_open(&stage, 1);
+    sdfgi_view *view = view_stage_view(&stage);
+    view_stage_resolve(&stage, view, 0.2f);
+    struct gpu_functions *fn = &stage.t.gi->backend.device.fn;
+    recorded.below = *fn;
+    fn->CmdPipelineBarrier = barrier;
+    fn->CmdDispatch = dispatch;
+    fn->CmdDispatchIndirect = dispatch_indirect;
+    view_stage_resolve(&stage, view, 0.2f);
+    *fn = recorded.below;
+    REQUIRE_CMP(strcmp(recorded.commands, "bbdbidbibib"), ==, 0);
+    view_stage_close(&stage);
+}
+
 static double mean_luminance(float (*pixels)[4])
 {
     double sum = 0;
@@ -407,6 +461,7 @@ TEST_GROUP(view)
         cmocka_unit_test(mirrors_show_the_sky_where_nothing_is_above),
         cmocka_unit_test(normals_that_lean_reflect_no_surface_of_their_own),
         cmocka_unit_test(smooth_and_rough_surfaces_share_a_picture),
+        cmocka_unit_test(rays_do_not_wait_for_the_gather),
         cmocka_unit_test(roughness_changes_reflections_without_a_step),
         cmocka_unit_test(views_have_pictures_of_their_own_and_give_them_back),
         cmocka_unit_test(fewer_rays_show_the_same),
