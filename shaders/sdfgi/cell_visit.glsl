@@ -26,7 +26,7 @@ struct visited_cell {
     uint entry;
     gathered_state state; /* with which the visit begins */
     uint times_rays;      /* how many times RAYS and EMITTER_RAYS its surfaces send */
-    bool woken;           /* what it has gathered so far is outdated */
+    bool begins;          /* a cycle anew, since something has changed */
     float importance;     /* of all emitters, for the cell */
     bool watched;         /* what its rays hit is marked */
 };
@@ -114,8 +114,7 @@ ray_source source_of(uint cascade, uint surface)
 /* True if rays of a cell tell whether a change reaches it. */
 bool looks_for_changes(uint own)
 {
-    return gathered_changes_are_local() && !cell_of(own).woken &&
-           gathered_epochs_behind(cell_of(own).state) > 0u;
+    return sdfgi_frame.changes_are_local != 0u && gathered_epochs_behind(cell_of(own).state) > 0u;
 }
 
 /* True if a ray, of so many cells of its cascade, crosses a place where geometry has changed. */
@@ -340,24 +339,51 @@ gathered_state state_woken(gathered_state state)
                           sdfgi_frame.epoch & EPOCH_MASK, state.mark);
 }
 
-/* The state with which a visit begins, as far as it is known before the rays. */
-gathered_state state_of_visit(uint cascade, uint entry, out bool woken)
+/* What a cell knows of light that has changed by this part counts as a visit. */
+const float DRIFT_OF_VISIT = 0.125;
+/* It counts as so many at most, and as one at least. */
+const float DRIFT_MOST_VISITS = 96.0;
+
+/* True if the light of a cell has drifted since it was last visited. While it drifts a cell lies back by an
+ * epoch: its rays go on to look for what has changed in that. */
+bool has_drifted(gathered_state state)
 {
-    gathered_state state = gathered_load_state(cascade, entry);
-    woken = is_new(state) || gathered_is_behind(state, sdfgi_frame.epoch_of_all) ||
-            gathered_epochs_behind(state) > EPOCHS_BACK;
-    /* Visited cells alone lie back for long. */
-    state.epoch = sdfgi_frame.epoch - min(gathered_epochs_behind(state), EPOCHS_BACK / 2u) & EPOCH_MASK;
-    if (woken)
-        state = state_woken(state);
-    return state;
+    const uint behind = gathered_epochs_behind(state), since = sdfgi_frame.epoch - sdfgi_frame.epoch_of_drift;
+    return state.mean >= GATHERED_FIRST &&
+           since + (state.mean == GATHERED_DRIFTS ? 1u : 0u) < min(behind, EPOCHS_BACK);
 }
 
-/* Sum and mean with which a visit begins. What a woken cell has shown becomes the mean. */
+/* The state of a cell whose light has drifted: what it has shown counts less the more that may have changed.
+ */
+gathered_state state_drifted(gathered_state state)
+{
+    const float change = sdfgi_frame.drift * float(gathered_epochs_behind(state)),
+                most = clamp(DRIFT_OF_VISIT / max(change, 1e-6), 1.0, DRIFT_MOST_VISITS);
+    return gathered_state(0u, GATHERED_DRIFTS, state.epoch,
+                          uint(round(min(gathered_shown_visits(state), most))));
+}
+
+/* The state with which a visit begins, as far as it is known before the rays. `begins`: see visited_cell. */
+gathered_state state_of_visit(uint cascade, uint entry, out bool begins)
+{
+    gathered_state state = gathered_load_state(cascade, entry);
+    begins = is_new(state) || gathered_is_behind(state, sdfgi_frame.epoch_of_all) ||
+             gathered_epochs_behind(state) > EPOCHS_BACK;
+    /* Visited cells alone lie back for long. */
+    state.epoch = sdfgi_frame.epoch - min(gathered_epochs_behind(state), EPOCHS_BACK / 2u) & EPOCH_MASK;
+    if (begins)
+        return state_woken(state);
+    begins = has_drifted(state);
+    return begins ? state_drifted(state) : state;
+}
+
+/* Sum and mean with which a visit begins. Where a cycle begins anew, what the cell has shown becomes the
+ * mean.
+ */
 gathered_light load_light(uint cascade, visited_cell own, uint axis)
 {
     gathered_light light = gathered_load(cascade, own.entry, axis);
-    if (!own.woken)
+    if (!own.begins)
         return light;
     vec3 shown;
     if (gathered_irradiance(gathered_load_state(cascade, own.entry), light, vec4(0.0), shown))
@@ -397,9 +423,11 @@ void add_visit(uint cascade, uint surface, vec4 light)
 }
 
 /* Tells how far the light of a cell has changed since its last mark. Returns the next one. Long cycles end
- * too seldom to have marks. */
+ * too seldom to have marks. While light drifts there are none: that it has, begins a new one. */
 uint next_mark(uint cascade, gathered_state state, float light)
 {
+    if (state.mean == GATHERED_DRIFTS)
+        return gathered_mark(light);
     if ((args.marks >> cascade & 1u) == 0u || state.mean >= GATHERED_GOES_ON)
         return state.mark;
     const uint mark = gathered_mark(light);
@@ -418,13 +446,17 @@ void end_visit(uint cascade, uint number)
     const uint mean = cycle.ends ? cycle.mean : GATHERED_NOTHING;
     gathered_store_noise(cascade, own.entry, gathered_add_noise(state, noise, found.noise, mean));
     state.visits++;
+    if (state.mean == GATHERED_DRIFTS)
+        state.epoch = sdfgi_frame.epoch - min(gathered_epochs_behind(state), 1u) & EPOCH_MASK;
     if (cycle.ends)
         state = gathered_state(0u, gather_cycle_mean(cycle, own.state, found.change),
                                sdfgi_frame.epoch & EPOCH_MASK, next_mark(cascade, own.state, found.light));
     gathered_store_state(cascade, own.entry, state);
-    if (found.change != 0.0)
+    /* Nothing has settled that goes on from what was known before sun or sky changed. */
+    const bool drifts = state.mean == GATHERED_DRIFTS && state.visits % 8u == 0u;
+    if (found.change != 0.0 || drifts)
         atomicMax(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELL_CHANGE + cascade)],
-                  floatBitsToUint(found.change));
+                  floatBitsToUint(drifts ? 1.0 : found.change));
     if (found.change >= SDFGI_SMALL_CHANGE)
         atomicAdd(sdfgi_gathered[gathered_counter(SDFGI_COUNTER_CELLS_CHANGING + cascade)], 1u);
 }

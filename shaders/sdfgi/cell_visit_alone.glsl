@@ -13,6 +13,7 @@ layout(local_size_x = SDFGI_SEEN_BITS) in;
 
 visited_cell visited;
 visit_notes notes;
+bool wakes; /* a ray has met what has changed */
 
 visited_cell cell_of(uint own)
 {
@@ -32,7 +33,7 @@ void note(uint own, visit_notes found)
 
 void wake(uint own)
 {
-    visited.woken = true;
+    wakes = true;
 }
 
 bool choose_emitter(uint cascade, uint own, inout float place, out emitter chosen, out float chance)
@@ -69,18 +70,20 @@ void visit_cell(uint cascade)
     if (facing == 0u)
         return;
     notes = visit_notes(0.0, 0.0, 0.0);
-    visited.state = state_of_visit(cascade, visited.entry, visited.woken);
+    visited.state = state_of_visit(cascade, visited.entry, visited.begins);
     visited.times_rays = times_rays_of(visited.state);
     visited.watched = watched_holds(cascade, visited.entry);
     visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
-    const bool woken_before = visited.woken;
+    wakes = false;
     vec4 light[6];
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint surface = uint(findLSB(left));
         light[surface] = send_rays(cascade, source_of(cascade, surface));
     }
-    if (visited.woken && !woken_before)
+    if (wakes) {
         visited.state = state_woken(visited.state);
+        visited.begins = true;
+    }
     for (uint left = facing; left != 0u; left &= left - 1u)
         add_visit(cascade, uint(findLSB(left)), light[findLSB(left)]);
     end_visit(cascade, 0u);

@@ -154,7 +154,7 @@ void find_surfaces(uint cascade)
         facing[own] = 0u;
         wakes[own] = false;
         if (there) {
-            cells[own].state = state_of_visit(cascade, entry, cells[own].woken);
+            cells[own].state = state_of_visit(cascade, entry, cells[own].begins);
             cells[own].times_rays = times_rays_of(cells[own].state);
             cells[own].watched = watched_holds(cascade, entry);
         }
@@ -180,7 +180,7 @@ void wake_cell(uint own)
     if (own >= cell_count() || !wakes[own])
         return;
     cells[own].state = state_woken(cells[own].state);
-    cells[own].woken = true;
+    cells[own].begins = true;
 }
 
 void visit()
@@ -200,7 +200,7 @@ void visit()
     barrier();
     send_rays(cascade);
     barrier();
-    if (gathered_changes_are_local()) {
+    if (sdfgi_frame.changes_are_local != 0u) {
         wake_cell(lane);
         barrier();
     }

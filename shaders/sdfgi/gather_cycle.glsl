@@ -14,6 +14,12 @@ struct gather_cycle {
     uint mean;  /* what it makes: GATHERED_FIRST, _ROUGH, _COMPLETE or _LONG */
 };
 
+/* Visits in a cycle of a cell whose light drifts: more than an epoch has, so that none ends meanwhile. */
+uint gather_cycle_drifting_visits()
+{
+    return sdfgi_frame.cycle_visits * (uint(SDFGI_EPOCH_FRAMES) / sdfgi_frame.cycle_visits + 1u);
+}
+
 /* `state` is that before the visit; `others_visits`, how many visits cells have in a cycle that are not seen.
  */
 gather_cycle gather_cycle_of(uint cascade, uint entry, gathered_state state, uint others_visits)
@@ -21,10 +27,13 @@ gather_cycle gather_cycle_of(uint cascade, uint entry, gathered_state state, uin
     gather_cycle cycle;
     cycle.ahead = sdfgi_frame.cascades[cascade].watched_first < sdfgi_frame.cascades[cascade].watched_end &&
                   seen_holds(cascade, entry);
-    const bool is_long = state.mean >= GATHERED_GOES_ON, is_first = state.mean < GATHERED_FIRST,
+    const bool drifts = state.mean == GATHERED_DRIFTS, is_first = state.mean < GATHERED_FIRST,
+               is_long = state.mean >= GATHERED_GOES_ON || drifts && cycle.ahead,
                is_complete = state.mean == GATHERED_COMPLETE || cycle.ahead && !is_first;
-    const uint visits =
-        is_long ? gathered_long_visits() : (is_complete ? sdfgi_frame.cycle_visits : others_visits);
+    const uint visits = is_long       ? gathered_long_visits()
+                        : drifts      ? gather_cycle_drifting_visits()
+                        : is_complete ? sdfgi_frame.cycle_visits
+                                      : others_visits;
     cycle.ends = state.visits + 1u >= visits;
     cycle.mean = is_long                              ? GATHERED_LONG
                  : visits >= sdfgi_frame.cycle_visits ? GATHERED_COMPLETE
@@ -33,10 +42,12 @@ gather_cycle gather_cycle_of(uint cascade, uint entry, gathered_state state, uin
     return cycle;
 }
 
-/* Visits before this one in the sequence of rays: the first long cycle begins where the complete one ended.
- */
+/* Visits before this one in the sequence of rays: the first long cycle begins where the complete one ended,
+ * and while light drifts each epoch goes on where the one before ended. */
 uint gather_cycle_visits_before(gathered_state state)
 {
+    if (state.mean == GATHERED_DRIFTS)
+        return (state.visits + uint(SDFGI_EPOCH_FRAMES) * sdfgi_frame.epoch) % gathered_long_visits();
     return state.mean >= GATHERED_GOES_ON ? (state.visits + sdfgi_frame.cycle_visits) % gathered_long_visits()
                                           : state.visits;
 }

@@ -11,9 +11,9 @@
  * A cell shows P once a cycle has been completed. It does not show S then, because the rays of a part of a
  * cycle have another mean than all of them even while the light stays the same. Only where P is the mean of a
  * rough cycle S is mixed in: at once if that was a first one, or else once it holds as many visits. In the
- * first long cycle it is mixed in at once, because its rays are others than those of P. In its first cycle,
- * and in the first one after the lights have changed, a cell shows S; a new cell shows what probes tell
- * before its first visit. */
+ * first long cycle, and while light drifts, it is mixed in at once, because its rays are others than those of
+ * P. In its first cycle, and in the first one after the lights have changed, a cell shows S; a new cell shows
+ * what probes tell before its first visit. */
 #ifndef SDFGI_GATHERED_GLSL
 #define SDFGI_GATHERED_GLSL
 
@@ -47,10 +47,11 @@ const float GATHERED_RECENT_VISITS = 2.3;
 const uint GATHERED_NOTHING = 0u;  /* there is none: the cell is new */
 const uint GATHERED_OUTDATED = 1u; /* what the cell showed before the lights changed */
 const uint GATHERED_FIRST = 2u;    /* the mean of a first cycle that was rough */
-const uint GATHERED_ROUGH = 3u;    /* the mean of a later rough cycle */
-const uint GATHERED_COMPLETE = 4u; /* the mean of a complete cycle */
-const uint GATHERED_GOES_ON = 5u;  /* that, too, and the first long cycle is under way */
-const uint GATHERED_LONG = 6u;     /* the mean of a long cycle */
+const uint GATHERED_DRIFTS = 3u;   /* what the cell showed before sun or sky changed a little */
+const uint GATHERED_ROUGH = 4u;    /* the mean of a later rough cycle */
+const uint GATHERED_COMPLETE = 5u; /* the mean of a complete cycle */
+const uint GATHERED_GOES_ON = 6u;  /* that, too, and the first long cycle is under way */
+const uint GATHERED_LONG = 7u;     /* the mean of a long cycle */
 
 const uint GATHERED_MOST_VISITS = 128u; /* in a cycle */
 
@@ -58,7 +59,8 @@ struct gathered_state {
     uint visits; /* in this cycle, less than GATHERED_MOST_VISITS */
     uint mean;   /* GATHERED_NOTHING to _LONG */
     uint epoch;  /* whose changes S and P have taken in; 8 bits */
-    uint mark;   /* P when it was last marked, as gathered_mark tells; 14 bits */
+    uint mark;   /* P when it was last marked, as gathered_mark tells; 14 bits. While it drifts: how many
+                  * visits P counts as */
 };
 
 /* False if light cells read probes alone. */
@@ -118,12 +120,6 @@ bool gathered_is_behind(gathered_state state, uint epoch)
     return sdfgi_frame.epoch - epoch < min(gathered_epochs_behind(state), EPOCHS_BACK);
 }
 
-/* True if something has changed for some cells alone: else no ray needs to look for changes. */
-bool gathered_changes_are_local()
-{
-    return sdfgi_frame.next_epoch != sdfgi_frame.epoch_of_all;
-}
-
 /* Noise: variance over the square of what the cell shows, of the axis with the most of it. */
 struct gathered_noise {
     float sum;   /* of the means of this cycle's visits so far */
@@ -152,15 +148,25 @@ void gathered_store_noise(uint cascade, uint entry, gathered_noise noise)
 /* How many visits P is worth where S is mixed in. */
 float gathered_worth(gathered_state state)
 {
-    return state.mean == GATHERED_FIRST   ? GATHERED_FIRST_VISITS
-           : state.mean == GATHERED_ROUGH ? float(SDFGI_ROUGH_VISITS)
-                                          : float(sdfgi_frame.cycle_visits);
+    return state.mean == GATHERED_FIRST    ? GATHERED_FIRST_VISITS
+           : state.mean == GATHERED_DRIFTS ? float(state.mark)
+           : state.mean == GATHERED_ROUGH  ? float(SDFGI_ROUGH_VISITS)
+                                           : float(sdfgi_frame.cycle_visits);
 }
 
 /* True if each visit makes what the cell shows better. */
 bool gathered_mixes(gathered_state state)
 {
-    return state.mean == GATHERED_FIRST || state.mean == GATHERED_GOES_ON;
+    return state.mean == GATHERED_FIRST || state.mean == GATHERED_DRIFTS || state.mean == GATHERED_GOES_ON;
+}
+
+/* Of how many visits what a cell shows is the mean, from the end of its first cycle on. */
+float gathered_shown_visits(gathered_state state)
+{
+    const float visits = float(state.visits), worth = gathered_worth(state);
+    return state.mean == GATHERED_LONG ? float(gathered_long_visits())
+           : gathered_mixes(state) || state.mean == GATHERED_ROUGH && visits >= worth ? visits + worth
+                                                                                      : worth;
 }
 
 /* Noise of one visit in a first cycle, whatever its rays found: rays that would have found more may come. The
@@ -191,6 +197,8 @@ gathered_noise gathered_add_noise(gathered_state state, gathered_noise noise, fl
             max(of_visit / GATHERED_FIRST_VISITS, mean == GATHERED_FIRST ? gathered_least_noise(0.0) : 0.0);
     else if (!goes_on)
         noise.shown = of_visit / visits;
+    else if (state.mean == GATHERED_DRIFTS)
+        noise.shown = of_visit / (visits + gathered_worth(state));
     else if (state.mean == GATHERED_FIRST)
         noise.shown = max(of_visit / (GATHERED_FIRST_VISITS + visits), gathered_least_noise(visits));
     else if (gathered_mixes(state))

@@ -80,9 +80,12 @@ float brightest_channel(vec3 light)
 }
 
 /* What direct light on a surface has become since its outgoing light was added up: what is not bounced of
- * that was direct light. */
+ * that was direct light. Nothing if a sun has changed a little alone: that wakes no cell. */
 vec3 direct_change(uint cascade, uint entry, uint axis, vec3 direct, vec3 gain)
 {
+    const uint lights = sdfgi_direct_at(direct_word(cascade, DIRECT_LIGHTS, entry));
+    if (direct_lit(lights) == uint(SDFGI_LIGHT_DRIFTED))
+        return vec3(0.0);
     const vec3 leaving = sdfgi_rgbe_decode(sdfgi_light_at(sdfgi_surface_index(cascade, entry, axis)));
     const uint arriving = sdfgi_gathered_at(gathered_word(cascade, GATHERED_RAW + axis, entry));
     const vec3 bounced = arriving < SDFGI_SURFACE_UNKNOWN ? gain * sdfgi_rgbe_decode(arriving) : vec3(0.0);
@@ -107,7 +110,7 @@ vec3 bounce_change(uint cascade, uint entry, uint axis, vec3 gain)
 /* True if the cells that see a surface are to be woken. */
 bool wakes_others(uint cascade, uint entry, uint axis, vec3 direct, vec3 gain, vec3 leaving)
 {
-    if (!gathers() || !gathered_changes_are_local())
+    if (!gathers() || sdfgi_frame.changes_are_local == 0u)
         return false;
     const vec3 change =
         direct_change(cascade, entry, axis, direct, gain) + bounce_change(cascade, entry, axis, gain);

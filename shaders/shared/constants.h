@@ -61,10 +61,12 @@
 #define SDFGI_EDITED_BOXES 8
 /* Words of the direct light of a light cell: see sdfgi/light_cells.glsl. */
 #define SDFGI_DIRECT_WORDS 3
-/* Bits of lights, and a mask of all; a number above them tells when lights lit a cell. */
+/* Bits of lights, and a mask of all. A number above them tells which change of lights has lit a cell last,
+ * from 1 to _MOST_LIT; _DRIFTED: suns that have changed a little. */
 #define SDFGI_LIGHT_BITS     24
 #define SDFGI_LIGHT_ALL      0xffffffu
-#define SDFGI_LIGHT_MOST_LIT 255
+#define SDFGI_LIGHT_MOST_LIT 254
+#define SDFGI_LIGHT_DRIFTED  255
 /* Irradiance of a light cell along an axis that no surface faces, and of a surface of which nothing is known.
  * As RGB9E5 they are the largest whites. */
 #define SDFGI_SURFACE_NONE    0xffffffffu
@@ -79,6 +81,10 @@
 #define SDFGI_ROUGH_VISITS 8
 #define SDFGI_VISIT_RAYS   16
 #define SDFGI_VISIT_CELLS  8
+/* Frames of an epoch at least, if something changes in each of them. An odd number: the first visits of an
+ * epoch count most, and a lamp that is switched in every frame would be on in all of them, or off. With 16
+ * the mean of its light was 1.06 of what it should be. */
+#define SDFGI_EPOCH_FRAMES 17
 /* In the first frames of all, and in those after lights have changed, a visit in a first cycle sends so many
  * times as many rays, and a workgroup visits so many times fewer cells. */
 #define SDFGI_NEW_RAYS     4

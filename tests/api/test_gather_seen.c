@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { FRAMES = 60, STATE_PLANE = 18, FIRST = 2, GOES_ON = 5, LONG = 6 };
+enum { FRAMES = 60, STATE_PLANE = 18, FIRST = 2, GOES_ON = 6, LONG = 7 };
 
 /* A frame visits a hundred surfaces with so many rays. */
 enum { RAYS_PER_FRAME = 1600 };

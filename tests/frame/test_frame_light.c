@@ -138,6 +138,8 @@ struct lit {
     uint32_t times[SDFGI_MAX_CASCADES][2 * ROOM];
 };
 
+static const struct sun_drift no_suns = { .most = 0 };
+
 static struct relight small_relight(void)
 {
     struct relight relight;
@@ -164,7 +166,7 @@ static uint32_t frame(struct relight *relight, struct light_lists *lists, enum r
     struct relight_range ranges[SDFGI_MAX_CASCADES];
     uint32_t cells = 0;
     relists[c] = relist;
-    sdfgi_relight_note(relight, lists, relists, false);
+    sdfgi_relight_note(relight, lists, relists, &no_suns, false);
     const uint32_t count = sdfgi_relight_take(relight, lists, false, ranges);
     for (uint32_t i = 0; i < count; i++) {
         REQUIRE_TRUE(ranges[i].count > 0 && ranges[i].first + ranges[i].count <= lists->room);
@@ -259,7 +261,7 @@ static void a_list_written_anew_leaves_nothing_to_do(void **state)
     frame(&relight, &lists, RELIST_NOT, 0, &lit);
     enum relist anew[SDFGI_MAX_CASCADES] = { RELIST_NEW, RELIST_NEW };
     lists.room = 2 * ROOM;
-    sdfgi_relight_note(&relight, &lists, anew, false);
+    sdfgi_relight_note(&relight, &lists, anew, &no_suns, false);
     REQUIRE_TRUE(!sdfgi_relight_is_due(&relight));
     REQUIRE_CMP(sdfgi_light_list_entries(&relight, &lists, 0), ==, 2u * ROOM);
     lit = (struct lit){ 0 };
@@ -291,7 +293,7 @@ static void nothing_waits_where_all_cells_are_lit_anyway(void **state)
     struct relight relight = small_relight();
     const struct light_lists lists = lists_of(2, 30);
     const enum relist relists[SDFGI_MAX_CASCADES] = { RELIST_DIRTY, RELIST_DIRTY };
-    sdfgi_relight_note(&relight, &lists, relists, true);
+    sdfgi_relight_note(&relight, &lists, relists, &no_suns, true);
     REQUIRE_TRUE(!sdfgi_relight_is_due(&relight));
 }
 
@@ -318,7 +320,7 @@ static void while_edits_go_on_a_list_is_expected_to_be_as_long_as_before(void **
     struct lit lit = { 0 };
     enum relist anew[SDFGI_MAX_CASCADES] = { RELIST_NEW };
     lists.room = 50000;
-    sdfgi_relight_note(&relight, &lists, anew, true);
+    sdfgi_relight_note(&relight, &lists, anew, &no_suns, true);
     for (uint32_t i = 0; i < IN_FLIGHT; i++, lists.frame++)
         REQUIRE_CMP(sdfgi_light_list_expected(&relight, &lists, 0), ==, 50000u);
     for (uint32_t i = 0; i < 5; i++) {
@@ -340,10 +342,60 @@ static void of_busy_frames_every_fourth_lights_cells(void **state)
     const enum relist relists[SDFGI_MAX_CASCADES] = { RELIST_DIRTY };
     struct relight_range ranges[SDFGI_MAX_CASCADES];
     for (uint32_t i = 1; i <= 12; i++) {
-        sdfgi_relight_note(&relight, &lists, relists, false);
+        sdfgi_relight_note(&relight, &lists, relists, &no_suns, false);
         REQUIRE_CMP(sdfgi_relight_take(&relight, &lists, true, ranges), ==, (uint32_t)(i % 4 == 0));
     }
     REQUIRE_CMP(sdfgi_relight_take(&relight, &lists, false, ranges), ==, 1u);
+}
+
+static uint32_t lit_by_sun(struct relight *relight, struct light_lists *lists, float drift, bool edit)
+{
+    const struct sun_drift suns = { { 4, 4 }, drift };
+    const enum relist relists[SDFGI_MAX_CASCADES] = { edit ? RELIST_DIRTY : RELIST_NOT };
+    struct relight_range ranges[SDFGI_MAX_CASCADES];
+    uint32_t cells = 0;
+    sdfgi_relight_note(relight, lists, relists, &suns, false);
+    for (uint32_t count = sdfgi_relight_take(relight, lists, false, ranges); count > 0; count--)
+        cells += ranges[count - 1].count;
+    lists->frame++;
+    return cells;
+}
+
+/* Surfaces follow a sun that goes on slowly in turn, and the more of them in a frame the faster it goes. */
+static void all_cells_follow_a_sun_in_turn(void **state)
+{
+    (void)state;
+    struct relight relight = small_relight();
+    struct light_lists lists = lists_of(2, 80);
+    struct lit lit = { 0 };
+    for (int i = 0; i < 5; i++) {
+        REQUIRE_CMP(lit_by_sun(&relight, &lists, 1e-4f, false), ==, (uint32_t)BUDGET);
+        REQUIRE_CMP(sdfgi_relight_lights(&relight).changed, ==, 4u);
+        REQUIRE_CMP(sdfgi_relight_lights(&relight).moved, ==, 4u);
+    }
+    REQUIRE_CMP(lit_by_sun(&relight, &lists, 1.0f / 128, false), ==, 80u);
+    /* Nothing waits for more than the last step. */
+    go_on(&relight, &lists, &lit);
+    for (uint32_t c = 0; c < 2; c++)
+        require_times(&lit, c, 80, 0, 1);
+    relight = small_relight();
+    REQUIRE_CMP(lit_by_sun(&relight, &lists, 1, false), ==, 160u);
+    REQUIRE_TRUE(!sdfgi_relight_is_due(&relight));
+}
+
+/* Where geometry changes all lights are asked, until all cells have had their turn. */
+static void new_shadows_end_while_a_sun_goes_on(void **state)
+{
+    (void)state;
+    struct relight relight = small_relight();
+    struct light_lists lists = lists_of(1, ROOM);
+    lit_by_sun(&relight, &lists, 1e-4f, true);
+    uint32_t cells = BUDGET;
+    for (; sdfgi_relight_lights(&relight).changed == SDFGI_LIGHT_ALL; cells += BUDGET)
+        lit_by_sun(&relight, &lists, 1e-4f, false);
+    REQUIRE_CMP(cells, >=, (uint32_t)ROOM);
+    REQUIRE_CMP(cells, <, (uint32_t)(ROOM + BUDGET));
+    REQUIRE_CMP(sdfgi_relight_lights(&relight).changed, ==, 4u);
 }
 
 /* Lists change frame after frame, at random, and all cells of all cascades are lit in the end: none waits for
@@ -385,6 +437,8 @@ int main(void)
         cmocka_unit_test(nothing_waits_where_all_cells_are_lit_anyway),
         cmocka_unit_test(a_count_is_known_once_its_frame_has_come_back),
         cmocka_unit_test(while_edits_go_on_a_list_is_expected_to_be_as_long_as_before),
+        cmocka_unit_test(all_cells_follow_a_sun_in_turn),
+        cmocka_unit_test(new_shadows_end_while_a_sun_goes_on),
         cmocka_unit_test(of_busy_frames_every_fourth_lights_cells),
         cmocka_unit_test(lists_that_change_at_random_are_lit_in_the_end),
     };

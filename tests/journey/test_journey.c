@@ -199,6 +199,26 @@ static void change_sky_and_exposure(struct journey *j, const double camera[stati
     journey_stay(j, camera, 2);
 }
 
+/* Sun and sky change a little in each frame; a lamp is switched meanwhile. */
+static void pass_the_day(struct journey *j, const double camera[static 3])
+{
+    struct sdfgi_light_desc sun = light_sun(0.3f, -1, 0.2f, 8);
+    const struct sdfgi_light_desc lamp = light_point(0.4, 1, 0.8, 12);
+    const sdfgi_light light = light_create(&j->t, &sun);
+    journey_stay(j, camera, 1);
+    for (int frame = 0; frame < 20; frame++) {
+        sun.direction[0] += 0.0004f;
+        REQUIRE_CMP(sdfgi_light_update(j->t.gi, light, &sun), ==, SDFGI_OK);
+        light_set_uniform_sky(&j->t, 0.3f - 0.0001f * (float)frame);
+        if (frame == 12)
+            light_create(&j->t, &lamp);
+        if (frame % 10 < 8)
+            gi_test_update(&j->t, 1);
+        else
+            journey_stay(j, camera, 1);
+    }
+}
+
 /* A material brighter than all others changes the unit of emission: everything is made again. */
 static void change_materials(struct journey *j, const double camera[static 3])
 {
@@ -251,6 +271,7 @@ static void changes_of_light_and_sky_are_as_recorded(void **state)
     journey_stay(&j, camera, 3);
     change_lights(&j, camera);
     change_sky_and_exposure(&j, camera);
+    pass_the_day(&j, camera);
     change_settings(&j, camera, &settings);
     change_materials(&j, camera);
     settle(&j, camera, &settings);

@@ -53,6 +53,10 @@
     X(sdfgi_frame_params, epoch)                                                                             \
     X(sdfgi_frame_params, epoch_of_all)                                                                      \
     X(sdfgi_frame_params, edited_count)                                                                      \
+    X(sdfgi_frame_params, epoch_of_drift)                                                                    \
+    X(sdfgi_frame_params, drift)                                                                             \
+    X(sdfgi_frame_params, changes_are_local)                                                                 \
+    X(sdfgi_frame_params, padding)                                                                           \
     X(sdfgi_frame_params, edited)                                                                            \
     X(sdfgi_frame_params, y_scale)                                                                           \
     X(sdfgi_frame_params, exposure)                                                                          \

@@ -381,94 +381,9 @@ static void one_cascade_that_has_settled_leaves_its_share_to_others(void **state
     REQUIRE_CMP(cells_of(&s, 2), ==, 200u);
 }
 
-static void lights_that_change_in_every_frame_begin_an_epoch_now_and_then(void **state)
-{
-    (void)state;
-    struct scene s;
-    open_scene(&s);
-    for (uint64_t frame = 1; frame <= 160; frame++) {
-        sdfgi_gathering_outdate(&s.gathering);
-        sdfgi_gathering_begin(&s.gathering, frame);
-    }
-    REQUIRE_CMP(s.gathering.epoch, ==, 10u);
-    /* A single change begins one at once. */
-    open_scene(&s);
-    sdfgi_gathering_outdate(&s.gathering);
-    sdfgi_gathering_begin(&s.gathering, 1);
-    REQUIRE_CMP(s.gathering.epoch, ==, 1u);
-}
-
-/* Frames until an epoch begins, at most. */
-static void begin_epoch(struct scene *s)
-{
-    const uint32_t epoch = s->gathering.epoch;
-    for (uint64_t frame = 0; s->gathering.epoch == epoch; frame++) {
-        REQUIRE_CMP(frame, <=, UINT64_C(20));
-        REQUIRE_CMP(sdfgi_gathering_next_epoch(&s->gathering), ==, epoch + 1);
-        sdfgi_gathering_begin(&s->gathering, 0);
-    }
-    REQUIRE_CMP(sdfgi_gathering_next_epoch(&s->gathering), ==, s->gathering.epoch);
-}
-
-static void a_local_change_begins_an_epoch_for_those_that_it_reaches(void **state)
-{
-    (void)state;
-    struct scene s;
-    const struct box here = { { 0, 0, 0 }, { 1, 1, 1 } }, there = { { 4, 0, 0 }, { 5, 1, 1 } };
-    open_scene(&s);
-    sdfgi_gathering_outdate(&s.gathering);
-    begin_epoch(&s);
-    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
-    sdfgi_gathering_change(&s.gathering, NULL);
-    begin_epoch(&s);
-    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
-    REQUIRE_CMP(s.gathering.edited_last.count, ==, 0u);
-    sdfgi_gathering_change(&s.gathering, &here);
-    sdfgi_gathering_change(&s.gathering, &there);
-    begin_epoch(&s);
-    REQUIRE_CMP(s.gathering.edited_last.count, ==, 2u);
-    REQUIRE_BYTES(&s.gathering.edited_last.boxes[0], &here, sizeof here);
-    REQUIRE_BYTES(&s.gathering.edited_last.boxes[1], &there, sizeof there);
-    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 1u);
-    sdfgi_gathering_change(&s.gathering, &here);
-    sdfgi_gathering_outdate(&s.gathering);
-    begin_epoch(&s);
-    REQUIRE_CMP(s.gathering.epoch_of_all, ==, 4u);
-    REQUIRE_CMP(s.gathering.edited_last.count, ==, 1u);
-    REQUIRE_BYTES(&s.gathering.edited_last.boxes[0], &here, sizeof here);
-}
-
-static bool holds(const struct box *box, const struct box *other)
-{
-    const struct box both = sdfgi_box_around(box, other);
-    return memcmp(&both, box, sizeof both) == 0;
-}
-
-/* Three things move in small steps, far from each other; the last one is flat, and comes late. */
-static void boxes_of_what_moves_stay_apart(void **state)
-{
-    (void)state;
-    enum { STEPS = 40, THINGS = 3 };
-    struct edited_places places = { .count = 0 };
-    for (int step = 0; step < STEPS; step++)
-        for (int i = 0; i < (step < STEPS / 2 ? THINGS - 1 : THINGS); i++) {
-            const double x = 20 * i, z = 0.1 * step;
-            const struct box box = { { x, 0, z }, { x + 1, i < 2 ? 2 : 0, z + 1 } };
-            bool held = false;
-            sdfgi_edited_places_add(&places, &box);
-            for (uint32_t k = 0; k < places.count; k++)
-                held = held || holds(&places.boxes[k], &box);
-            REQUIRE_TRUE(held);
-        }
-    REQUIRE_CMP(places.count, ==, (uint32_t)SDFGI_EDITED_BOXES);
-    for (uint32_t k = 0; k < places.count; k++)
-        REQUIRE_CMP(places.boxes[k].max[0] - places.boxes[k].min[0], ==, 1.0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(boxes_of_what_moves_stay_apart),
         cmocka_unit_test(near_cascades_get_most_of_the_budget),
         cmocka_unit_test(a_sweep_visits_each_cell_once),
         cmocka_unit_test(new_cells_send_more_rays_while_all_are_new),
@@ -484,8 +399,6 @@ int main(void)
         cmocka_unit_test(cycles_stay_rough_while_many_cells_change),
         cmocka_unit_test(settled_cells_get_no_rays_until_light_changes),
         cmocka_unit_test(one_cascade_that_has_settled_leaves_its_share_to_others),
-        cmocka_unit_test(lights_that_change_in_every_frame_begin_an_epoch_now_and_then),
-        cmocka_unit_test(a_local_change_begins_an_epoch_for_those_that_it_reaches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,6 +168,28 @@ static void what_moves_on_both_sides_changes_nothing_between(void **state)
     REQUIRE_CMP(watch(&stage, "boxes that walk on both sides", 0, 1, walk), <=, 0.004);
 }
 
+/* A sun shines on the rooms from outside, as a day goes by. Cells go on with other rays, so that light
+ * changes by the noise that was left; it changed by 0.09 when they began anew. */
+static sdfgi_light sun;
+
+static void turn_sun(struct stage *s, int step)
+{
+    const double angle = 0.5 + 1e-4 * step;
+    const struct sdfgi_light_desc desc = light_sun((float)sin(angle), -(float)cos(angle), 0.1f, 20);
+    if (!sun.id)
+        sun = light_create(&s->t, &desc);
+    REQUIRE_CMP((int)sdfgi_light_update(s->t.gi, sun, &desc), ==, (int)SDFGI_OK);
+}
+
+static void a_sun_that_turns_outside_changes_nothing_here(void **state)
+{
+    (void)state;
+    turn_sun(&stage, 0);
+    gi_test_update(&stage.t, SETTLE);
+    REQUIRE_CMP(watch(&stage, "a sun that turns outside", HERE_M, 1, turn_sun), <=, 0.02);
+    REQUIRE_CMP((int)sdfgi_light_destroy(stage.t.gi, sun), ==, (int)SDFGI_OK);
+}
+
 /* The same lamp is seen at once where it is. */
 static void the_lamp_is_seen_at_once_where_it_is(void **state)
 {
@@ -285,6 +307,7 @@ TEST_GROUP(neighbours)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lamp_that_flickers_next_door_changes_nothing_here),
         cmocka_unit_test(what_moves_next_door_changes_nothing_here),
+        cmocka_unit_test(a_sun_that_turns_outside_changes_nothing_here),
         cmocka_unit_test(the_lamp_is_seen_at_once_where_it_is),
         cmocka_unit_test(a_small_lamp_that_is_gone_is_missed_at_once),
         cmocka_unit_test(the_sky_comes_at_once_where_a_roof_was),

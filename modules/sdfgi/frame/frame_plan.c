@@ -134,7 +134,7 @@ static void plan_relight(struct frame *frame, const struct frame_input *input)
     for (uint32_t c = 0; c < frame->next.cascades.count; c++)
         frame->situation.lists_stay = frame->situation.lists_stay || relists[c] != RELIST_NEW;
     frame->situation.has_lights = input->scene->lights.count > 0;
-    sdfgi_relight_note(&frame->next.relight, &input->lists, relists,
+    sdfgi_relight_note(&frame->next.relight, &input->lists, relists, &input->journal->suns,
                        sdfgi_frame_lights_all(frame) || !frame->situation.has_lights);
     frame->situation.relights = sdfgi_relight_is_due(&frame->next.relight);
 }

@@ -124,15 +124,16 @@ static void light_directly(const struct plan_stage *stage)
         bounce_lit(stage);
 }
 
-/* Lights this frame's part of the cells again on which shadows may have changed. */
+/* Lights this frame's part of the cells again on which shadows may have changed. What leaves them changes
+ * with their next visit. */
 static void relight(const struct plan_stage *stage)
 {
     struct frame *frame = stage->frame;
-    static const struct light_bits all = { SDFGI_LIGHT_ALL, SDFGI_LIGHT_ALL };
+    const struct light_bits lights = sdfgi_relight_lights(&frame->next.relight);
     struct relight_range ranges[SDFGI_MAX_CASCADES];
     const uint32_t count = sdfgi_relight_take(&frame->next.relight, &stage->input->lists,
                                               frame->situation.scroll_completes, ranges);
-    add_direct(stage, ranges, count, &all, 0);
+    add_direct(stage, ranges, count, &lights, lights.changed == SDFGI_LIGHT_ALL ? 0 : SDFGI_LIGHT_DRIFTED);
     if (count > 0)
         sdfgi_accumulation_invalidate(&frame->next.accumulation);
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "journal.h"
 
+#include "drift.h"
+
 #include "shaders/shared/constants.h"
 
 uint32_t sdfgi_light_bit(uint32_t slot)
@@ -14,16 +16,47 @@ void sdfgi_journal_note(struct journal *journals, enum journal_note note)
         j->notes |= (uint32_t)note;
 }
 
-static void add_bits(struct light_bits *bits, const struct light_bits *others)
+void sdfgi_light_bits_add(struct light_bits *bits, const struct light_bits *others)
 {
     bits->changed |= others->changed;
     bits->moved |= others->moved;
 }
 
-void sdfgi_journal_note_light(struct journal *journals, const struct light_bits *bits)
+static void note_light(struct journal *journals, const struct light_bits *bits)
 {
     for (struct journal *j = journals; j; j = j->next)
-        add_bits(&j->lights, bits);
+        sdfgi_light_bits_add(&j->lights, bits);
+}
+
+void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits)
+{
+    note_light(journals, bits);
+    sdfgi_journal_note(journals, JOURNAL_LAMPS);
+}
+
+/* If a sun changes by more than this part of its light in a frame, all surfaces follow in this frame. */
+#define SUDDEN (DRIFT_OUTDATES / SDFGI_EPOCH_FRAMES)
+
+static void add_suns(struct sun_drift *suns, const struct sun_drift *others)
+{
+    sdfgi_light_bits_add(&suns->bits, &others->bits);
+    suns->most = others->most > suns->most ? others->most : suns->most;
+}
+
+void sdfgi_journal_note_sun(struct journal *journals, const struct light_bits *bits, float change)
+{
+    const struct sun_drift sun = { *bits, change };
+    if (change > SUDDEN)
+        note_light(journals, bits);
+    for (struct journal *j = journals; j && change <= SUDDEN; j = j->next)
+        add_suns(&j->suns, &sun);
+    sdfgi_journal_note_sky(journals, change);
+}
+
+void sdfgi_journal_note_sky(struct journal *journals, float change)
+{
+    for (struct journal *j = journals; j; j = j->next)
+        j->drift += change;
 }
 
 void sdfgi_journal_add_box(struct journal *journals, const struct box *box)
@@ -34,7 +67,8 @@ void sdfgi_journal_add_box(struct journal *journals, const struct box *box)
 
 bool sdfgi_journal_is_empty(const struct journal *journal)
 {
-    return journal->notes == 0 && journal->lights.changed == 0 && journal->box_count == 0;
+    return journal->notes == 0 && journal->drift == 0 && journal->lights.changed == 0 &&
+           journal->suns.bits.changed == 0 && journal->box_count == 0;
 }
 
 void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlier)
@@ -43,7 +77,9 @@ void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlie
     *journal = *earlier;
     journal->next = later.next;
     journal->notes |= later.notes;
-    add_bits(&journal->lights, &later.lights);
+    journal->drift += later.drift;
+    sdfgi_light_bits_add(&journal->lights, &later.lights);
+    add_suns(&journal->suns, &later.suns);
     for (uint32_t i = 0; i < later.box_count; i++)
         sdfgi_box_list_add(journal->boxes, &journal->box_count, JOURNAL_BOXES, &later.boxes[i]);
 }
@@ -51,6 +87,8 @@ void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlie
 void sdfgi_journal_clear(struct journal *journal)
 {
     journal->notes = 0;
+    journal->drift = 0;
     journal->lights = (struct light_bits){ 0 };
+    journal->suns = (struct sun_drift){ .most = 0 };
     journal->box_count = 0;
 }

@@ -8,10 +8,10 @@
 enum { JOURNAL_BOXES = 64 };
 
 enum journal_note {
-    JOURNAL_MATERIALS = 1, /* constants of materials that are shown */
-    JOURNAL_SKY = 2,
-    JOURNAL_EVERYTHING = 4, /* all that was voxelised is out of date */
-    JOURNAL_FAR = 8,        /* a sun has changed, or something that emits: its light may reach all */
+    JOURNAL_MATERIALS = 1,  /* constants of materials that are shown */
+    JOURNAL_EVERYTHING = 2, /* all that was voxelised is out of date */
+    JOURNAL_EMITTERS = 4,   /* something that emits has changed: its light may reach all */
+    JOURNAL_LAMPS = 8,      /* a light other than a sun has changed */
 };
 
 /* Which lights have changed, a bit each of SDFGI_LIGHT_BITS. */
@@ -20,19 +20,31 @@ struct light_bits {
     uint32_t moved;   /* those that may light what they did not light before */
 };
 
+/* Suns that have changed so little that surfaces need not follow at once. */
+struct sun_drift {
+    struct light_bits bits;
+    float most; /* by which part of its light one has, at most */
+};
+
+void sdfgi_light_bits_add(struct light_bits *bits, const struct light_bits *others);
 /* The bit of the light in a slot. Slots that are so far apart share one. */
 uint32_t sdfgi_light_bit(uint32_t slot);
 
 struct journal {
     uint32_t notes;                  /* enum journal_note */
     struct light_bits lights;        /* that were made, changed or destroyed */
+    struct sun_drift suns;           /* those that have changed a little alone */
+    float drift;                     /* by which part of their light suns and sky have changed; 1: by all */
     struct box boxes[JOURNAL_BOXES]; /* world: geometry changed there. When they are full, boxes grow */
     uint32_t box_count;
     struct journal *next; /* of the same scene */
 };
 
 void sdfgi_journal_note(struct journal *journals, enum journal_note note);
-void sdfgi_journal_note_light(struct journal *journals, const struct light_bits *bits);
+void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits);
+/* A sun has changed, or the sky, by a part of its light. */
+void sdfgi_journal_note_sun(struct journal *journals, const struct light_bits *bits, float change);
+void sdfgi_journal_note_sky(struct journal *journals, float change);
 void sdfgi_journal_add_box(struct journal *journals, const struct box *box);
 bool sdfgi_journal_is_empty(const struct journal *journal);
 /* Adds the entries of `earlier` before those of the journal. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Lights and sky. */
+#include "drift.h"
 #include "same.h"
 #include "scene.h"
 #include "scene_check.h"
@@ -14,15 +15,6 @@ static struct sdfgi_light_desc resolved(const struct sdfgi_light_desc *desc)
     return light;
 }
 
-/* `moves`: the light may from now on light other surfaces than before. */
-static void light_changed(struct scene *scene, uint32_t id, const struct sdfgi_light_desc *desc, bool moves)
-{
-    const uint32_t bit = sdfgi_light_bit(sdfgi_pool_index(&scene->lights, id));
-    sdfgi_journal_note_light(scene->journals, &(struct light_bits){ bit, moves ? bit : 0 });
-    if (desc->type == SDFGI_LIGHT_DIRECTIONAL)
-        sdfgi_journal_note(scene->journals, JOURNAL_FAR);
-}
-
 static float brightness(const struct sdfgi_light_desc *light)
 {
     const float *i = light->intensity;
@@ -33,6 +25,25 @@ static float brightness(const struct sdfgi_light_desc *light)
 static bool lights_others(const struct sdfgi_light_desc *before, const struct sdfgi_light_desc *after)
 {
     return !sdfgi_same_reach(before, after) || brightness(before) < brightness(after) / 1000;
+}
+
+static bool is_of_type(const struct sdfgi_light_desc *light, bool sun)
+{
+    return light && (light->type == SDFGI_LIGHT_DIRECTIONAL) == sun;
+}
+
+/* Notes that a light is another one: NULL before it was created, and after it has been destroyed. */
+static void light_changed(struct scene *scene, uint32_t id, const struct sdfgi_light_desc *before,
+                          const struct sdfgi_light_desc *after)
+{
+    const uint32_t bit = sdfgi_light_bit(sdfgi_pool_index(&scene->lights, id));
+    const bool moves = after && (!before || lights_others(before, after));
+    const struct light_bits bits = { bit, moves ? bit : 0 };
+    if (is_of_type(before, true) || is_of_type(after, true))
+        sdfgi_journal_note_sun(scene->journals, &bits,
+                               before && after ? sdfgi_drift_of_sun(before, after) : 1);
+    if (is_of_type(before, false) || is_of_type(after, false))
+        sdfgi_journal_note_lamp(scene->journals, &bits);
 }
 
 enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
@@ -46,7 +57,7 @@ enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdf
     if (!light)
         return sdfgi_check_out_of_slots(scene, "sdfgi_light_create", SDFGI_MAX_LIGHTS);
     light->desc = resolved(desc);
-    light_changed(scene, id, &light->desc, true);
+    light_changed(scene, id, NULL, &light->desc);
     out->id = id;
     return SDFGI_OK;
 }
@@ -64,8 +75,7 @@ enum sdfgi_result sdfgi_scene_light_update(struct scene *scene, sdfgi_light hand
     const struct sdfgi_light_desc new_desc = resolved(desc);
     if (sdfgi_same_light(&light->desc, &new_desc))
         return SDFGI_OK;
-    light_changed(scene, handle.id, &light->desc, false);
-    light_changed(scene, handle.id, &new_desc, lights_others(&light->desc, &new_desc));
+    light_changed(scene, handle.id, &light->desc, &new_desc);
     light->desc = new_desc;
     return SDFGI_OK;
 }
@@ -75,7 +85,7 @@ enum sdfgi_result sdfgi_scene_light_destroy(struct scene *scene, sdfgi_light han
     const struct light *light = sdfgi_pool_get(&scene->lights, handle.id);
     if (!light)
         return sdfgi_check_unknown_handle(scene, "sdfgi_light_destroy", handle.id);
-    light_changed(scene, handle.id, &light->desc, false);
+    light_changed(scene, handle.id, &light->desc, NULL);
     sdfgi_pool_remove(&scene->lights, handle.id);
     return SDFGI_OK;
 }
@@ -87,8 +97,8 @@ enum sdfgi_result sdfgi_scene_set_sky(struct scene *scene, const struct sdfgi_sk
         return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_set_sky");
     if (sdfgi_same_sky(&scene->sky, sky))
         return SDFGI_OK;
+    sdfgi_journal_note_sky(scene->journals, sdfgi_drift_of_sky(&scene->sky, sky));
     scene->sky = *sky;
-    sdfgi_journal_note(scene->journals, JOURNAL_SKY);
     return SDFGI_OK;
 }
 
@@ -99,7 +109,7 @@ enum sdfgi_result sdfgi_scene_set_harmonics(struct scene *scene, const struct sd
         return sdfgi_problem_report(&problem, &scene->backend->hooks, "sdfgi_set_sky_harmonics");
     if (sdfgi_same_harmonics(&scene->harmonics, harmonics))
         return SDFGI_OK;
+    sdfgi_journal_note_sky(scene->journals, sdfgi_drift_of_harmonics(&scene->harmonics, harmonics));
     scene->harmonics = *harmonics;
-    sdfgi_journal_note(scene->journals, JOURNAL_SKY);
     return SDFGI_OK;
 }

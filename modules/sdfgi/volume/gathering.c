@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "gathering.h"
 
-/* Lights that change in every frame begin a new epoch only once in so many: otherwise no cell would ever add
- * up two visits. An odd number: the first visits of an epoch count most, and a lamp that is switched in every
- * frame would be on in all of them, or off. With 16 the mean of its light was 1.06 of what it should be. */
-#define EPOCH_FRAMES 17
+#include "scene/drift.h"
+
+#include <math.h>
+
+/* So many epochs after a change of lamps or geometry cells still look for what it has changed: light makes a
+ * bounce in each. If they did so for as long as sun or sky change, they would wake each other by noise. */
+#define LOCAL_EPOCHS 16
 
 /* Frames for which a cell counts as seen, and for which marks on what rays hit are collected and then read.
  */
@@ -21,7 +24,7 @@
 
 void sdfgi_gathering_init(struct gathering *gathering)
 {
-    *gathering = (struct gathering){ .epoch_frames = EPOCH_FRAMES };
+    *gathering = (struct gathering){ .epoch_frames = SDFGI_EPOCH_FRAMES };
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
         gathering->at[c].cycle = 1;
         gathering->at[c].rough = true;
@@ -50,12 +53,27 @@ void sdfgi_gathering_outdate(struct gathering *gathering)
     gathering->all_over = true;
 }
 
+void sdfgi_gathering_drift(struct gathering *gathering, float change)
+{
+    gathering->drifted += change;
+    if (gathering->drifted > DRIFT_OUTDATES)
+        sdfgi_gathering_outdate(gathering);
+    gathering->epoch_over = true;
+}
+
 void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited)
 {
     gathering->epoch_over = true;
+    gathering->local_epochs = LOCAL_EPOCHS;
     gathering->lights_over = gathering->lights_over || !edited;
     if (edited)
         sdfgi_edited_places_add(&gathering->edited, edited);
+}
+
+bool sdfgi_gathering_changes_are_local(const struct gathering *gathering)
+{
+    const bool looks = gathering->local_epochs > 0 || gathering->epoch_of_all == gathering->epoch;
+    return looks && sdfgi_gathering_next_epoch(gathering) != gathering->epoch_of_all;
 }
 
 uint32_t sdfgi_gathering_next_epoch(const struct gathering *gathering)
@@ -81,31 +99,50 @@ static void unsettle(struct gather_cursor *cursor)
     sdfgi_convergence_reset(&cursor->convergence);
 }
 
+/* Cells that are woken begin with rough cycles. */
+static void roughen(struct gathering *gathering)
+{
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
+        gathering->at[c].rough = true;
+        gathering->at[c].rough_cycles = 0;
+    }
+}
+
+static void begin_epoch(struct gathering *gathering)
+{
+    if (gathering->lights_over && gathering->calm_frames == CALM_FRAMES)
+        sdfgi_gathering_restart(gathering);
+    if (gathering->lights_over)
+        gathering->calm_frames = 0;
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+        unsettle(&gathering->at[c]);
+    if (gathering->lights_over || gathering->edited.count > 0)
+        roughen(gathering);
+    gathering->epoch++;
+    gathering->local_epochs -= gathering->local_epochs > 0;
+    if (gathering->all_over) {
+        gathering->epoch_of_all = gathering->epoch;
+    } else if (gathering->drifted > 0) {
+        gathering->epoch_of_drift = gathering->epoch;
+        gathering->drift = fmaxf(gathering->drifted, gathering->drift / 2);
+    }
+    gathering->epoch_frames = 0;
+    gathering->epoch_over = gathering->lights_over = gathering->all_over = false;
+    gathering->drifted = 0;
+    gathering->edited_last = gathering->edited;
+    gathering->edited.count = 0;
+}
+
 void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
 {
     if (invalidations != gathering->invalidations)
         for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
             unsettle(&gathering->at[c]);
     gathering->invalidations = invalidations;
-    gathering->epoch_frames += gathering->epoch_frames < EPOCH_FRAMES;
+    gathering->epoch_frames += gathering->epoch_frames < SDFGI_EPOCH_FRAMES;
     gathering->calm_frames += gathering->calm_frames < CALM_FRAMES;
-    if (!gathering->epoch_over || gathering->epoch_frames < EPOCH_FRAMES)
-        return;
-    if (gathering->lights_over && gathering->calm_frames == CALM_FRAMES)
-        sdfgi_gathering_restart(gathering);
-    if (gathering->lights_over)
-        gathering->calm_frames = 0;
-    gathering->epoch++;
-    if (gathering->all_over)
-        gathering->epoch_of_all = gathering->epoch;
-    gathering->epoch_frames = 0;
-    gathering->epoch_over = gathering->lights_over = gathering->all_over = false;
-    gathering->edited_last = gathering->edited;
-    gathering->edited.count = 0;
-    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++) {
-        gathering->at[c].rough = true;
-        gathering->at[c].rough_cycles = 0;
-    }
+    if (gathering->epoch_over && gathering->epoch_frames == SDFGI_EPOCH_FRAMES)
+        begin_epoch(gathering);
 }
 
 /* Goes on with the watched cells of a cascade. Where they lie in the list is not known here: as many entries

@@ -46,6 +46,10 @@ struct gathering {
     bool lights_over;                 /* lights, sun or sky among that, */
     bool all_over;                    /* and it changes the light of all cells */
     uint32_t epoch_of_all;            /* the last one that did */
+    uint32_t epoch_of_drift;          /* the last one in which that of all changed a little, */
+    float drift;                      /* and by which part of it */
+    float drifted;                    /* the part by which it has changed since the epoch began */
+    uint32_t local_epochs;            /* for which cells look for changes of lamps and geometry */
     struct edited_places edited;      /* since the epoch began, */
     struct edited_places edited_last; /* and in the one before */
     uint32_t seen_frames;             /* since it was forgotten which cells were seen */
@@ -79,6 +83,8 @@ uint32_t sdfgi_gathering_new_rays(const struct gathering *gathering);
 void sdfgi_edited_places_add(struct edited_places *places, const struct box *box);
 /* What all cells have gathered is outdated: sun or sky is another one, or everything. */
 void sdfgi_gathering_outdate(struct gathering *gathering);
+/* Sun or sky have changed by a part of their light. If that is small, cells go on from what they know. */
+void sdfgi_gathering_drift(struct gathering *gathering, float change);
 /* Some have to gather anew: those whose rays meet what a lamp lights otherwise than before; or, if geometry
  * has changed in a box, those whose rays cross it. NULL: none has. */
 void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited);
@@ -100,6 +106,8 @@ uint32_t sdfgi_gathering_hit_bits(const struct gathering *gathering, uint32_t ca
 /* A cycle that ended came back from the GPU. */
 void sdfgi_gathering_add_known(struct gathering *gathering, uint32_t cascade, uint64_t cycle,
                                const struct gather_change *change);
+/* True if lamps or geometry have changed of late, so that some cells have to gather anew. */
+bool sdfgi_gathering_changes_are_local(const struct gathering *gathering);
 /* The epoch in which what changes in this frame is taken in. */
 uint32_t sdfgi_gathering_next_epoch(const struct gathering *gathering);
 /* True if the cells of all cascades have settled. */

@@ -198,12 +198,18 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
         p->epoch = old->epoch;
         p->epoch_of_all = old->epoch_of_all;
         p->next_epoch = old->next_epoch;
+        p->epoch_of_drift = old->epoch_of_drift;
+        p->drift = old->drift;
+        p->changes_are_local = old->changes_are_local;
         return;
     }
     fill_edited(p, state);
     p->epoch = gathering->epoch;
     p->epoch_of_all = gathering->epoch_of_all;
     p->next_epoch = sdfgi_gathering_next_epoch(gathering);
+    p->epoch_of_drift = gathering->epoch_of_drift;
+    p->drift = gathering->drift;
+    p->changes_are_local = sdfgi_gathering_changes_are_local(gathering);
 }
 
 static float emission_scale(const struct scene *scene, float exposure)

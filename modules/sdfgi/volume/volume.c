@@ -71,8 +71,9 @@ void sdfgi_volume_invalidate(struct volume *volume)
 
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state)
 {
-    bool invalidates = journal->lights.changed != 0 || journal->notes & (JOURNAL_SKY | JOURNAL_EVERYTHING);
-    const bool reaches_all = journal->notes & (JOURNAL_SKY | JOURNAL_EVERYTHING | JOURNAL_FAR);
+    bool invalidates =
+        journal->lights.changed != 0 || journal->drift > 0 || journal->notes & JOURNAL_EVERYTHING;
+    const bool reaches_all = journal->notes & (JOURNAL_EVERYTHING | JOURNAL_EMITTERS);
     for (uint32_t c = 0; c < state->cascades.count; c++) {
         struct cascade *cascade = &state->cascades.at[c];
         if (journal->notes & JOURNAL_EVERYTHING)
@@ -88,7 +89,9 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
     sdfgi_accumulation_invalidate(&state->accumulation);
     if (reaches_all)
         sdfgi_gathering_outdate(&state->gathering);
-    else
+    else if (journal->drift > 0)
+        sdfgi_gathering_drift(&state->gathering, journal->drift);
+    if (journal->notes & JOURNAL_LAMPS)
         sdfgi_gathering_change(&state->gathering, NULL);
 }
 
