@@ -25,7 +25,7 @@ struct options {
     bool gi;
     struct cli_list set, aov;
     uint32_t supersample, seed;
-    double exposure, gi_exposure;
+    double exposure, gi_exposure, turn_sun_deg;
     /* Derived. */
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
@@ -44,8 +44,9 @@ struct run {
     struct host_renderer *renderer;
     struct report report;
     struct cli_progress progress;
-    double seconds;
-    float exposure; /* that a PNG was written with */
+    double seconds, turn_sun_deg;
+    uint32_t frames; /* to render; 0: until converged */
+    float exposure;  /* that a PNG was written with */
     struct report_cost cost;
     bool until_converged;
     bool stopped; /* by a signal, before the last frame */
@@ -139,6 +140,10 @@ static bool resolve_options(struct options *options)
         cli_error("render: --size times --ssaa is more than 16384 pixels along a side");
         return false;
     }
+    if (options->turn_sun_deg != 0 && options->frame_count == 0) {
+        cli_error("render: --turn-sun needs --frames with a number: light does not converge meanwhile");
+        return false;
+    }
     return check_outputs(options);
 }
 
@@ -149,6 +154,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
           .help = "camera, sky and lights; else from the scene" },
         RUN_CAMERA_OPTION(&o->from),
         RUN_SCENE_OPTIONS(&o->from, "time"),
+        RUN_TURN_OPTION(&o->turn_sun_deg, "that suns turn in a frame, to where they are; 0"),
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
@@ -233,6 +239,13 @@ static void collect_times(struct run *run)
     report_add_fog(&run->report, times.fog_ns);
 }
 
+/* Before frame `index`. It stands in the last one where the view has it. */
+static void turn_sun(struct run *run, uint32_t index)
+{
+    if (index < run->frames)
+        host_scene_turn_suns(run->scene, run->turn_sun_deg * ((double)index + 1 - run->frames));
+}
+
 static bool collect_frame(void *user, const struct host_frame *frame)
 {
     struct run *run = user;
@@ -243,6 +256,7 @@ static bool collect_frame(void *user, const struct host_frame *frame)
                                             ? (uint64_t)(100.0 * (double)frame->report->converged_fraction)
                                             : frame->index + 1);
     run->stopped = stop_asked();
+    turn_sun(run, frame->index + 1);
     return !run->stopped;
 }
 
@@ -251,6 +265,9 @@ static bool render_frames(struct run *run, const struct options *options)
     run->until_converged = options->frame_count == 0;
     /* Until convergence the bar shows per cent. */
     cli_progress_begin(&run->progress, "rendering", options->frame_count ? options->frame_count : 100);
+    run->frames = options->frame_count;
+    run->turn_sun_deg = options->turn_sun_deg;
+    turn_sun(run, 0);
     const double start_s = cli_time_s();
     const struct host_until_desc until = { .frames = options->frame_count,
                                            .progress = collect_frame,

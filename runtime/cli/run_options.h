@@ -86,6 +86,10 @@ struct run_scene {
             .help = "moment of the scene's animations; else at rest", .maximum = 1e9,                        \
             .given = &(from)->time_given                                                                     \
     }
+#define RUN_TURN_OPTION(degrees, turn_help)                                                                  \
+    {                                                                                                        \
+        "turn-sun", CLI_FLOAT, degrees, "DEGREES", .help = turn_help, .minimum = -180, .maximum = 180        \
+    }
 #define RUN_CAMERA_OPTION(from)                                                                              \
     {                                                                                                        \
         "camera", CLI_TEXT, &(from)->camera, "CAMERA",                                                       \

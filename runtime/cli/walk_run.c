@@ -242,6 +242,7 @@ static bool walk_frame(struct run *run, uint32_t index)
     struct host_camera camera;
     struct host_times times;
     walk_order_camera(order, index, &camera);
+    host_scene_turn_suns(run->scene, order->turn_sun_deg * index);
     if (!render_frame(run, &camera, &report) || !record_frame(run, index, &report))
         return false;
     struct walk_record *record = &run->result->record;
@@ -340,6 +341,7 @@ static bool walk_in_window(struct run *run)
                                            .settings = &order->settings,
                                            .lookups = order->lookups,
                                            .debug = &order->debug,
+                                           .turn_suns_deg = order->turn_sun_deg,
                                            .width = order->size.width,
                                            .height = order->size.height,
                                            .log = { run_log, NULL },

@@ -78,6 +78,9 @@ struct host_scene;
 struct host_scene *host_scene_create(struct host_device *device, const struct gltf_scene *gltf,
                                      const struct host_view *view);
 void host_scene_destroy(struct host_scene *scene);
+/* Turns the scene's suns about +Z, from where view and file have them, for the next frames of its renderers.
+ */
+void host_scene_turn_suns(struct host_scene *scene, double degrees);
 
 /* ---- Renderer --------------------------------------------------------------------------------------- */
 
@@ -303,6 +306,7 @@ struct host_window_desc {
                                            picture */
     uint32_t width, height;             /* 0: 1280 x 720 */
     uint32_t frames;                    /* closes after that many; 0: when the user does */
+    double turn_suns_deg;               /* from each frame to the next: host_scene_turn_suns */
     struct sdfgi_log log;
     const struct host_overlay *overlay; /* NULL: none */
     host_camera_fn camera;              /* NULL: the user flies */

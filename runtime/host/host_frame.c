@@ -197,7 +197,7 @@ static bool gi_record(struct host_renderer *renderer, VkCommandBuffer cmd)
     struct sdfgi_frame_desc desc = { .seed = renderer->seed, .exposure = renderer->gi_exposure };
     host_camera_center(&renderer->camera, renderer->scene->center, desc.camera_position);
     memcpy(desc.origin, renderer->camera.origin, sizeof(desc.origin));
-    return host_gi_update(renderer->gi, cmd, &desc);
+    return host_gi_update(renderer->gi, cmd, renderer->scene, &desc);
 }
 
 void host_prepass_record(struct host_renderer *renderer, VkCommandBuffer cmd)

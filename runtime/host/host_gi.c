@@ -13,6 +13,7 @@ struct host_gi {
     sdfgi *context;
     pthread_t thread;     /* whose messages are told: one that prepares has none of its own */
     struct sdfgi_log log; /* of the host's caller */
+    sdfgi_light suns[HOST_MAX_SUNS];
     char last_error[160]; /* the library's own words about its last error */
 };
 
@@ -120,7 +121,7 @@ static bool materials_register(struct host_gi *gi, const struct host_scene *scen
     return true;
 }
 
-static bool light_register(struct host_gi *gi, const struct host_scene_light *light)
+static struct sdfgi_light_desc light_desc(const struct host_scene_light *light)
 {
     static const enum sdfgi_light_type types[] = { [HOST_LIGHT_POINT] = SDFGI_LIGHT_POINT,
                                                    [HOST_LIGHT_SPOT] = SDFGI_LIGHT_SPOT,
@@ -128,7 +129,6 @@ static bool light_register(struct host_gi *gi, const struct host_scene_light *li
     struct sdfgi_light_desc desc = { .type = types[light->type],
                                      .indirect_energy = 1.0f,
                                      .casts_shadow = true };
-    sdfgi_light unused;
     for (int i = 0; i < 3; i++) {
         desc.position[i] = light->position[i];
         desc.direction[i] = (float)light->direction[i];
@@ -140,7 +140,13 @@ static bool light_register(struct host_gi *gi, const struct host_scene_light *li
         desc.inner_angle_rad = light->inner_rad;
         desc.outer_angle_rad = light->outer_rad;
     }
-    return gi_check(gi, sdfgi_light_create(gi->context, &desc, &unused), "registering a light");
+    return desc;
+}
+
+static bool light_register(struct host_gi *gi, const struct host_scene_light *light, sdfgi_light *handle)
+{
+    const struct sdfgi_light_desc desc = light_desc(light);
+    return gi_check(gi, sdfgi_light_create(gi->context, &desc, handle), "registering a light");
 }
 
 static bool lighting_register(struct host_gi *gi, const struct host_scene *scene)
@@ -150,11 +156,12 @@ static bool lighting_register(struct host_gi *gi, const struct host_scene *scene
     memcpy(sky.horizon, scene->sky.horizon, sizeof(sky.horizon));
     memcpy(sky.ground, scene->sky.ground, sizeof(sky.ground));
     for (uint32_t i = 0; i < scene->sun_count; i++) {
-        if (!light_register(gi, &scene->suns[i]))
+        if (!light_register(gi, &scene->suns[i], &gi->suns[i]))
             return false;
     }
     for (uint32_t i = 0; i < scene->light_count; i++) {
-        if (!light_register(gi, &scene->lights[i]))
+        sdfgi_light unused;
+        if (!light_register(gi, &scene->lights[i], &unused))
             return false;
     }
     return gi_check(gi, sdfgi_set_sky(gi->context, &sky), "setting the sky") &&
@@ -236,9 +243,21 @@ VkDescriptorSet host_gi_set(const struct host_gi *gi)
     return sdfgi_is_active(gi->context) ? sdfgi_get_descriptor_set(gi->context) : VK_NULL_HANDLE;
 }
 
-bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame)
+static bool follow_suns(struct host_gi *gi, const struct host_scene *scene)
 {
-    return gi_check(gi, sdfgi_update(gi->context, cmd, frame), "recording an update");
+    for (uint32_t i = 0; i < scene->sun_count; i++) {
+        const struct sdfgi_light_desc desc = light_desc(&scene->suns[i]);
+        if (!gi_check(gi, sdfgi_light_update(gi->context, gi->suns[i], &desc), "turning a sun"))
+            return false;
+    }
+    return true;
+}
+
+bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct host_scene *scene,
+                    const struct sdfgi_frame_desc *frame)
+{
+    return follow_suns(gi, scene) &&
+           gi_check(gi, sdfgi_update(gi->context, cmd, frame), "recording an update");
 }
 
 sdfgi_view *host_gi_view_create(struct host_gi *gi, const struct sdfgi_view_desc *desc)

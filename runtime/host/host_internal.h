@@ -134,7 +134,7 @@ struct host_material {
 struct host_scene_light {
     enum host_light_type type;
     double position[3];
-    double direction[3]; /* unit */
+    double direction[3], rest[3]; /* unit; at rest: of a sun before it was turned */
     float intensity[3];
     float range_m, inner_rad, outer_rad, angle_rad;
     bool cube; /* needs six shadow layers */
@@ -192,9 +192,9 @@ struct host_gi *host_gi_create(struct host_device *device, const struct host_sce
 void host_gi_destroy(struct host_gi *gi);
 sdfgi *host_gi_context(const struct host_gi *gi);
 VkDescriptorSetLayout host_gi_layout(const struct host_gi *gi);
-/* VK_NULL_HANDLE while lookups give nothing. */
-VkDescriptorSet host_gi_set(const struct host_gi *gi);
-bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct sdfgi_frame_desc *frame);
+VkDescriptorSet host_gi_set(const struct host_gi *gi); /* VK_NULL_HANDLE while lookups give nothing */
+bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct host_scene *scene,
+                    const struct sdfgi_frame_desc *frame);
 /* NULL on failure. */
 sdfgi_view *host_gi_view_create(struct host_gi *gi, const struct sdfgi_view_desc *desc);
 void host_gi_view_destroy(struct host_gi *gi, sdfgi_view *view);
@@ -270,6 +270,7 @@ enum { HOST_MAX_LAYERS = 192 }; /* 32 point lights */
 /* Relative to the scene's centre. */
 struct host_sun_cascade {
     bool rendered;
+    double direction[3];  /* of the sun */
     double center[2];     /* along right and up of the light's space; whole texels */
     double half_m;        /* half the side of the map */
     double near_m, far_m; /* along forward */

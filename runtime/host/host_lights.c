@@ -3,6 +3,7 @@
 #include "host_internal.h"
 #include "host_math.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Wider cones than this get a cube of shadow maps: one map would spend its texels on the rim. */
@@ -21,6 +22,7 @@ static void light_add(struct host_scene *scene, const struct host_light *light, 
     if (dark)
         return;
     host_normalize3(out.direction);
+    memcpy(out.rest, out.direction, sizeof(out.rest));
     out.inner_rad = light->inner_rad;
     out.outer_rad = light->outer_rad;
     out.cube = light->type == HOST_LIGHT_POINT || light->outer_rad > widest_single_map_rad;
@@ -50,6 +52,16 @@ static void file_light_add(struct host_scene *scene, const struct gltf_light *in
     memcpy(light.direction, in->direction, sizeof(light.direction));
     memcpy(light.intensity, in->intensity, sizeof(light.intensity));
     light_add(scene, &light, scale, 0.0f);
+}
+
+void host_scene_turn_suns(struct host_scene *scene, double degrees)
+{
+    const double angle = degrees * (3.14159265358979323846 / 180.0), c = cos(angle), s = sin(angle);
+    for (uint32_t i = 0; i < scene->sun_count; i++) {
+        const double *rest = scene->suns[i].rest;
+        scene->suns[i].direction[0] = c * rest[0] - s * rest[1];
+        scene->suns[i].direction[1] = s * rest[0] + c * rest[1];
+    }
 }
 
 bool host_lights_init(struct host_scene *scene, const struct gltf_scene *gltf, const struct host_view *view)

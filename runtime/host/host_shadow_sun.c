@@ -61,6 +61,7 @@ static void cascade_place(const struct host_renderer *renderer, const struct hos
     }
     host_frame3(sun->direction, right, up);
     *out = (struct host_sun_cascade){ 0 };
+    memcpy(out->direction, sun->direction, sizeof(out->direction));
     out->half_m = fmax(radius, 0.01) * HOST_SUN_MAP_SIZE / (HOST_SUN_MAP_SIZE - 2.0 * border_texels);
     const double texel_m = 2.0 * out->half_m / HOST_SUN_MAP_SIZE;
     out->center[0] = floor(host_dot3(center, right) / texel_m + 0.5) * texel_m;
@@ -128,8 +129,9 @@ static void cascade_draw(struct host_renderer *renderer, VkCommandBuffer cmd, ui
 
 static bool cascade_same(const struct host_sun_cascade *a, const struct host_sun_cascade *b)
 {
-    return a->center[0] == b->center[0] && a->center[1] == b->center[1] && a->half_m == b->half_m &&
-           a->near_m == b->near_m && a->far_m == b->far_m;
+    return memcmp(a->direction, b->direction, sizeof(a->direction)) == 0 && a->center[0] == b->center[0] &&
+           a->center[1] == b->center[1] && a->half_m == b->half_m && a->near_m == b->near_m &&
+           a->far_m == b->far_m;
 }
 
 void host_sun_record(struct host_renderer *renderer, VkCommandBuffer cmd)

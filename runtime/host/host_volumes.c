@@ -14,7 +14,7 @@ static bool voxelize(struct host_renderer *renderer, const struct host_camera *c
     VkCommandBuffer cmd = host_commands_begin(renderer->device);
     if (!cmd)
         return false;
-    const bool recorded = host_gi_update(renderer->gi, cmd, &desc);
+    const bool recorded = host_gi_update(renderer->gi, cmd, renderer->scene, &desc);
     return host_commands_finish(renderer->device, cmd) && recorded;
 }
 

@@ -231,6 +231,34 @@ static void the_exposure_for_the_library_arrives_there(void **state)
     run_in_folder("rm -f dim.pfm tiny.gltf");
 }
 
+/* The mean of what of the sun's light the picture shows after the last frame. */
+static double direct_light(const char *sun, const char *frames)
+{
+    char arguments[256], error[256];
+    struct image image;
+    snprintf(arguments, sizeof arguments, "--sky none --sun %s %s --aov direct=direct.pfm", sun, frames);
+    image = render_tiny(arguments, "sun.png");
+    image_finish(&image);
+    assert_true(image_read(&image, files_path("direct.pfm"), error, sizeof error));
+    const double light = mean_of(&image);
+    image_finish(&image);
+    return light;
+}
+
+/* It stands in the last frame where it was asked for. */
+static void a_sun_that_turns_ends_where_it_is(void **state)
+{
+    (void)state;
+    if (run_program("", "info").code != 0)
+        skip();
+    files_write_triangle("tiny.gltf");
+    const double still = direct_light("1,0,-1", "--frames 3"),
+                 turned = direct_light("1,0,-1", "--frames 3 --turn-sun 120");
+    printf("# direct light of a sun that stands: %.5f, and of one that has turned: %.5f\n", still, turned);
+    assert_true(still > 0.01 && still == turned);
+    run_in_folder("rm -f sun.png direct.pfm tiny.gltf");
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2)
@@ -242,6 +270,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(both_pictures_have_the_same_exposure),
         cmocka_unit_test(pictures_of_skies_are_shown_and_light),
         cmocka_unit_test(the_exposure_for_the_library_arrives_there),
+        cmocka_unit_test(a_sun_that_turns_ends_where_it_is),
     };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }
