@@ -82,6 +82,18 @@ static void sun_turned_a_little(struct show *show)
     show_frames(show, 1);
 }
 
+/* At night it goes on below the horizon. */
+static void dark_sun_turned(struct show *show)
+{
+    struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL, .direction = { 0, -1, 0 } };
+    show_begin(show);
+    const sdfgi_light light = drive_add_light(&show->d, &sun);
+    drive_converge(&show->d);
+    sun.direction[0] = 1;
+    sdfgi_scene_light_update(&show->d.scene, light, &sun);
+    show_frames(show, 1);
+}
+
 static void sky_changed(struct show *show)
 {
     const struct sdfgi_sky sky = { .zenith = { 0, 0, 1 } };
@@ -184,6 +196,7 @@ static const struct situation_row rows[] = {
     { "a_light_in_the_second_frame_lights_all_that_lists_have_room_for", light_updated_in_the_second_frame },
     { "a_light_while_a_scroll_completes", light_updated_while_a_scroll_completes },
     { "a_sun_that_turns_a_little_lights_cells_in_turn", sun_turned_a_little },
+    { "a_sun_of_no_light_turns_and_costs_nothing", dark_sun_turned },
     { "a_changed_sky_begins_to_converge_again", sky_changed },
     { "a_very_different_exposure_rescales_light", exposure_changed },
     { "another_exposure_costs_nothing", exposure_drifted },

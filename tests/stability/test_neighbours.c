@@ -185,7 +185,7 @@ static void a_sun_that_turns_outside_changes_nothing_here(void **state)
 {
     (void)state;
     turn_sun(&stage, 0);
-    gi_test_update(&stage.t, SETTLE);
+    gi_test_update(&stage.t, SETTLE / 2);
     REQUIRE_CMP(watch(&stage, "a sun that turns outside", HERE_M, 1, turn_sun), <=, 0.02);
     REQUIRE_CMP((int)sdfgi_light_destroy(stage.t.gi, sun), ==, (int)SDFGI_OK);
 }

@@ -32,10 +32,17 @@ static bool is_of_type(const struct sdfgi_light_desc *light, bool sun)
     return light && (light->type == SDFGI_LIGHT_DIRECTIONAL) == sun;
 }
 
+static bool is_dark(const struct sdfgi_light_desc *light)
+{
+    return !(brightness(light) > 0);
+}
+
 /* Notes that a light is another one: NULL before it was created, and after it has been destroyed. */
 static void light_changed(struct scene *scene, uint32_t id, const struct sdfgi_light_desc *before,
                           const struct sdfgi_light_desc *after)
 {
+    if (before && after && is_dark(before) && is_dark(after))
+        return;
     const uint32_t bit = sdfgi_light_bit(sdfgi_pool_index(&scene->lights, id));
     const bool moves = after && (!before || lights_others(before, after));
     const struct light_bits bits = { bit, moves ? bit : 0 };

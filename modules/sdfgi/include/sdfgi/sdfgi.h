@@ -341,6 +341,10 @@ struct sdfgi_light_desc {
 
 SDFGI_API enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_light_desc *desc,
                                                sdfgi_light *out);
+/* May be called in each frame. What is as before costs nothing, nor does a light of no intensity that moves.
+ * Light follows at once, noisily for some frames; but smoothly, up to a second later and at no cost, where
+ * suns and the sky change by less than a tenth of their light within 17 frames (an angle in radians counts as
+ * such a part), as the day goes by. */
 SDFGI_API enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light,
                                                const struct sdfgi_light_desc *desc);
 SDFGI_API enum sdfgi_result sdfgi_light_destroy(sdfgi *gi, sdfgi_light light);
@@ -352,7 +356,8 @@ struct sdfgi_sky {
     float zenith[3], horizon[3], ground[3]; /* W/(m^2 sr), >= 0 */
 };
 
-/* Cube maps and harmonics, which add to it: sdfgi/sky.h. */
+/* May be called in each frame, as sdfgi_light_update. Cube maps and harmonics, which add to it: sdfgi/sky.h.
+ */
 SDFGI_API enum sdfgi_result sdfgi_set_sky(sdfgi *gi, const struct sdfgi_sky *sky);
 
 /* Says that the triangles, textures or materials inside a world-space box have changed behind the library's
