@@ -82,16 +82,37 @@ static void sun_turned_a_little(struct show *show)
     show_frames(show, 1);
 }
 
+static void update_a_sun(struct show *show, const struct sdfgi_light_desc *before,
+                         const struct sdfgi_light_desc *after)
+{
+    show_begin(show);
+    const sdfgi_light light = drive_add_light(&show->d, before);
+    drive_converge(&show->d);
+    sdfgi_scene_light_update(&show->d.scene, light, after);
+    show_frames(show, 1);
+}
+
 /* At night it goes on below the horizon. */
 static void dark_sun_turned(struct show *show)
 {
-    struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL, .direction = { 0, -1, 0 } };
-    show_begin(show);
-    const sdfgi_light light = drive_add_light(&show->d, &sun);
-    drive_converge(&show->d);
-    sun.direction[0] = 1;
-    sdfgi_scene_light_update(&show->d.scene, light, &sun);
-    show_frames(show, 1);
+    const struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL, .direction = { 0, -1, 0 } },
+                                  turned = { .type = SDFGI_LIGHT_DIRECTIONAL, .direction = { 0, 1, 0 } };
+    update_a_sun(show, &sun, &turned);
+}
+
+/* Its position, for instance. */
+static void what_says_nothing_changed(struct show *show)
+{
+    const struct sdfgi_light_desc sun = { .type = SDFGI_LIGHT_DIRECTIONAL,
+                                          .direction = { 0, -1, 0 },
+                                          .intensity = { 1, 1, 1 } },
+                                  moved = { .type = SDFGI_LIGHT_DIRECTIONAL,
+                                            .position = { 1, 2, 3 },
+                                            .direction = { 0, -2, 0 },
+                                            .intensity = { 1, 1, 1 },
+                                            .range_m = 4,
+                                            .outer_angle_rad = 1 };
+    update_a_sun(show, &sun, &moved);
 }
 
 static void sky_changed(struct show *show)
@@ -197,6 +218,7 @@ static const struct situation_row rows[] = {
     { "a_light_while_a_scroll_completes", light_updated_while_a_scroll_completes },
     { "a_sun_that_turns_a_little_lights_cells_in_turn", sun_turned_a_little },
     { "a_sun_of_no_light_turns_and_costs_nothing", dark_sun_turned },
+    { "what_says_nothing_of_a_sun_costs_nothing", what_says_nothing_changed },
     { "a_changed_sky_begins_to_converge_again", sky_changed },
     { "a_very_different_exposure_rescales_light", exposure_changed },
     { "another_exposure_costs_nothing", exposure_drifted },

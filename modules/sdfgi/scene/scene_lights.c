@@ -37,11 +37,18 @@ static bool is_dark(const struct sdfgi_light_desc *light)
     return !(brightness(light) > 0);
 }
 
+/* True if two descriptions of a light give the same light: both give none, or what they differ in says
+ * nothing of a sun. */
+static bool shine_alike(const struct sdfgi_light_desc *before, const struct sdfgi_light_desc *after)
+{
+    return (is_dark(before) && is_dark(after)) || sdfgi_drift_of_sun(before, after) == 0;
+}
+
 /* Notes that a light is another one: NULL before it was created, and after it has been destroyed. */
 static void light_changed(struct scene *scene, uint32_t id, const struct sdfgi_light_desc *before,
                           const struct sdfgi_light_desc *after)
 {
-    if (before && after && is_dark(before) && is_dark(after))
+    if (before && after && shine_alike(before, after))
         return;
     const uint32_t bit = sdfgi_light_bit(sdfgi_pool_index(&scene->lights, id));
     const bool moves = after && (!before || lights_others(before, after));
