@@ -377,9 +377,7 @@ gathered_state state_of_visit(uint cascade, uint entry, out bool begins)
     return begins ? state_drifted(state) : state;
 }
 
-/* Sum and mean with which a visit begins. Where a cycle begins anew, what the cell has shown becomes the
- * mean.
- */
+/* Sum and mean with which a visit begins. Of a cycle that begins anew the mean is what the cell has shown. */
 gathered_light load_light(uint cascade, visited_cell own, uint axis)
 {
     gathered_light light = gathered_load(cascade, own.entry, axis);

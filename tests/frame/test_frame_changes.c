@@ -351,7 +351,7 @@ static void every_journal_of_a_scene_gets_all_notes(void **state)
     REQUIRE_CMP(second.lights.moved, ==, 6u);
 }
 
-/* What is left of a sun's light while it turns, a little at a time. */
+/* Surfaces follow them in turn. One that changes more is noted as a lamp is. */
 static void suns_that_change_a_little_are_noted_apart(void **state)
 {
     (void)state;

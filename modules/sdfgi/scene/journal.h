@@ -42,7 +42,7 @@ struct journal {
 
 void sdfgi_journal_note(struct journal *journals, enum journal_note note);
 void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits);
-/* A sun has changed, or the sky, by a part of its light. */
+/* A sun, or the sky, has changed by a part of its light. */
 void sdfgi_journal_note_sun(struct journal *journals, const struct light_bits *bits, float change);
 void sdfgi_journal_note_sky(struct journal *journals, float change);
 void sdfgi_journal_add_box(struct journal *journals, const struct box *box);
