@@ -48,7 +48,6 @@ struct run {
     uint32_t frames; /* to render; 0: until converged */
     float exposure;  /* that a PNG was written with */
     struct report_cost cost;
-    bool until_converged;
     bool stopped; /* by a signal, before the last frame */
 };
 
@@ -252,7 +251,7 @@ static bool collect_frame(void *user, const struct host_frame *frame)
     stop_keep();
     report_add_frame(&run->report, frame->report, frame->gpu_ns);
     collect_times(run);
-    cli_progress_update(&run->progress, run->until_converged
+    cli_progress_update(&run->progress, run->frames == 0
                                             ? (uint64_t)(100.0 * (double)frame->report->converged_fraction)
                                             : frame->index + 1);
     run->stopped = stop_asked();
@@ -262,10 +261,9 @@ static bool collect_frame(void *user, const struct host_frame *frame)
 
 static bool render_frames(struct run *run, const struct options *options)
 {
-    run->until_converged = options->frame_count == 0;
+    run->frames = options->frame_count;
     /* Until convergence the bar shows per cent. */
     cli_progress_begin(&run->progress, "rendering", options->frame_count ? options->frame_count : 100);
-    run->frames = options->frame_count;
     run->turn_sun_deg = options->turn_sun_deg;
     turn_sun(run, 0);
     const double start_s = cli_time_s();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * As a day goes by, sun and sky change a little in each frame. Light follows, as smooth as if they stood
- * still, and ends as if they always had stood where they stop. */
+ * As a day goes by, sun and sky change a little in each frame. Light follows smoothly, and ends as if they
+ * always had stood where they stop. */
 #include "light_scene.h"
 #include "require.h"
 #include "test_group.h"
