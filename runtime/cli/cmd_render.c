@@ -25,7 +25,8 @@ struct options {
     bool gi;
     struct cli_list set, aov;
     uint32_t supersample, seed;
-    double exposure, gi_exposure, turn_sun_deg;
+    double exposure, gi_exposure;
+    struct host_light_motion lights;
     /* Derived. */
     uint32_t frame_count; /* 0: until converged */
     struct sdfgi_settings settings;
@@ -44,7 +45,8 @@ struct run {
     struct host_renderer *renderer;
     struct report report;
     struct cli_progress progress;
-    double seconds, turn_sun_deg;
+    double seconds;
+    struct host_light_motion lights;
     uint32_t frames; /* to render; 0: until converged */
     float exposure;  /* that a PNG was written with */
     struct report_cost cost;
@@ -139,8 +141,10 @@ static bool resolve_options(struct options *options)
         cli_error("render: --size times --ssaa is more than 16384 pixels along a side");
         return false;
     }
-    if (options->turn_sun_deg != 0 && options->frame_count == 0) {
-        cli_error("render: --turn-sun needs --frames with a number: light does not converge meanwhile");
+    const bool turns = options->lights.turn_suns_deg != 0, flickers = options->lights.flicker_percent != 0;
+    if ((turns || flickers) && options->frame_count == 0) {
+        cli_error("render: %s needs --frames with a number: light does not converge meanwhile",
+                  turns ? "--turn-sun" : "--flicker");
         return false;
     }
     return check_outputs(options);
@@ -153,7 +157,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
           .help = "camera, sky and lights; else from the scene" },
         RUN_CAMERA_OPTION(&o->from),
         RUN_SCENE_OPTIONS(&o->from, "time"),
-        RUN_TURN_OPTION(&o->turn_sun_deg, "that suns turn in a frame, to where they are; 0"),
+        RUN_LIGHT_OPTIONS(&o->lights, ", to where they are"),
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "frames", CLI_TEXT, &o->frames, "N", .help = "frames to render, or converged, the default" },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination; on" },
@@ -238,11 +242,11 @@ static void collect_times(struct run *run)
     report_add_fog(&run->report, times.fog_ns);
 }
 
-/* Before frame `index`. It stands in the last one where the view has it. */
-static void turn_sun(struct run *run, uint32_t index)
+/* Before frame `index`. In the last one lights are as view and file have them. */
+static void move_lights(struct run *run, uint32_t index)
 {
     if (index < run->frames)
-        host_scene_turn_suns(run->scene, run->turn_sun_deg * ((double)index + 1 - run->frames));
+        host_scene_move_lights(run->scene, &run->lights, (double)index + 1 - run->frames);
 }
 
 static bool collect_frame(void *user, const struct host_frame *frame)
@@ -255,7 +259,7 @@ static bool collect_frame(void *user, const struct host_frame *frame)
                                             ? (uint64_t)(100.0 * (double)frame->report->converged_fraction)
                                             : frame->index + 1);
     run->stopped = stop_asked();
-    turn_sun(run, frame->index + 1);
+    move_lights(run, frame->index + 1);
     return !run->stopped;
 }
 
@@ -264,8 +268,8 @@ static bool render_frames(struct run *run, const struct options *options)
     run->frames = options->frame_count;
     /* Until convergence the bar shows per cent. */
     cli_progress_begin(&run->progress, "rendering", options->frame_count ? options->frame_count : 100);
-    run->turn_sun_deg = options->turn_sun_deg;
-    turn_sun(run, 0);
+    run->lights = options->lights;
+    move_lights(run, 0);
     const double start_s = cli_time_s();
     const struct host_until_desc until = { .frames = options->frame_count,
                                            .progress = collect_frame,

@@ -28,7 +28,7 @@ struct options {
     struct cli_list set;
     struct run_eyes eyes;
     bool gi;
-    double turn_sun_deg;
+    struct host_light_motion lights;
     uint32_t frames;
 };
 
@@ -39,7 +39,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
           .help = "camera, sky and lights; else from the scene" },
         RUN_CAMERA_OPTION(&o->from),
         RUN_SCENE_OPTIONS(&o->from, "time"),
-        RUN_TURN_OPTION(&o->turn_sun_deg, "that suns turn in a frame; 0"),
+        RUN_LIGHT_OPTIONS(&o->lights, ""),
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 1280x720", .minimum = 1, .maximum = 16384 },
         { "gi", CLI_SWITCH, &o->gi, .help = "global illumination at the start; on" },
         { "lookup", CLI_TEXT, &o->lookup_names.diffuse, "WHERE", .help = RUN_LOOKUP_HELP },
@@ -161,7 +161,7 @@ int cmd_view(int argc, char **argv)
                                      .width = options.size.width,
                                      .height = options.size.height,
                                      .frames = options.frames,
-                                     .turn_suns_deg = options.turn_sun_deg,
+                                     .lights = options.lights,
                                      .stop = stop_view,
                                      .log = { options.common.quiet ? NULL : run_log, NULL } };
     sdfgi_settings_default(&settings);

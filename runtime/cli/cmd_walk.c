@@ -25,7 +25,8 @@ struct options {
     struct run_lookup_names lookup_names;
     struct cli_size size;
     struct cli_list set, samples;
-    double speed_m_s, fps, start_m, exposure, gi_exposure, turn_sun_deg;
+    double speed_m_s, fps, start_m, exposure, gi_exposure;
+    struct host_light_motion lights;
     uint32_t frames, hold, every, seed;
     bool hold_given, window;
 };
@@ -37,7 +38,7 @@ static enum cli_outcome parse(struct options *o, int argc, char **argv)
         { "view", CLI_TEXT, &o->from.view, "VIEW.json",
           .help = "sky and lights; else the path's, or the scene's" },
         RUN_SCENE_OPTIONS(&o->from, "time"),
-        RUN_TURN_OPTION(&o->turn_sun_deg, "that suns turn in a frame; 0"),
+        RUN_LIGHT_OPTIONS(&o->lights, ""),
         { "frames", CLI_UINT, &o->frames, "N", .help = "frames to walk; else to the end of the way",
           .minimum = 1, .maximum = WALK_FRAMES_MAX },
         { "size", CLI_SIZE, &o->size, "WxH", .help = "pixels; 640x360", .minimum = 1, .maximum = 16384 },
@@ -128,7 +129,7 @@ static bool load_path(const struct options *o, struct walk_order *order, char **
 /* How many frames, how fast, from where. */
 static bool resolve_pace(const struct options *o, struct walk_order *order)
 {
-    order->turn_sun_deg = o->turn_sun_deg;
+    order->lights = o->lights;
     order->speed_m_s = o->speed_m_s > 0 ? o->speed_m_s : order->path.speed_m_s;
     order->fps = o->fps > 0 ? o->fps : order->path.fps;
     order->start_m = o->start_m;

@@ -86,9 +86,18 @@ struct run_scene {
             .help = "moment of the scene's animations; else at rest", .maximum = 1e9,                        \
             .given = &(from)->time_given                                                                     \
     }
-#define RUN_TURN_OPTION(degrees, turn_help)                                                                  \
+/* Of a struct host_light_motion. `to` follows "that suns turn in a frame". */
+#define RUN_LIGHT_OPTIONS(motion, to)                                                                        \
+    { "turn-sun",                                                                                            \
+      CLI_FLOAT,                                                                                             \
+      &(motion)->turn_suns_deg,                                                                              \
+      "DEGREES",                                                                                             \
+      .help = "that suns turn in a frame" to "; 0",                                                          \
+      .minimum = -180,                                                                                       \
+      .maximum = 180 },                                                                                      \
     {                                                                                                        \
-        "turn-sun", CLI_FLOAT, degrees, "DEGREES", .help = turn_help, .minimum = -180, .maximum = 180        \
+        "flicker", CLI_FLOAT, &(motion)->flicker_percent, "PERCENT",                                         \
+            .help = "of its light by which each lamp flickers; 0", .minimum = 0, .maximum = 100              \
     }
 #define RUN_CAMERA_OPTION(from)                                                                              \
     {                                                                                                        \

@@ -242,7 +242,7 @@ static bool walk_frame(struct run *run, uint32_t index)
     struct host_camera camera;
     struct host_times times;
     walk_order_camera(order, index, &camera);
-    host_scene_turn_suns(run->scene, order->turn_sun_deg * index);
+    host_scene_move_lights(run->scene, &order->lights, index);
     if (!render_frame(run, &camera, &report) || !record_frame(run, index, &report))
         return false;
     struct walk_record *record = &run->result->record;
@@ -341,7 +341,7 @@ static bool walk_in_window(struct run *run)
                                            .settings = &order->settings,
                                            .lookups = order->lookups,
                                            .debug = &order->debug,
-                                           .turn_suns_deg = order->turn_sun_deg,
+                                           .lights = order->lights,
                                            .width = order->size.width,
                                            .height = order->size.height,
                                            .log = { run_log, NULL },

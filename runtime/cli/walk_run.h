@@ -20,7 +20,8 @@ struct walk_order {
     struct sdfgi_settings settings;
     struct host_lookups lookups;
     enum sdfgi_debug_view debug; /* shown with GI; SDFGI_DEBUG_VIEW_COUNT: the picture */
-    double speed_m_s, fps, start_m, exposure, gi_exposure, turn_sun_deg;
+    double speed_m_s, fps, start_m, exposure, gi_exposure;
+    struct host_light_motion lights;
     uint32_t frames, seed;
     uint32_t hold;  /* frames before the walk; WALK_HOLD_SETTLED: until light has settled */
     uint32_t every; /* frames from one that is written to the next; 0: none */

@@ -78,9 +78,14 @@ struct host_scene;
 struct host_scene *host_scene_create(struct host_device *device, const struct gltf_scene *gltf,
                                      const struct host_view *view);
 void host_scene_destroy(struct host_scene *scene);
-/* Turns the scene's suns about +Z, from where view and file have them, for the next frames of its renderers.
- */
-void host_scene_turn_suns(struct host_scene *scene, double degrees);
+/* How lights change from frame to frame. */
+struct host_light_motion {
+    double turn_suns_deg;   /* suns turn about +Z by so much in a frame */
+    double flicker_percent; /* of its light, by which each lamp is brighter or dimmer at most, as fire is */
+};
+/* Has the scene's lights be as they are so many frames after, or before, they were what view and file say,
+ * for the next frames of its renderers. */
+void host_scene_move_lights(struct host_scene *scene, const struct host_light_motion *motion, double frames);
 
 /* ---- Renderer --------------------------------------------------------------------------------------- */
 
@@ -306,7 +311,7 @@ struct host_window_desc {
                                            picture */
     uint32_t width, height;             /* 0: 1280 x 720 */
     uint32_t frames;                    /* closes after that many; 0: when the user does */
-    double turn_suns_deg;               /* from each frame to the next: host_scene_turn_suns */
+    struct host_light_motion lights;    /* frame 0 has them as view and file say */
     struct sdfgi_log log;
     const struct host_overlay *overlay; /* NULL: none */
     host_camera_fn camera;              /* NULL: the user flies */

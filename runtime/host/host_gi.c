@@ -13,8 +13,8 @@ struct host_gi {
     sdfgi *context;
     pthread_t thread;     /* whose messages are told: one that prepares has none of its own */
     struct sdfgi_log log; /* of the host's caller */
-    sdfgi_light suns[HOST_MAX_SUNS];
-    char last_error[160]; /* the library's own words about its last error */
+    sdfgi_light suns[HOST_MAX_SUNS], *lamps; /* of the scene's lights */
+    char last_error[160];                    /* the library's own words about its last error */
 };
 
 static void message_received(void *user, enum sdfgi_log_level level, enum sdfgi_message id, const char *text)
@@ -160,8 +160,7 @@ static bool lighting_register(struct host_gi *gi, const struct host_scene *scene
             return false;
     }
     for (uint32_t i = 0; i < scene->light_count; i++) {
-        sdfgi_light unused;
-        if (!light_register(gi, &scene->lights[i], &unused))
+        if (!light_register(gi, &scene->lights[i], &gi->lamps[i]))
             return false;
     }
     return gi_check(gi, sdfgi_set_sky(gi->context, &sky), "setting the sky") &&
@@ -208,7 +207,8 @@ struct host_gi *host_gi_create(struct host_device *device, const struct host_sce
     gi->device = device;
     gi->thread = pthread_self();
     gi->log = desc->log;
-    if (!context_create(gi, desc, frames_in_flight) || !scene_register(gi, scene)) {
+    gi->lamps = host_device_alloc(device, scene->light_count, sizeof(*gi->lamps));
+    if (!gi->lamps || !context_create(gi, desc, frames_in_flight) || !scene_register(gi, scene)) {
         host_gi_destroy(gi);
         return NULL;
     }
@@ -220,6 +220,7 @@ void host_gi_destroy(struct host_gi *gi)
     if (!gi)
         return;
     sdfgi_destroy(gi->context);
+    free(gi->lamps);
     free(gi);
 }
 
@@ -243,20 +244,27 @@ VkDescriptorSet host_gi_set(const struct host_gi *gi)
     return sdfgi_is_active(gi->context) ? sdfgi_get_descriptor_set(gi->context) : VK_NULL_HANDLE;
 }
 
-static bool follow_suns(struct host_gi *gi, const struct host_scene *scene)
+static bool light_follow(struct host_gi *gi, const struct host_scene_light *light, sdfgi_light handle)
 {
-    for (uint32_t i = 0; i < scene->sun_count; i++) {
-        const struct sdfgi_light_desc desc = light_desc(&scene->suns[i]);
-        if (!gi_check(gi, sdfgi_light_update(gi->context, gi->suns[i], &desc), "turning a sun"))
-            return false;
-    }
-    return true;
+    const struct sdfgi_light_desc desc = light_desc(light);
+    return gi_check(gi, sdfgi_light_update(gi->context, handle, &desc), "changing a light");
+}
+
+/* Lights that are as before cost the library nothing. */
+static bool lights_follow(struct host_gi *gi, const struct host_scene *scene)
+{
+    bool ok = true;
+    for (uint32_t i = 0; i < scene->sun_count && ok; i++)
+        ok = light_follow(gi, &scene->suns[i], gi->suns[i]);
+    for (uint32_t i = 0; i < scene->light_count && ok; i++)
+        ok = light_follow(gi, &scene->lights[i], gi->lamps[i]);
+    return ok;
 }
 
 bool host_gi_update(struct host_gi *gi, VkCommandBuffer cmd, const struct host_scene *scene,
                     const struct sdfgi_frame_desc *frame)
 {
-    return follow_suns(gi, scene) &&
+    return lights_follow(gi, scene) &&
            gi_check(gi, sdfgi_update(gi->context, cmd, frame), "recording an update");
 }
 

@@ -134,8 +134,8 @@ struct host_material {
 struct host_scene_light {
     enum host_light_type type;
     double position[3];
-    double direction[3], rest[3]; /* unit; at rest: of a sun before it was turned */
-    float intensity[3];
+    double direction[3], rest[3];  /* unit; at rest: before it moved, as host_scene_move_lights has it */
+    float intensity[3], steady[3]; /* likewise */
     float range_m, inner_rad, outer_rad, angle_rad;
     bool cube; /* needs six shadow layers */
 };

@@ -23,6 +23,7 @@ static void light_add(struct host_scene *scene, const struct host_light *light, 
         return;
     host_normalize3(out.direction);
     memcpy(out.rest, out.direction, sizeof(out.rest));
+    memcpy(out.steady, out.intensity, sizeof(out.steady));
     out.inner_rad = light->inner_rad;
     out.outer_rad = light->outer_rad;
     out.cube = light->type == HOST_LIGHT_POINT || light->outer_rad > widest_single_map_rad;
@@ -54,14 +55,31 @@ static void file_light_add(struct host_scene *scene, const struct gltf_light *in
     light_add(scene, &light, scale, 0.0f);
 }
 
-void host_scene_turn_suns(struct host_scene *scene, double degrees)
+static const double pi = 3.14159265358979323846;
+
+static void turn_sun(struct host_scene_light *sun, double degrees)
 {
-    const double angle = degrees * (3.14159265358979323846 / 180.0), c = cos(angle), s = sin(angle);
-    for (uint32_t i = 0; i < scene->sun_count; i++) {
-        const double *rest = scene->suns[i].rest;
-        scene->suns[i].direction[0] = c * rest[0] - s * rest[1];
-        scene->suns[i].direction[1] = s * rest[0] + c * rest[1];
-    }
+    const double angle = degrees * (pi / 180.0), c = cos(angle), s = sin(angle);
+    sun->direction[0] = c * sun->rest[0] - s * sun->rest[1];
+    sun->direction[1] = s * sun->rest[0] + c * sun->rest[1];
+}
+
+/* Three waves of 3, 8 and 23 Hz at 60 frames a second, whose ratios are no simple fractions. Lamps differ by
+ * 2 % in their pace, so that they soon differ in their light. */
+static void flicker(struct host_scene_light *lamp, uint32_t index, double part, double frames)
+{
+    const double turn = 2.0 * pi * frames * (1.0 + 0.02 * index),
+                 wave = sin(0.0503 * turn) + sin(0.1371 * turn) + sin(0.3877 * turn);
+    for (int i = 0; i < 3; i++)
+        lamp->intensity[i] = lamp->steady[i] * (float)fmax(1.0 + part * wave / 3.0, 0.0);
+}
+
+void host_scene_move_lights(struct host_scene *scene, const struct host_light_motion *motion, double frames)
+{
+    for (uint32_t i = 0; i < scene->sun_count; i++)
+        turn_sun(&scene->suns[i], motion->turn_suns_deg * frames);
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        flicker(&scene->lights[i], i, 0.01 * motion->flicker_percent, frames);
 }
 
 bool host_lights_init(struct host_scene *scene, const struct gltf_scene *gltf, const struct host_view *view)

@@ -262,7 +262,7 @@ static bool draw(struct window *window)
         return true;
     const VkSemaphore semaphores[] = { window->swapchain.acquired[slot_number],
                                        window->swapchain.drawn[image] };
-    host_scene_turn_suns(window->scene, window->desc->turn_suns_deg * window->frame);
+    host_scene_move_lights(window->scene, &window->desc->lights, window->frame);
     struct host_slot *slot = host_renderer_frame_begin(renderer, &camera, parts[window->shown]);
     if (!slot || !record_picture(window, slot->cmd, image))
         return false;

@@ -60,6 +60,8 @@ static const char *const bad_input[][2] = {
     { "render none.glb --out a.png --reflections forward", "--reflections is \"forward\"" },
     { "render none.glb --out a.png --turn-sun 0.1", "--turn-sun needs --frames" },
     { "render none.glb --out a.png --frames 2 --turn-sun 200", "--turn-sun" },
+    { "render none.glb --out a.png --flicker 10", "--flicker needs --frames" },
+    { "render none.glb --out a.png --frames 2 --flicker 101", "--flicker" },
     { "render none.glb --out a.png --eyes 0.1", "--eyes needs --stereo" },
     { "render none.glb --out a.png --stereo --eyes 0", "--eyes" },
     { "view none.glb --eyes 0.1", "--eyes needs --stereo" },

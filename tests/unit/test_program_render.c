@@ -231,13 +231,13 @@ static void the_exposure_for_the_library_arrives_there(void **state)
     run_in_folder("rm -f dim.pfm tiny.gltf");
 }
 
-/* The mean of what of the sun's light the picture shows after the last frame. */
-static double direct_light(const char *sun, const char *frames)
+/* The mean of what of a light's light the picture shows after the last frame. */
+static double direct_light(const char *light_from, const char *frames)
 {
     char arguments[256], error[256];
     struct image image;
-    snprintf(arguments, sizeof arguments, "--sky none --sun %s %s --aov direct=direct.pfm", sun, frames);
-    image = render_tiny(arguments, "sun.png");
+    snprintf(arguments, sizeof arguments, "--sky none %s %s --aov direct=direct.pfm", light_from, frames);
+    image = render_tiny(arguments, "lit.png");
     image_finish(&image);
     assert_true(image_read(&image, files_path("direct.pfm"), error, sizeof error));
     const double light = mean_of(&image);
@@ -252,11 +252,30 @@ static void a_sun_that_turns_ends_where_it_is(void **state)
     if (run_program("", "info").code != 0)
         skip();
     files_write_triangle("tiny.gltf");
-    const double still = direct_light("1,0,-1", "--frames 3"),
-                 turned = direct_light("1,0,-1", "--frames 3 --turn-sun 120");
+    const double still = direct_light("--sun 1,0,-1", "--frames 3"),
+                 turned = direct_light("--sun 1,0,-1", "--frames 3 --turn-sun 120");
     printf("# direct light of a sun that stands: %.5f, and of one that has turned: %.5f\n", still, turned);
     assert_true(still > 0.01 && still == turned);
-    run_in_folder("rm -f sun.png direct.pfm tiny.gltf");
+    run_in_folder("rm -f lit.png direct.pfm tiny.gltf");
+}
+
+/* It has its own power in the last frame, and another one before. */
+static void a_lamp_that_flickers_ends_as_it_is(void **state)
+{
+    (void)state;
+    if (run_program("", "info").code != 0)
+        skip();
+    files_write_triangle("tiny.gltf");
+    files_write_text("lamp.view.json",
+                     "{ \"camera\": { \"position\": [0.3, 0.3, 3], \"look_at\": [0.3, 0.3, 0] },"
+                     "  \"lights\": [{ \"type\": \"point\", \"position\": [0.3, 0.3, 1],"
+                     "                \"intensity\": [2, 2, 2] }] }");
+    const double still = direct_light("--view lamp.view.json", "--frames 3"),
+                 flickered = direct_light("--view lamp.view.json", "--frames 3 --flicker 80");
+    printf("# direct light of a lamp that is steady: %.5f, and of one that has flickered: %.5f\n", still,
+           flickered);
+    assert_true(still > 0.01 && still == flickered);
+    run_in_folder("rm -f lit.png direct.pfm tiny.gltf lamp.view.json");
 }
 
 int main(int argc, char **argv)
@@ -271,6 +290,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(pictures_of_skies_are_shown_and_light),
         cmocka_unit_test(the_exposure_for_the_library_arrives_there),
         cmocka_unit_test(a_sun_that_turns_ends_where_it_is),
+        cmocka_unit_test(a_lamp_that_flickers_ends_as_it_is),
     };
     return cmocka_run_group_tests(tests, files_setup, files_teardown);
 }
