@@ -341,6 +341,8 @@ gathered_state state_woken(gathered_state state)
 
 /* What a cell knows of light that has changed by this part counts as a visit. */
 const float DRIFT_OF_VISIT = 0.125;
+/* The same of lamps that flicker, whose mean goes to and fro. */
+const float FLICKER_OF_VISIT = 0.5;
 /* It counts as so many at most, and as one at least. */
 const float DRIFT_MOST_VISITS = 96.0;
 
@@ -353,14 +355,36 @@ bool has_drifted(gathered_state state)
            since + (state.mean == GATHERED_DRIFTS ? 1u : 0u) < min(behind, EPOCHS_BACK);
 }
 
-/* The state of a cell whose light has drifted: what it has shown counts less the more that may have changed.
- */
+/* The state of a cell that goes on from what it has shown. That counts as so many visits at most: the fewer,
+ * the more may have changed. */
+gathered_state state_going_on(gathered_state state, float visits)
+{
+    const float most = clamp(visits, 1.0, DRIFT_MOST_VISITS),
+                shown = state.mean < GATHERED_FIRST ? min(float(state.visits), GATHERED_RECENT_VISITS)
+                                                    : gathered_shown_visits(state);
+    return gathered_state(0u, GATHERED_DRIFTS, state.epoch, uint(round(min(shown, most))));
+}
+
+/* That of one whose light has drifted. */
 gathered_state state_drifted(gathered_state state)
 {
-    const float change = sdfgi_frame.drift * float(gathered_epochs_behind(state)),
-                most = clamp(DRIFT_OF_VISIT / max(change, 1e-6), 1.0, DRIFT_MOST_VISITS);
-    return gathered_state(0u, GATHERED_DRIFTS, state.epoch,
-                          uint(round(min(gathered_shown_visits(state), most))));
+    const float change = sdfgi_frame.drift * float(gathered_epochs_behind(state));
+    return state_going_on(state, DRIFT_OF_VISIT / max(change, 1e-6));
+}
+
+/* Epochs for which light goes round corners, after a change that outdates what is known. */
+const uint LOCAL_CHANGE_EPOCHS = 6u;
+
+/* That of one which a change reaches. If lamps that flicker alone have changed, it goes on. */
+gathered_state state_reached(gathered_state state)
+{
+    const uint behind = max(gathered_epochs_behind(state), LOCAL_CHANGE_EPOCHS);
+    if (state.mean < GATHERED_FIRST && state.visits == 0u ||
+        sdfgi_frame.epoch - sdfgi_frame.epoch_of_local < behind)
+        return state_woken(state);
+    gathered_state reached = state_going_on(state, FLICKER_OF_VISIT / max(sdfgi_frame.flicker, 1e-6));
+    reached.epoch = sdfgi_frame.epoch & EPOCH_MASK;
+    return reached;
 }
 
 /* The state with which a visit begins, as far as it is known before the rays. `begins`: see visited_cell. */

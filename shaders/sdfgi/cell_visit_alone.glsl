@@ -81,7 +81,7 @@ void visit_cell(uint cascade)
         light[surface] = send_rays(cascade, source_of(cascade, surface));
     }
     if (wakes) {
-        visited.state = state_woken(visited.state);
+        visited.state = state_reached(visited.state);
         visited.begins = true;
     }
     for (uint left = facing; left != 0u; left &= left - 1u)

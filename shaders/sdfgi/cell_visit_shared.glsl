@@ -179,7 +179,7 @@ void wake_cell(uint own)
 {
     if (own >= cell_count() || !wakes[own])
         return;
-    cells[own].state = state_woken(cells[own].state);
+    cells[own].state = state_reached(cells[own].state);
     cells[own].begins = true;
 }
 

@@ -93,13 +93,15 @@ struct sdfgi_frame_params {
     uint epoch_of_drift;   /* the last one that changed the light of all light cells a little, */
     float drift;           /* and by which part of it */
     uint changes_are_local; /* 1: something has changed of late for some light cells alone */
-    uint padding;
+    uint epoch_of_local;   /* the last one in which more than lamps that flicker had changed */
+    float flicker;         /* by which part the mean of these lamps' light has changed of late */
+    uint padding_1, padding_2, padding_3;
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
     /* Around geometry that has changed in the last epochs, of cascade 0. They may lie beyond it. */
     SDFGI_STRUCT(sdfgi_dirty_box) edited[SDFGI_EDITED_BOXES];
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params,
-                  SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 20 * 16 + 32 * SDFGI_EDITED_BOXES);
+                  SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 21 * 16 + 32 * SDFGI_EDITED_BOXES);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

@@ -3,7 +3,6 @@
  * (scene/journal.h). */
 #include "core/box.h"
 #include "require.h"
-#include "scene/drift.h"
 #include "scene/journal.h"
 #include "test_memory.h"
 #include "volume/change.h"
@@ -329,56 +328,6 @@ static void a_box_inside_another_one_is_left_out(void **state)
     REQUIRE_CMP(journal.box_count, ==, 1u);
 }
 
-static void every_journal_of_a_scene_gets_all_notes(void **state)
-{
-    (void)state;
-    struct journal second = { 0 }, first = { .next = &second }, lit = { 0 };
-    const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } };
-    sdfgi_journal_note_lamp(&lit, &(struct light_bits){ .changed = 1 });
-    REQUIRE_TRUE(!sdfgi_journal_is_empty(&lit));
-    sdfgi_journal_note(&first, JOURNAL_EMITTERS);
-    sdfgi_journal_note_lamp(&first, &(struct light_bits){ .changed = 5, .moved = 4 });
-    sdfgi_journal_note_lamp(&first, &(struct light_bits){ .changed = 4 });
-    sdfgi_journal_add_box(&first, &box);
-    sdfgi_journal_clear(&first);
-    REQUIRE_CMP(first.lights.changed | first.lights.moved, ==, 0u);
-    REQUIRE_TRUE(sdfgi_journal_is_empty(&first) && first.next == &second);
-    REQUIRE_TRUE(!sdfgi_journal_is_empty(&second) && second.box_count == 1);
-    REQUIRE_CMP(second.notes, ==, (uint32_t)(JOURNAL_EMITTERS | JOURNAL_LAMPS));
-    const struct journal earlier = { .lights = { .changed = 2, .moved = 2 } };
-    sdfgi_journal_prepend(&second, &earlier);
-    REQUIRE_CMP(second.lights.changed, ==, 7u);
-    REQUIRE_CMP(second.lights.moved, ==, 6u);
-}
-
-/* Surfaces follow them in turn. One that changes more is noted as a lamp is. */
-static void suns_that_change_a_little_are_noted_apart(void **state)
-{
-    (void)state;
-    struct journal journal = { 0 };
-    const struct light_bits sun = { 2, 2 }, other = { 8, 8 };
-    sdfgi_journal_note_sun(&journal, &sun, 0.002f);
-    sdfgi_journal_note_sun(&journal, &sun, 0.001f);
-    sdfgi_journal_note_sky(&journal, 0.004f);
-    REQUIRE_CMP(journal.suns.bits.changed, ==, 2u);
-    REQUIRE_CMP(journal.suns.bits.moved, ==, 2u);
-    REQUIRE_NEAR(journal.suns.most, 0.002f, 0);
-    REQUIRE_NEAR(journal.drift, 0.007f, 1e-6);
-    REQUIRE_CMP(journal.lights.changed | journal.notes, ==, 0u);
-    sdfgi_journal_note_sun(&journal, &other, 0.01f);
-    REQUIRE_CMP(journal.lights.changed, ==, 8u);
-    REQUIRE_CMP(journal.suns.bits.changed, ==, 2u);
-    const struct journal earlier = { .suns = { { 4, 4 }, 0.003f }, .drift = 0.003f };
-    sdfgi_journal_prepend(&journal, &earlier);
-    REQUIRE_CMP(journal.suns.bits.moved, ==, 6u);
-    REQUIRE_NEAR(journal.suns.most, 0.003f, 0);
-    REQUIRE_NEAR(journal.drift, 0.02f, 1e-6);
-    sdfgi_journal_clear(&journal);
-    REQUIRE_TRUE(sdfgi_journal_is_empty(&journal));
-    sdfgi_journal_note_sky(&journal, 0.004f);
-    REQUIRE_TRUE(!sdfgi_journal_is_empty(&journal));
-}
-
 /* Lamps and geometry wake the cells that they reach. Whatever emits may wake all, and a sun that changes
  * much.
  */
@@ -396,6 +345,7 @@ static void a_journal_tells_which_cells_are_woken(void **state)
         { { .drift = 0.01f }, true, false, false },
         { { .drift = 1, .lights = { 1, 1 } }, true, true, true },
         { { .drift = 0.01f, .notes = JOURNAL_LAMPS, .lights = { 2, 0 } }, true, true, false },
+        { { .flicker = 0.01f, .lights = { 1, 0 } }, true, false, false },
         { { .notes = JOURNAL_MATERIALS }, false, false, false },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -406,61 +356,6 @@ static void a_journal_tells_which_cells_are_woken(void **state)
         REQUIRE_CMP(volume.gathering.lights_over, ==, cases[i].lights);
         REQUIRE_CMP(volume.gathering.all_over, ==, cases[i].all);
     }
-}
-
-/* ---- By which part of their light suns and skies change */
-
-static void a_sun_drifts_by_its_angle_and_by_its_light(void **state)
-{
-    (void)state;
-    const struct sdfgi_light_desc noon = { .type = SDFGI_LIGHT_DIRECTIONAL,
-                                           .direction = { 0, -3, 0 },
-                                           .intensity = { 4, 2, 1 },
-                                           .indirect_energy = 1,
-                                           .casts_shadow = true };
-    struct sdfgi_light_desc later = noon;
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 0, 0);
-    later.direction[0] = 3 * tanf(0.01f);
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 0.01, 1e-6);
-    later.intensity[1] = 2.2f;
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 0.01 + 0.05, 1e-6);
-    later = noon;
-    later.indirect_energy = 0.5f;
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 0.5, 1e-6);
-    later = noon;
-    later.direction[1] = 1;
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 3.14159265, 1e-6);
-    later = noon;
-    later.casts_shadow = false;
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 1, 0);
-    later = noon;
-    later.type = SDFGI_LIGHT_POINT;
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&noon, &later), 1, 0);
-    REQUIRE_NEAR(sdfgi_drift_of_sun(&later, &noon), 1, 0);
-}
-
-static void a_sky_drifts_by_its_brightest_colours(void **state)
-{
-    (void)state;
-    const struct sdfgi_sky none = { .zenith = { 0 } },
-                           day = { { 1, 2, 4 }, { 3, 3, 3 }, { 0.1f, 0.1f, 0.1f } };
-    struct sdfgi_sky later = day;
-    REQUIRE_NEAR(sdfgi_drift_of_sky(&none, &none), 0, 0);
-    REQUIRE_NEAR(sdfgi_drift_of_sky(&none, &day), 1, 0);
-    later.ground[1] = 0.2f;
-    REQUIRE_NEAR(sdfgi_drift_of_sky(&day, &later), 0.025, 1e-6);
-    later.horizon[0] = 2;
-    REQUIRE_NEAR(sdfgi_drift_of_sky(&day, &later), 0.25, 1e-6);
-    const struct sdfgi_sky_harmonics before = { .coefficients = { { 2, 2, 2 }, { -4, 0, 0 } } };
-    struct sdfgi_sky_harmonics after = before;
-    after.coefficients[1][0] = -3;
-    after.rotation_rad = -0.02f;
-    REQUIRE_NEAR(sdfgi_drift_of_harmonics(&before, &after), 0.25 + 0.02, 1e-6);
-    after = before;
-    after.intensity = 1;
-    REQUIRE_NEAR(sdfgi_drift_of_harmonics(&before, &after), 0, 0);
-    after.intensity = 0.75f;
-    REQUIRE_NEAR(sdfgi_drift_of_harmonics(&before, &after), 0.25, 1e-6);
 }
 
 int main(void)
@@ -480,11 +375,7 @@ int main(void)
         cmocka_unit_test(more_boxes_than_a_journal_holds_are_covered),
         cmocka_unit_test(flat_boxes_in_one_plane_are_two),
         cmocka_unit_test(a_box_inside_another_one_is_left_out),
-        cmocka_unit_test(every_journal_of_a_scene_gets_all_notes),
-        cmocka_unit_test(suns_that_change_a_little_are_noted_apart),
         cmocka_unit_test(a_journal_tells_which_cells_are_woken),
-        cmocka_unit_test(a_sun_drifts_by_its_angle_and_by_its_light),
-        cmocka_unit_test(a_sky_drifts_by_its_brightest_colours),
     };
     return cmocka_run_group_tests_name("changes", tests, NULL, NULL);
 }

@@ -126,6 +126,61 @@ static void cells_look_for_local_changes_for_some_epochs(void **state)
     REQUIRE_TRUE(sdfgi_gathering_changes_are_local(&g));
 }
 
+/* Cells that they reach go on from what they know, and no cycle is rough for it. */
+static void lamps_that_flicker_outdate_nothing(void **state)
+{
+    (void)state;
+    struct gathering g;
+    sdfgi_gathering_init(&g);
+    sdfgi_gathering_change(&g, NULL);
+    begin_epoch(&g);
+    REQUIRE_CMP(g.epoch_of_local, ==, 1u);
+    for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
+        g.at[c].rough = false;
+    sdfgi_gathering_flicker(&g, 0.02f);
+    sdfgi_gathering_flicker(&g, 0.01f);
+    begin_epoch(&g);
+    REQUIRE_CMP(g.epoch, ==, 2u);
+    REQUIRE_CMP(g.epoch_of_local, ==, 1u);
+    REQUIRE_NEAR(g.flicker, 0.02f, 0);
+    REQUIRE_TRUE(!g.at[0].rough && sdfgi_gathering_changes_are_local(&g));
+    sdfgi_gathering_flicker(&g, 0.004f);
+    begin_epoch(&g);
+    REQUIRE_NEAR(g.flicker, 0.01f, 0);
+    const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } };
+    sdfgi_gathering_flicker(&g, 0.004f);
+    sdfgi_gathering_change(&g, &box);
+    begin_epoch(&g);
+    REQUIRE_CMP(g.epoch_of_local, ==, 4u);
+    REQUIRE_TRUE(g.at[0].rough);
+}
+
+/* A lamp goes off while another one flickers, and then something moves. */
+static void what_outdates_light_does_not_wait_for_flicker(void **state)
+{
+    (void)state;
+    struct gathering g;
+    sdfgi_gathering_init(&g);
+    sdfgi_gathering_flicker(&g, 0.01f);
+    begin_epoch(&g);
+    for (uint64_t frame = 0; frame < 3; frame++) {
+        sdfgi_gathering_flicker(&g, 0.01f);
+        sdfgi_gathering_begin(&g, 0);
+    }
+    REQUIRE_CMP(g.epoch, ==, 1u);
+    sdfgi_gathering_change(&g, NULL);
+    sdfgi_gathering_begin(&g, 0);
+    REQUIRE_CMP(g.epoch, ==, 2u);
+    for (uint64_t frame = 1; frame < SDFGI_EPOCH_FRAMES; frame++) {
+        const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } };
+        sdfgi_gathering_change(&g, &box);
+        sdfgi_gathering_begin(&g, 0);
+        REQUIRE_CMP(g.epoch, ==, 2u);
+    }
+    sdfgi_gathering_begin(&g, 0);
+    REQUIRE_CMP(g.epoch, ==, 3u);
+}
+
 static bool holds(const struct box *box, const struct box *other)
 {
     const struct box both = sdfgi_box_around(box, other);
@@ -160,6 +215,8 @@ int main(void)
         cmocka_unit_test(a_local_change_begins_an_epoch_for_those_that_it_reaches),
         cmocka_unit_test(sun_and_sky_that_change_a_little_begin_an_epoch_of_drift),
         cmocka_unit_test(cells_look_for_local_changes_for_some_epochs),
+        cmocka_unit_test(lamps_that_flicker_outdate_nothing),
+        cmocka_unit_test(what_outdates_light_does_not_wait_for_flicker),
         cmocka_unit_test(boxes_of_what_moves_stay_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What an eye sees from frame to frame while a lamp goes on or off: FLIP between neighbouring pictures of
- * indirect light, less that of the change itself. */
+ * What an eye sees from frame to frame while a lamp goes on or off, or flickers: FLIP between neighbouring
+ * pictures of indirect light, less that of the change itself. */
 #include "light_scene.h"
 #include "picture_flip.h"
 #include "require.h"
@@ -115,21 +115,33 @@ static void without_noise(double share, float picture[PIXELS][4])
     }
 }
 
-static void require_calm(const char *name)
+/* Frames until no later one lacks a tenth of the change. */
+static int frames_to_nine_tenths(void)
+{
+    int count = 1;
+    for (int i = 0; i < FRAMES; i++)
+        count = fabs(share_of(i) - 1) > 0.1 ? i + 2 : count;
+    return count;
+}
+
+static double most_noise(void)
 {
     static float was[PIXELS][4], is[PIXELS][4];
     const float exposure = tone_exposure(mean_of(before) > mean_of(after) ? before[0] : after[0], PIXELS);
     double worst = 0;
-    int nine_tenths = 1; /* frames until no later one lacks a tenth */
     for (int i = 0; i < FRAMES; i++) {
-        const double share = share_of(i);
-        without_noise(share, is);
+        without_noise(share_of(i), is);
         if (i > 0)
             worst = fmax(worst, flip(frames[i - 1], frames[i], exposure) - flip(was, is, exposure));
-        if (fabs(share - 1) > 0.1)
-            nine_tenths = i + 2;
         memcpy(was, is, sizeof was);
     }
+    return worst;
+}
+
+static void require_calm(const char *name)
+{
+    const int nine_tenths = frames_to_nine_tenths();
+    const double worst = most_noise();
     printf("%s: nine tenths after %d frames, noise %.4f at most\n", name, nine_tenths, worst);
     REQUIRE_CMP(nine_tenths, <=, 10);
     REQUIRE_CMP(worst, <=, 0.02);
@@ -164,6 +176,61 @@ static void a_lamp_that_goes_off_leaves_no_noise(void **state)
     require_calm("off");
 }
 
+/* ---- A lamp that flickers */
+
+enum { WARM_UP = 110 }; /* more than six epochs */
+
+/* It has another power in each frame, by 30 % more or less. */
+static void flicker(struct stage *s, int frame)
+{
+    static const float powers[] = { 1.12f, 0.7f, 1.3f, 0.93f, 0.81f, 1.19f, 0.95f };
+    const struct sdfgi_light_desc lamp =
+        light_point(0.9, 0.7, 0.8, 8 * powers[frame % (int)(sizeof powers / sizeof *powers)]);
+    REQUIRE_CMP((int)sdfgi_light_update(s->t.gi, s->lamp, &lamp), ==, (int)SDFGI_OK);
+    gi_test_update(&s->t, 1);
+}
+
+static void a_lamp_that_flickers_brings_no_noise(void **state)
+{
+    (void)state;
+    take(&stage, before);
+    const struct sdfgi_light_desc lamp = light_point(0.9, 0.7, 0.8, 8);
+    stage.lamp = light_create(&stage.t, &lamp);
+    gi_test_update(&stage.t, 2 * SETTLE);
+    take(&stage, after);
+    for (int i = 0; i < WARM_UP + FRAMES; i++) {
+        flicker(&stage, i);
+        if (i >= WARM_UP)
+            take(&stage, frames[i - WARM_UP]);
+    }
+    double share = 0;
+    for (int i = 0; i < FRAMES; i++)
+        share += share_of(i) / FRAMES;
+    const double noise = most_noise();
+    printf("flickers: %.4f of its light, noise %.4f at most\n", share, noise);
+    REQUIRE_CMP(fabs(share - 1), <=, 0.05);
+    REQUIRE_CMP(noise, <=, 0.007);
+}
+
+/* In the middle of a time in which cells go on from what they know. */
+static void a_lamp_that_flickers_goes_off_at_once(void **state)
+{
+    (void)state;
+    const struct sdfgi_light_desc off = light_point(0.9, 0.7, 0.8, 0);
+    memcpy(after, before, sizeof after);
+    for (int i = 0; i < 9; i++)
+        flicker(&stage, i);
+    take(&stage, before);
+    REQUIRE_CMP((int)sdfgi_light_update(stage.t.gi, stage.lamp, &off), ==, (int)SDFGI_OK);
+    for (int i = 0; i < FRAMES; i++) {
+        gi_test_update(&stage.t, 1);
+        take(&stage, frames[i]);
+    }
+    const int nine_tenths = frames_to_nine_tenths();
+    printf("off: nine tenths after %d frames\n", nine_tenths);
+    REQUIRE_CMP(nine_tenths, <=, 10);
+}
+
 TEST_GROUP(flicker)
 {
     if (!gpu_test_available())
@@ -171,6 +238,8 @@ TEST_GROUP(flicker)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lamp_that_goes_on_brings_no_noise),
         cmocka_unit_test(a_lamp_that_goes_off_leaves_no_noise),
+        cmocka_unit_test(a_lamp_that_flickers_brings_no_noise),
+        cmocka_unit_test(a_lamp_that_flickers_goes_off_at_once),
     };
     open_room(&stage);
     const int failed = cmocka_run_group_tests_name("flicker", tests, NULL, NULL);

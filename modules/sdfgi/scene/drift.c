@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-/* The largest difference of numbers, relative to the largest of all. */
-static float relative_difference(const float *before, const float *after, int count)
+float sdfgi_relative_difference(const float *before, const float *after, int count)
 {
     float difference = 0, largest = 0;
     for (int i = 0; i < count; i++) {
@@ -37,7 +36,7 @@ float sdfgi_drift_of_sun(const struct sdfgi_light_desc *before, const struct sdf
         from[i] = before->indirect_energy * before->intensity[i];
         to[i] = after->indirect_energy * after->intensity[i];
     }
-    return relative_difference(from, to, 3) + angle_between(before->direction, after->direction);
+    return sdfgi_relative_difference(from, to, 3) + angle_between(before->direction, after->direction);
 }
 
 float sdfgi_drift_of_sky(const struct sdfgi_sky *before, const struct sdfgi_sky *after)
@@ -51,7 +50,7 @@ float sdfgi_drift_of_sky(const struct sdfgi_sky *before, const struct sdfgi_sky 
         to[3 + i] = after->horizon[i];
         to[6 + i] = after->ground[i];
     }
-    return relative_difference(from, to, 9);
+    return sdfgi_relative_difference(from, to, 9);
 }
 
 float sdfgi_drift_of_harmonics(const struct sdfgi_sky_harmonics *before,
@@ -64,5 +63,5 @@ float sdfgi_drift_of_harmonics(const struct sdfgi_sky_harmonics *before,
         from[i] = before_scale * before->coefficients[i / 3][i % 3];
         to[i] = after_scale * after->coefficients[i / 3][i % 3];
     }
-    return relative_difference(from, to, 27) + fabsf(after->rotation_rad - before->rotation_rad);
+    return sdfgi_relative_difference(from, to, 27) + fabsf(after->rotation_rad - before->rotation_rad);
 }

@@ -9,6 +9,9 @@
 /* If light changes by more than this part in the time of an epoch, what is known of it is outdated. */
 #define DRIFT_OUTDATES 0.1f
 
+/* The largest difference of so many numbers, over the largest of all. */
+float sdfgi_relative_difference(const float *before, const float *after, int count);
+
 /* Of directional lights: the angle in radians between them counts as such a part as well. 1 if either is of
  * another type. */
 float sdfgi_drift_of_sun(const struct sdfgi_light_desc *before, const struct sdfgi_light_desc *after);

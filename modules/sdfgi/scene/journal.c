@@ -28,10 +28,18 @@ static void note_light(struct journal *journals, const struct light_bits *bits)
         sdfgi_light_bits_add(&j->lights, bits);
 }
 
-void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits)
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits, float change)
 {
     note_light(journals, bits);
-    sdfgi_journal_note(journals, JOURNAL_LAMPS);
+    if (change >= 1)
+        sdfgi_journal_note(journals, JOURNAL_LAMPS);
+    for (struct journal *j = journals; j && change < 1; j = j->next)
+        j->flicker = larger(j->flicker, change);
 }
 
 /* If a sun changes by more than this part of its light in a frame, all surfaces follow in this frame. */
@@ -40,7 +48,7 @@ void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *
 static void add_suns(struct sun_drift *suns, const struct sun_drift *others)
 {
     sdfgi_light_bits_add(&suns->bits, &others->bits);
-    suns->most = others->most > suns->most ? others->most : suns->most;
+    suns->most = larger(suns->most, others->most);
 }
 
 void sdfgi_journal_note_sun(struct journal *journals, const struct light_bits *bits, float change)
@@ -78,6 +86,7 @@ void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlie
     journal->next = later.next;
     journal->notes |= later.notes;
     journal->drift += later.drift;
+    journal->flicker = larger(journal->flicker, later.flicker);
     sdfgi_light_bits_add(&journal->lights, &later.lights);
     add_suns(&journal->suns, &later.suns);
     for (uint32_t i = 0; i < later.box_count; i++)
@@ -88,6 +97,7 @@ void sdfgi_journal_clear(struct journal *journal)
 {
     journal->notes = 0;
     journal->drift = 0;
+    journal->flicker = 0;
     journal->lights = (struct light_bits){ 0 };
     journal->suns = (struct sun_drift){ .most = 0 };
     journal->box_count = 0;

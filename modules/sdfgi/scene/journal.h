@@ -11,7 +11,7 @@ enum journal_note {
     JOURNAL_MATERIALS = 1,  /* constants of materials that are shown */
     JOURNAL_EVERYTHING = 2, /* all that was voxelised is out of date */
     JOURNAL_EMITTERS = 4,   /* something that emits has changed: its light may reach all */
-    JOURNAL_LAMPS = 8,      /* a light other than a sun has changed */
+    JOURNAL_LAMPS = 8,      /* a light other than a sun has changed, and does not flicker */
 };
 
 /* Which lights have changed, a bit each of SDFGI_LIGHT_BITS. */
@@ -35,13 +35,15 @@ struct journal {
     struct light_bits lights;        /* that were made, changed or destroyed */
     struct sun_drift suns;           /* those that have changed a little alone */
     float drift;                     /* by which part of their light suns and sky have changed; 1: by all */
+    float flicker;                   /* by which part the mean of a lamp that flickers changes, at most */
     struct box boxes[JOURNAL_BOXES]; /* world: geometry changed there. When they are full, boxes grow */
     uint32_t box_count;
     struct journal *next; /* of the same scene */
 };
 
 void sdfgi_journal_note(struct journal *journals, enum journal_note note);
-void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits);
+/* Another light has changed: see sdfgi_habit_change. */
+void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits, float change);
 /* A sun, or the sky, has changed by a part of its light. */
 void sdfgi_journal_note_sun(struct journal *journals, const struct light_bits *bits, float change);
 void sdfgi_journal_note_sky(struct journal *journals, float change);

@@ -5,6 +5,7 @@
 #define SDFGI_SCENE_H
 
 #include "core/pool.h"
+#include "flicker.h"
 #include "harmonics.h"
 #include "instance_tree.h"
 #include "journal.h"
@@ -48,6 +49,7 @@ struct instance {
 
 struct light {
     struct sdfgi_light_desc desc;
+    struct lamp_habit habit;
 };
 
 struct set_pool {

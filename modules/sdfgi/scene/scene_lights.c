@@ -48,6 +48,7 @@ static bool shine_alike(const struct sdfgi_light_desc *before, const struct sdfg
 static void light_changed(struct scene *scene, uint32_t id, const struct sdfgi_light_desc *before,
                           const struct sdfgi_light_desc *after)
 {
+    struct light *light = sdfgi_pool_get(&scene->lights, id);
     if (before && after && shine_alike(before, after))
         return;
     const uint32_t bit = sdfgi_light_bit(sdfgi_pool_index(&scene->lights, id));
@@ -57,7 +58,10 @@ static void light_changed(struct scene *scene, uint32_t id, const struct sdfgi_l
         sdfgi_journal_note_sun(scene->journals, &bits,
                                before && after ? sdfgi_drift_of_sun(before, after) : 1);
     if (is_of_type(before, false) || is_of_type(after, false))
-        sdfgi_journal_note_lamp(scene->journals, &bits);
+        sdfgi_journal_note_lamp(
+            scene->journals, &bits,
+            before && after ? sdfgi_habit_change(&light->habit, before, after, scene->backend->retired.frame)
+                            : 1);
 }
 
 enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdfgi_light_desc *desc,
@@ -71,6 +75,7 @@ enum sdfgi_result sdfgi_scene_light_create(struct scene *scene, const struct sdf
     if (!light)
         return sdfgi_check_out_of_slots(scene, "sdfgi_light_create", SDFGI_MAX_LIGHTS);
     light->desc = resolved(desc);
+    light->habit = sdfgi_habit_begin(&light->desc, scene->backend->retired.frame);
     light_changed(scene, id, NULL, &light->desc);
     out->id = id;
     return SDFGI_OK;

@@ -70,6 +70,13 @@ void sdfgi_gathering_change(struct gathering *gathering, const struct box *edite
         sdfgi_edited_places_add(&gathering->edited, edited);
 }
 
+void sdfgi_gathering_flicker(struct gathering *gathering, float change)
+{
+    gathering->epoch_over = true;
+    gathering->local_epochs = LOCAL_EPOCHS;
+    gathering->flickered = fmaxf(gathering->flickered, change);
+}
+
 bool sdfgi_gathering_changes_are_local(const struct gathering *gathering)
 {
     const bool looks = gathering->local_epochs > 0 || gathering->epoch_of_all == gathering->epoch;
@@ -108,6 +115,20 @@ static void roughen(struct gathering *gathering)
     }
 }
 
+/* True if more has changed than sun and sky by a little, and lamps that flicker. */
+static bool outdates(const struct gathering *gathering)
+{
+    return gathering->lights_over || gathering->edited.count > 0;
+}
+
+/* What outdates light does not wait for an epoch to end in which all went on from what was known. */
+static bool epoch_is_due(const struct gathering *gathering)
+{
+    const bool waits = gathering->epoch_frames < SDFGI_EPOCH_FRAMES,
+               at_once = outdates(gathering) && gathering->epoch_of_local != gathering->epoch;
+    return gathering->epoch_over && (!waits || at_once);
+}
+
 static void begin_epoch(struct gathering *gathering)
 {
     if (gathering->lights_over && gathering->calm_frames == CALM_FRAMES)
@@ -116,9 +137,12 @@ static void begin_epoch(struct gathering *gathering)
         gathering->calm_frames = 0;
     for (uint32_t c = 0; c < SDFGI_MAX_CASCADES; c++)
         unsettle(&gathering->at[c]);
-    if (gathering->lights_over || gathering->edited.count > 0)
-        roughen(gathering);
     gathering->epoch++;
+    if (outdates(gathering)) {
+        roughen(gathering);
+        gathering->epoch_of_local = gathering->epoch;
+    }
+    gathering->flicker = fmaxf(gathering->flickered, gathering->flicker / 2);
     gathering->local_epochs -= gathering->local_epochs > 0;
     if (gathering->all_over) {
         gathering->epoch_of_all = gathering->epoch;
@@ -128,7 +152,7 @@ static void begin_epoch(struct gathering *gathering)
     }
     gathering->epoch_frames = 0;
     gathering->epoch_over = gathering->lights_over = gathering->all_over = false;
-    gathering->drifted = 0;
+    gathering->drifted = gathering->flickered = 0;
     gathering->edited_last = gathering->edited;
     gathering->edited.count = 0;
 }
@@ -141,7 +165,7 @@ void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)
     gathering->invalidations = invalidations;
     gathering->epoch_frames += gathering->epoch_frames < SDFGI_EPOCH_FRAMES;
     gathering->calm_frames += gathering->calm_frames < CALM_FRAMES;
-    if (gathering->epoch_over && gathering->epoch_frames == SDFGI_EPOCH_FRAMES)
+    if (epoch_is_due(gathering))
         begin_epoch(gathering);
 }
 

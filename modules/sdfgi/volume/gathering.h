@@ -49,6 +49,9 @@ struct gathering {
     uint32_t epoch_of_drift;          /* the last one in which that of all changed a little, */
     float drift;                      /* and by which part of it */
     float drifted;                    /* the part by which it has changed since the epoch began */
+    uint32_t epoch_of_local;          /* the last one in which geometry changed, or lights otherwise */
+    float flicker;                    /* by which part lamps that flicker have changed in the last one, */
+    float flickered;                  /* and since the epoch began */
     uint32_t local_epochs;            /* for which cells look for changes of lamps and geometry */
     struct edited_places edited;      /* since the epoch began, */
     struct edited_places edited_last; /* and in the one before */
@@ -88,6 +91,9 @@ void sdfgi_gathering_drift(struct gathering *gathering, float change);
 /* Some have to gather anew: those whose rays meet what a lamp lights otherwise than before; or, if geometry
  * has changed in a box, those whose rays cross it. NULL: none has. */
 void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited);
+/* Lamps that flicker have changed; the mean of their light by a part of it. Cells that they reach go on from
+ * what they know. */
+void sdfgi_gathering_flicker(struct gathering *gathering, float change);
 /* Begins a frame. `invalidations` counts those of the light so far: after one no cascade is settled. */
 void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations);
 /* Takes a frame's part of `cells` cells at most; returns how many ranges it filled in. */

@@ -200,6 +200,8 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
         p->next_epoch = old->next_epoch;
         p->epoch_of_drift = old->epoch_of_drift;
         p->drift = old->drift;
+        p->epoch_of_local = old->epoch_of_local;
+        p->flicker = old->flicker;
         p->changes_are_local = old->changes_are_local;
         return;
     }
@@ -209,6 +211,8 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
     p->next_epoch = sdfgi_gathering_next_epoch(gathering);
     p->epoch_of_drift = gathering->epoch_of_drift;
     p->drift = gathering->drift;
+    p->epoch_of_local = gathering->epoch_of_local;
+    p->flicker = gathering->flicker;
     p->changes_are_local = sdfgi_gathering_changes_are_local(gathering);
 }
 

@@ -93,6 +93,8 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
         sdfgi_gathering_drift(&state->gathering, journal->drift);
     if (journal->notes & JOURNAL_LAMPS)
         sdfgi_gathering_change(&state->gathering, NULL);
+    if (journal->flicker > 0)
+        sdfgi_gathering_flicker(&state->gathering, journal->flicker);
 }
 
 void sdfgi_volume_note_content(const struct scene *scene, struct volume_state *state)

@@ -344,7 +344,9 @@ SDFGI_API enum sdfgi_result sdfgi_light_create(sdfgi *gi, const struct sdfgi_lig
 /* May be called in each frame. What is as before costs nothing, nor does a light of no intensity that moves.
  * Light follows at once, noisily for some frames; but smoothly, up to a second later and at no cost, where
  * suns and the sky change by less than a tenth of their light within 17 frames (an angle in radians counts as
- * such a part), as the day goes by. */
+ * such a part), as the day goes by. Where nothing but the intensity of a lamp changes, again and again,
+ * between a third and three times its mean, the lamp flickers: bounced light is that of its mean over half a
+ * second. */
 SDFGI_API enum sdfgi_result sdfgi_light_update(sdfgi *gi, sdfgi_light light,
                                                const struct sdfgi_light_desc *desc);
 SDFGI_API enum sdfgi_result sdfgi_light_destroy(sdfgi *gi, sdfgi_light light);
