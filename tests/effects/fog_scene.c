@@ -12,7 +12,7 @@
 #include <modules/gltf/gltf_scene.h>
 #include <string.h>
 
-enum { MAX_BOXES = 16, VERTICES = 24, INDICES = 36, MAX_FRAMES = 32 };
+enum { MAX_BOXES = 16, VERTICES = 24, INDICES = 36, MAX_FRAMES = 16 };
 
 /* A cube of side 1, which all boxes share, with a primitive and a material for each. */
 struct cube {

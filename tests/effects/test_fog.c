@@ -272,12 +272,12 @@ static void a_lamp_has_a_halo(void **state)
         { x, y, z }, { sx, sy, sz }, { 0.5f, 0.5f, 0.5f, 1 }, .emission = 0.5f                               \
     }
 static const struct fog_box furnace[] = {
-    WALL(2, 0, 0, 1, 5, 5),
-    WALL(-2, 0, 0, 1, 5, 5),
-    WALL(0, 2, 0, 5, 1, 5),
-    WALL(0, -2, 0, 5, 1, 5),
-    WALL(0, 0, 2, 5, 5, 1),
-    WALL(0, 0, -2, 5, 5, 1),
+    WALL(1.625, 0, 0, 0.25, 3.5, 3.5),
+    WALL(-1.625, 0, 0, 0.25, 3.5, 3.5),
+    WALL(0, 1.625, 0, 3.5, 0.25, 3.5),
+    WALL(0, -1.625, 0, 3.5, 0.25, 3.5),
+    WALL(0, 0, 1.625, 3.5, 3.5, 0.25),
+    WALL(0, 0, -1.625, 3.5, 3.5, 0.25),
     { { 0.3, 0.2, -1 }, { 1, 1, 0.02 }, .color = { 1, 1, 1, 0.25f } },
 };
 
@@ -297,6 +297,7 @@ static void require_furnace(float density, float anisotropy, uint32_t boxes)
     scene.boxes = furnace;
     scene.box_count = boxes;
     scene.gi = true;
+    scene.frames = 24; /* bounces need more of them than other scenes do */
     scene.view.fog.anisotropy = anisotropy;
     fog_scene_draw(device, &scene, picture);
     const double worst = worst_error(&scene, exact_one);
