@@ -37,7 +37,7 @@ static void add_wall(struct gi_test *t, double x0, double y0, double z0, double 
 static void open_hall(struct day *day, double angle)
 {
     const double h = HALF_M, o = HALF_M + WALL_M, top = HEIGHT_M;
-    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    struct sdfgi_settings settings = light_settings(32, 0.2f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = 16 * SDFGI_VISIT_RAYS;
     settings.cell_rays_per_frame = 1 << 20; /* all cells in each frame */

@@ -16,7 +16,7 @@
 
 static struct sdfgi_settings room_settings(void)
 {
-    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    struct sdfgi_settings settings = light_settings(32, 0.2f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = 8 * SDFGI_VISIT_RAYS;
     settings.cell_rays_per_frame = 4096; /* a frame visits few cells: others follow the light alone */
@@ -168,7 +168,7 @@ static void a_lamp_that_goes_on_or_moves_lights_what_it_reaches(void **state)
 /* ---- After many changes, in a hall. More lights than there are bits: some share one. At first lights go and
  * come, then they move, and a post with them; at last they dim. What was missed stays. */
 
-#define HALL_M 5.0
+#define HALL_M 2.8
 
 enum { LIGHTS = SDFGI_LIGHT_BITS + 6, STEPS = 40, MOVES_FROM = 20, DIMS_FROM = 30 };
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Closed rooms of 2.4 m side by side, 0.6 m apart, with a lamp in each. Cells of 0.2 m. */
+/* Closed rooms of 2.4 m side by side, 0.6 m apart, with a lamp in each. Cells of 0.3 m. */
 #define HALF_M  1.2
 #define HERE_M  -1.5
 #define THERE_M 1.5
@@ -39,7 +39,7 @@ static struct sdfgi_light_desc lamp_at(double x, float intensity)
 static void open_rooms(struct stage *s)
 {
     const struct sdfgi_light_desc here = lamp_at(HERE_M, 4), there = lamp_at(THERE_M, 4);
-    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    struct sdfgi_settings settings = light_settings(32, 0.3f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = 16 * SDFGI_VISIT_RAYS; /* a complete cycle in 16 frames */
     gi_test_open(&s->t, &settings);
@@ -52,7 +52,7 @@ static void open_rooms(struct stage *s)
 
 static void start_anew(struct stage *s)
 {
-    struct sdfgi_settings settings = light_settings(64, 0.2f);
+    struct sdfgi_settings settings = light_settings(32, 0.3f);
     settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
     settings.cell_rays = 32 * SDFGI_VISIT_RAYS; /* a complete cycle in 32 frames */
     gi_test_restart(&s->t, &settings);
