@@ -7,8 +7,11 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
-enum { BALLS = 4, POINTS = 360, WALL_POINTS = 241, BED_POINTS = 91, FRAMES = 60 };
+enum { BALLS = 4, POINTS = 360, WALL_POINTS = 241, BED_POINTS = 91 };
+/* Noise counts on walls: they take half as many again as a cycle has. */
+enum { FRAMES = 32, WALL_FRAMES = 48 };
 
 static const double center[3] = { 0.07, -0.04, 0.11 };
 
@@ -87,7 +90,7 @@ static void build_wall(struct gi_test *t, const double axis[static 3], double de
     light_add(t, test_mesh_box(center, (double[]){ 1.5, 1, 0.3 }, rotation), 0, 0);
     light_add_box(t, (double[]){ 1.8, -2, 1 }, (double[]){ 2.3, 2, 3 }, (float[]){ 0, 0, 0 }, 1);
     light_set_uniform_sky(t, 0.1f);
-    gi_test_update(t, FRAMES);
+    gi_test_update(t, WALL_FRAMES);
 }
 
 /* Along a level line on the front of the wall, 1 cm at a time. */
@@ -160,18 +163,21 @@ static double worst_step_below(struct gi_test *t, double x)
 }
 
 /* Where the board's cell counted by its nearer side alone, light jumped in the middle of the cell, by
- * 0.92 of the range. Now it is 0.037. */
+ * 0.92 of the range. Now it is 0.037. Without SDFGI_TEST_FULL the fronts take turns. */
 static void light_below_the_edge_of_a_bed_changes_smoothly(void **state)
 {
     static const enum sdfgi_up_axis ups[] = { SDFGI_UP_Y, SDFGI_UP_Z, SDFGI_UP_MINUS_Y, SDFGI_UP_MINUS_Z };
     static const double fronts[] = { 0.08, 0.24 }, along[] = { -0.6, 0.11 };
+    const bool full = getenv("SDFGI_TEST_FULL") != NULL;
     struct gi_test *t = *state;
     for (size_t i = 0; i < 8; i++) {
-        build_bed(t, ups[i / 2], fronts[i % 2]);
+        const double front = fronts[i % 2];
+        if (!full && i % 2 != i / 2 % 2)
+            continue;
+        build_bed(t, ups[i / 2], front);
         for (size_t k = 0; k < 2; k++) {
             const double step = worst_step_below(t, along[k]);
-            printf("board at %.2f m, line at %.2f m: steps of %.3f of the range\n", fronts[i % 2], along[k],
-                   step);
+            printf("board at %.2f m, line at %.2f m: steps of %.3f of the range\n", front, along[k], step);
             REQUIRE_CMP(step, <=, 0.05);
         }
     }

@@ -11,7 +11,7 @@
 /* ---- A mirror doubles what stands before it */
 
 /* All light is there: it makes one bounce, or none. */
-enum { POINTS = 6, FRAMES = 40 };
+enum { POINTS = 6, FRAMES = 32 };
 
 #define MIRROR_ALBEDO 0.9f
 
@@ -22,7 +22,7 @@ enum wall { WALL_BLACK, WALL_MIRROR, WALL_MATT, WALL_ABSENT };
 static void build(struct gi_test *t, enum wall wall)
 {
     static const float black[3] = { 0, 0, 0 };
-    const struct sdfgi_settings settings = light_cell_settings(64, 0.125f);
+    const struct sdfgi_settings settings = light_cell_settings(32, 0.25f);
     gi_test_restart(t, &settings);
     light_add_box(t, (double[]){ -0.5, -1, -0.5 }, (double[]){ 2, 0, 1 }, black, 0);
     light_add_box(t, (double[]){ 2, 0, -1 }, (double[]){ 2.5, 1, 1 }, black, 1);
