@@ -289,8 +289,8 @@ static struct rooms look_into_rooms(struct gi_test *t)
 static void add_rooms(struct gi_test *t)
 {
     const double above[3] = { 0, 3.5, 0 }, below[3] = { 0, -3.5, 0 }, half[3] = { 2.8, 2.4, 2.9 };
-    light_add(t, test_mesh_room(above, half, 1, test_rotation_none), 0.5f, 1);
-    light_add(t, test_mesh_room(below, half, 1, test_rotation_none), 0.5f, 0);
+    light_add(t, test_mesh_room(above, half, 0.5, test_rotation_none), 0.5f, 1);
+    light_add(t, test_mesh_room(below, half, 0.5, test_rotation_none), 0.5f, 0);
     const struct sdfgi_light_desc lamp = light_point(0.4, -3, -0.3, 20);
     light_create(t, &lamp);
 }

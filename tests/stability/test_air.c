@@ -50,7 +50,7 @@ static void set_around(const float position[static 3], struct sample samples[DIR
 static void open_furnace(struct gi_test *t, const struct sdfgi_settings *settings)
 {
     gi_test_restart(t, settings);
-    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 1, test_rotation_none),
+    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1.5, 1.5, 1.5 }, 0.25, test_rotation_none),
               0.5f, 1);
 }
 
@@ -110,7 +110,8 @@ static void open_black_room(struct gi_test *t, const struct sdfgi_settings *sett
 {
     const float black[3] = { 0, 0, 0 };
     gi_test_restart(t, settings);
-    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 3, 3, 3 }, 0.5, test_rotation_none), 0, 0);
+    light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 3, 3, 3 }, 0.25, test_rotation_none), 0,
+              0);
     light_add_box(t, (double[]){ -3, -3, -3 }, (double[]){ -2.5, 3, 3 }, black, 1);
 }
 

@@ -91,7 +91,7 @@ static void open_room(struct gi_test *t, struct test_mesh room, float albedo)
     settings.cell_rays_per_frame = 1 << 20;
     gi_test_open(t, &settings);
     light_add(t, room, albedo, 0);
-    light_add_box(t, (double[]){ -20, -6, -20 }, (double[]){ 20, -5, 20 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
+    light_add_box(t, (double[]){ -5, -6, -5 }, (double[]){ 5, -5, 5 }, (float[]){ 0.5f, 0.5f, 0.5f }, 0);
     const struct sdfgi_light_desc sun = light_sun(-0.48f, -0.8f, -0.36f, (float)SUN);
     light_create(t, &sun);
     light_set_uniform_sky(t, (float)SKY);

@@ -66,17 +66,17 @@ static void add_room(struct gi_test *t, const struct room *room)
 {
     const float a[3] = { room->albedo, room->albedo, room->albedo };
     const sdfgi_instance whole =
-        light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1, 1, 1 }, 0.4, test_rotation_none),
+        light_add(t, test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ 1, 1, 1 }, 0.2, test_rotation_none),
                   room->albedo, room->emission);
     if (!room->open)
         return;
     /* The same of boxes, with a window in the wall towards +X. */
     REQUIRE_CMP((int)sdfgi_instance_destroy(t->gi, whole), ==, (int)SDFGI_OK);
     static const double walls[][2][3] = {
-        { { -1.4, -1.4, -1.4 }, { 1.4, -1, 1.4 } }, { { -1.4, 1, -1.4 }, { 1.4, 1.4, 1.4 } },
-        { { -1.4, -1, -1.4 }, { -1, 1, 1.4 } },     { { -1, -1, -1.4 }, { 1.4, 1, -1 } },
-        { { -1, -1, 1 }, { 1.4, 1, 1.4 } },         { { 1, -1, -1 }, { 1.4, -0.4, 1 } },
-        { { 1, 0.4, -1 }, { 1.4, 1, 1 } },
+        { { -1.2, -1.2, -1.2 }, { 1.2, -1, 1.2 } }, { { -1.2, 1, -1.2 }, { 1.2, 1.2, 1.2 } },
+        { { -1.2, -1, -1.2 }, { -1, 1, 1.2 } },     { { -1, -1, -1.2 }, { 1.2, 1, -1 } },
+        { { -1, -1, 1 }, { 1.2, 1, 1.2 } },         { { 1, -1, -1 }, { 1.2, -0.4, 1 } },
+        { { 1, 0.4, -1 }, { 1.2, 1, 1 } },
     };
     for (size_t i = 0; i < sizeof walls / sizeof *walls; i++)
         light_add_box(t, walls[i][0], walls[i][1], a, 0);
