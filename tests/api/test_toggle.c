@@ -159,7 +159,7 @@ static const float world_from_clip[16] = { 2, 0, 0, 0, 0, 0, 2, 0, 0, -0.2f, 0, 
 /* A software driver takes 20 ms for each, however small it is: in a short run few frames have them. */
 static bool has_pictures(uint32_t number)
 {
-    return is_full() || number % 10 < 2;
+    return is_full() || number % 20 < 2;
 }
 
 static void record_pictures(VkCommandBuffer cmd)

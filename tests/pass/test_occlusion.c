@@ -195,13 +195,16 @@ static void check_scene(const char *name, struct test_mesh mesh)
     test_mesh_destroy(&mesh);
 }
 
+/* By default walls that are turned and a torus, whose variance is farthest off; in suite `full` others too.
+ */
 static void hard_43_depths_of_flat_walls_keep_their_variance(void **state)
 {
     (void)state;
     const double center[3] = { 0.1, 0, 0.05 };
     double turned[9];
     test_rotation((double[]){ 1, 2, 3 }, 0.4, turned);
-    check_scene("room", test_mesh_room(center, (double[]){ 6.1, 5.3, 5.7 }, 0.3, test_rotation_none));
+    if (getenv("SDFGI_TEST_FULL"))
+        check_scene("room", test_mesh_room(center, (double[]){ 6.1, 5.3, 5.7 }, 0.3, test_rotation_none));
     check_scene("turned room", test_mesh_room(center, (double[]){ 5.1, 4.3, 4.7 }, 0.3, turned));
 }
 
@@ -209,7 +212,8 @@ static void hard_43_depths_of_curved_walls_keep_their_variance(void **state)
 {
     (void)state;
     const double center[3] = { 0.11, -0.07, 0.19 };
-    check_scene("bumpy sphere", test_mesh_bumpy_sphere(center, 5, 0.2, 5));
+    if (getenv("SDFGI_TEST_FULL"))
+        check_scene("bumpy sphere", test_mesh_bumpy_sphere(center, 5, 0.2, 5));
     check_scene("torus", test_mesh_torus(center, 4.5, 2, test_rotation_none, 64, 32));
 }
 

@@ -165,7 +165,9 @@ static void walk_in_the_blend(bool cells)
 {
     static struct walk w;
     /* From here the wall at -2.5 m is in the blend, whose width is that of a probe's spacing. */
-    walk_open(&w, cells, cells ? 64 : 128); /* light cells of 5 cm take it half an hour */
+    /* Light cells of 5 cm take it half an hour, those of 10 cm ten seconds: it has them in suite `full`. */
+    const uint32_t most = scroll_is_full() ? 64 : 32;
+    walk_open(&w, cells, cells ? most : 128);
     walk_in_colored_box(&w, (double[]){ w.resolution > 64 ? 0.55 : 0.15, 0.4, 1.3 });
     walk_steps(&w, 20, 0.001);
     const double mm = w.worst_step, way = 0.05 * w.t.gi->settings.min_cell_size_m;
