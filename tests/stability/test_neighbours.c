@@ -300,6 +300,35 @@ static void light_goes_soon_round_two_corners(void **state)
     REQUIRE_CMP(share, <=, 1.05);
 }
 
+/* Frames in which a lamp beside the other one flickers by a fifth. */
+static void flicker_beside_it(struct stage *s, sdfgi_light lamp, int frames)
+{
+    for (int i = 0; i < frames; i++) {
+        const struct sdfgi_light_desc desc = light_point(-1.7, 0.4, -1.6, 0.8f + 0.2f * (float)(i % 3));
+        REQUIRE_CMP((int)sdfgi_light_update(s->t.gi, lamp, &desc), ==, (int)SDFGI_OK);
+        gi_test_update(&s->t, 1);
+    }
+}
+
+/* Cells that flicker reaches go on from what they know; those that another change reaches do not, for six
+ * epochs. If they forget in one alone, 0.8 is shown. The lamp was dim, and is as bright as it was at first.
+ */
+static void flicker_does_not_hold_light_up(void **state)
+{
+    (void)state;
+    const struct sdfgi_light_desc beside = light_point(-1.7, 0.4, -1.6, 1), bright = far_lamp(6);
+    const sdfgi_light lamp = light_create(&stage.t, &beside);
+    flicker_beside_it(&stage, lamp, 120);
+    const double before = light_at_the_end(&stage);
+    REQUIRE_CMP((int)sdfgi_light_update(stage.t.gi, stage.lamp, &bright), ==, (int)SDFGI_OK);
+    flicker_beside_it(&stage, lamp, 100);
+    const double soon = light_at_the_end(&stage);
+    flicker_beside_it(&stage, lamp, 150);
+    const double late = light_at_the_end(&stage), share = (soon - before) / (late - before);
+    printf("the same beside a lamp that flickers: %.4f\n", share);
+    REQUIRE_CMP(share, >=, 0.9);
+}
+
 TEST_GROUP(neighbours)
 {
     if (!gpu_test_available())
@@ -312,6 +341,7 @@ TEST_GROUP(neighbours)
         cmocka_unit_test(a_small_lamp_that_is_gone_is_missed_at_once),
         cmocka_unit_test(the_sky_comes_at_once_where_a_roof_was),
         cmocka_unit_test(light_goes_soon_round_two_corners),
+        cmocka_unit_test(flicker_does_not_hold_light_up),
         cmocka_unit_test(what_moves_on_both_sides_changes_nothing_between),
     };
     open_rooms(&stage);
