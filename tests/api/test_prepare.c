@@ -404,8 +404,7 @@ static void prepare_in_a_thread(const struct sdfgi_settings *s, uint32_t *frames
     for (*frames = 0; !beside_done; ++*frames) {
         gi_test_update(&t, 2);
         (void)report();
-        nanosleep(&(struct timespec){ .tv_nsec = 1000000 },
-                  NULL); /* the thread has the processor meanwhile */
+        nanosleep(&(struct timespec){ .tv_nsec = 1000000 }, NULL); /* for the thread */
     }
     REQUIRE_CMP(pthread_join(thread, &failed), ==, 0);
     REQUIRE_TRUE(failed == NULL);

@@ -178,7 +178,7 @@ static void a_lamp_that_goes_off_leaves_no_noise(void **state)
 
 /* ---- A lamp that flickers */
 
-enum { WARM_UP = 110 }; /* more than six epochs */
+enum { WARM_UP = 140 }; /* more than six epochs */
 
 /* It has another power in each frame, by 30 % more or less. */
 static void flicker(struct stage *s, int frame)
