@@ -14,7 +14,7 @@
 #define THERE_M 1.5
 #define THIRD_M 3.0 /* from one of three rooms to the next */
 
-enum { SIDE = 8, POINTS = SIDE * SIDE, SETTLE = 120, WATCHED = 40, PERIOD = 4 };
+enum { SIDE = 8, POINTS = SIDE * SIDE, SETTLE = 96, SETTLE_THREE = 120, WATCHED = 40, PERIOD = 4 };
 
 struct stage {
     struct gi_test t;
@@ -164,7 +164,7 @@ static void what_moves_on_both_sides_changes_nothing_between(void **state)
         add_room(&stage, THIRD_M * i);
         light_create(&stage.t, &lamp);
     }
-    gi_test_update(&stage.t, SETTLE);
+    gi_test_update(&stage.t, SETTLE_THREE);
     REQUIRE_CMP(watch(&stage, "boxes that walk on both sides", 0, 1, walk), <=, 0.004);
 }
 
@@ -289,7 +289,7 @@ static void light_goes_soon_round_two_corners(void **state)
     open_wide_room(&stage);
     add_wall(&stage, 0.5, -1.4, WIDE_M);
     add_wall(&stage, -1, -WIDE_M, 1.4);
-    gi_test_update(&stage.t, 200);
+    gi_test_update(&stage.t, 160);
     const struct sdfgi_light_desc dim = far_lamp(1.5f);
     const double before = light_at_the_end(&stage);
     REQUIRE_CMP((int)sdfgi_light_update(stage.t.gi, stage.lamp, &dim), ==, (int)SDFGI_OK);
