@@ -396,6 +396,7 @@ static void *prepare_beside(void *user)
 
 static void prepare_in_a_thread(const struct sdfgi_settings *s, uint32_t *frames)
 {
+    const struct timespec pause = { .tv_nsec = 1000000 }; /* the thread has the processor meanwhile */
     pthread_t thread;
     void *failed;
     beside = *s;
@@ -404,7 +405,7 @@ static void prepare_in_a_thread(const struct sdfgi_settings *s, uint32_t *frames
     for (*frames = 0; !beside_done; ++*frames) {
         gi_test_update(&t, 2);
         (void)report();
-        nanosleep(&(struct timespec){ .tv_nsec = 1000000 }, NULL); /* for the thread */
+        nanosleep(&pause, NULL);
     }
     REQUIRE_CMP(pthread_join(thread, &failed), ==, 0);
     REQUIRE_TRUE(failed == NULL);
