@@ -5,7 +5,6 @@
 #include "require.h"
 #include "test_group.h"
 
-#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
