@@ -11,9 +11,9 @@
  * A cell shows P once a cycle has been completed. It does not show S then, because the rays of a part of a
  * cycle have another mean than all of them even while the light stays the same. Only where P is the mean of a
  * rough cycle S is mixed in: at once if that was a first one, or else once it holds as many visits. In the
- * first long cycle, and while light drifts, it is mixed in at once, because its rays are others than those of
- * P. In its first cycle, and in the first one after the lights have changed, a cell shows S; a new cell shows
- * what probes tell before its first visit. */
+ * first long cycle, and while light drifts or flickers, it is mixed in at once: its rays are others than
+ * those of P. In its first cycle, and in the first one after the lights have changed, a cell shows S; a new
+ * cell shows what probes tell before its first visit. */
 #ifndef SDFGI_GATHERED_GLSL
 #define SDFGI_GATHERED_GLSL
 
@@ -47,7 +47,7 @@ const float GATHERED_RECENT_VISITS = 2.3;
 const uint GATHERED_NOTHING = 0u;  /* there is none: the cell is new */
 const uint GATHERED_OUTDATED = 1u; /* what the cell showed before the lights changed */
 const uint GATHERED_FIRST = 2u;    /* the mean of a first cycle that was rough */
-const uint GATHERED_DRIFTS = 3u;   /* what the cell showed before sun or sky changed a little */
+const uint GATHERED_DRIFTS = 3u;   /* what it showed before light drifted, or lamps flickered */
 const uint GATHERED_ROUGH = 4u;    /* the mean of a later rough cycle */
 const uint GATHERED_COMPLETE = 5u; /* the mean of a complete cycle */
 const uint GATHERED_GOES_ON = 6u;  /* that, too, and the first long cycle is under way */

@@ -281,6 +281,8 @@ static void the_sky_comes_at_once_where_a_roof_was(void **state)
     REQUIRE_CMP(fabs(soon / PI - 1), <=, 0.03);
 }
 
+static double of_bright_lamp; /* light at the end, of far_lamp(6) alone */
+
 /* What is woken wakes others once its light is sure to have changed. If all cells are woken at once, nine
  * tenths are shown after 80 frames; if those that see the lamp's light are alone, after 245. */
 static void light_goes_soon_round_two_corners(void **state)
@@ -291,10 +293,10 @@ static void light_goes_soon_round_two_corners(void **state)
     add_wall(&stage, -1, -WIDE_M, 1.4);
     gi_test_update(&stage.t, 160);
     const struct sdfgi_light_desc dim = far_lamp(1.5f);
-    const double before = light_at_the_end(&stage);
+    of_bright_lamp = light_at_the_end(&stage);
     REQUIRE_CMP((int)sdfgi_light_update(stage.t.gi, stage.lamp, &dim), ==, (int)SDFGI_OK);
     gi_test_update(&stage.t, 100);
-    const double share = (1 - light_at_the_end(&stage) / before) / 0.75;
+    const double share = (1 - light_at_the_end(&stage) / of_bright_lamp) / 0.75;
     printf("round two corners: %.4f of a change after a hundred frames\n", share);
     REQUIRE_CMP(share, >=, 0.9);
     REQUIRE_CMP(share, <=, 1.05);
@@ -322,11 +324,10 @@ static void flicker_does_not_hold_light_up(void **state)
     const double before = light_at_the_end(&stage);
     REQUIRE_CMP((int)sdfgi_light_update(stage.t.gi, stage.lamp, &bright), ==, (int)SDFGI_OK);
     flicker_beside_it(&stage, lamp, 100);
-    const double soon = light_at_the_end(&stage);
-    flicker_beside_it(&stage, lamp, 150);
-    const double late = light_at_the_end(&stage), share = (soon - before) / (late - before);
+    const double share = (light_at_the_end(&stage) - before) / (0.75 * of_bright_lamp);
     printf("the same beside a lamp that flickers: %.4f\n", share);
-    REQUIRE_CMP(share, >=, 0.9);
+    REQUIRE_CMP(share, >=, 0.87);
+    REQUIRE_CMP(share, <=, 1.05);
 }
 
 TEST_GROUP(neighbours)

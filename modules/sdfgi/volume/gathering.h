@@ -49,8 +49,8 @@ struct gathering {
     uint32_t epoch_of_drift;          /* the last one in which that of all changed a little, */
     float drift;                      /* and by which part of it */
     float drifted;                    /* the part by which it has changed since the epoch began */
-    uint32_t epoch_of_local;          /* the last one in which geometry changed, or lights otherwise */
-    float flicker;                    /* by which part lamps that flicker have changed in the last one, */
+    uint32_t epoch_of_local;          /* the last one in which geometry changed, or lights by more */
+    float flicker;                    /* by which part the mean of lamps that flicker has changed of late, */
     float flickered;                  /* and since the epoch began */
     uint32_t local_epochs;            /* for which cells look for changes of lamps and geometry */
     struct edited_places edited;      /* since the epoch began, */
