@@ -34,7 +34,7 @@ static void open_room(struct stage *s)
     gi_test_open(&s->t, &settings);
     light_add(
         &s->t,
-        test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ HALF_M, HALF_M, HALF_M }, 0.3, test_rotation_none),
+        test_mesh_room((double[]){ 0, 0, 0 }, (double[]){ HALF_M, HALF_M, HALF_M }, 0.2, test_rotation_none),
         0.5f, 0);
     light_add_box(&s->t, (double[]){ -0.2, -HALF_M, -0.8 }, (double[]){ 0.5, 0.6, -0.2 },
                   (float[]){ 0.7f, 0.2f, 0.1f }, 0);
