@@ -31,7 +31,7 @@ static void build(struct gi_test *t, enum wall wall)
     else
         light_add_metal(
             t, test_mesh_box((double[]){ -0.25, 0.6, 0 }, (double[]){ 0.25, 0.6, 1 }, test_rotation_none),
-            wall == WALL_BLACK ? 0 : MIRROR_ALBEDO, wall == WALL_MATT ? 0 : 1);
+            wall == WALL_BLACK ? 0 : MIRROR_ALBEDO, wall == WALL_MIRROR ? 1 : 0);
     gi_test_update(t, FRAMES);
 }
 
@@ -63,7 +63,7 @@ static void a_mirror_doubles_what_stands_before_it(void **state)
                (double)found[WALL_MIRROR][i][1], black, expected);
     }
     printf("a mirror off by %.4f at most, a matt wall by %.4f\n", worst, matt);
-    REQUIRE_CMP(worst, <=, 0.03);
+    REQUIRE_CMP(worst, <=, 0.02);
     REQUIRE_CMP(matt, >, 0.1);
 }
 
