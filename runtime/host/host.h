@@ -78,6 +78,7 @@ struct host_scene;
 struct host_scene *host_scene_create(struct host_device *device, const struct gltf_scene *gltf,
                                      const struct host_view *view);
 void host_scene_destroy(struct host_scene *scene);
+
 /* How lights change from frame to frame. */
 struct host_light_motion {
     double turn_suns_deg;   /* suns turn about +Z by so much in a frame */

@@ -216,6 +216,21 @@ static void a_lamp_that_fades_changes_its_mean(void **state)
     REQUIRE_CMP(least, >, 0.015f);
 }
 
+/* Its mean is a number afterwards, so that a lamp which goes off is no flicker. */
+static void a_lamp_may_be_brighter_than_floats_can_tell(void **state)
+{
+    (void)state;
+    struct lamp lamp = lamp_of(1);
+    lamp.desc.indirect_energy = 1e30f;
+    set(&lamp, 1, 1e30f);
+    set(&lamp, 1, 1);
+    lamp.desc.indirect_energy = 1;
+    flicker(&lamp, 20000, 1);
+    const float goes_off = set(&lamp, 1, 0);
+    REQUIRE_NEAR(goes_off, 1, 0);
+    REQUIRE_NEAR(lamp.habit.usual[1], 1, 0.01);
+}
+
 /* How many updates a frame has makes no difference. */
 static void a_habit_counts_frames(void **state)
 {
@@ -244,6 +259,7 @@ int main(void)
         cmocka_unit_test(a_lamp_that_changes_often_flickers),
         cmocka_unit_test(a_lamp_that_goes_off_flickers_no_more),
         cmocka_unit_test(a_lamp_that_fades_changes_its_mean),
+        cmocka_unit_test(a_lamp_may_be_brighter_than_floats_can_tell),
         cmocka_unit_test(a_habit_counts_frames),
     };
     return cmocka_run_group_tests_name("notes", tests, NULL, NULL);

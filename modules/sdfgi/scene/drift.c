@@ -1,7 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "drift.h"
 
+#include <float.h>
 #include <math.h>
+
+void sdfgi_light_power(const struct sdfgi_light_desc *light, float out[static 3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = fminf(light->indirect_energy * light->intensity[i], FLT_MAX);
+}
 
 float sdfgi_relative_difference(const float *before, const float *after, int count)
 {
@@ -32,10 +39,8 @@ float sdfgi_drift_of_sun(const struct sdfgi_light_desc *before, const struct sdf
         before->casts_shadow != after->casts_shadow)
         return 1;
     float from[3], to[3];
-    for (int i = 0; i < 3; i++) {
-        from[i] = before->indirect_energy * before->intensity[i];
-        to[i] = after->indirect_energy * after->intensity[i];
-    }
+    sdfgi_light_power(before, from);
+    sdfgi_light_power(after, to);
     return sdfgi_relative_difference(from, to, 3) + angle_between(before->direction, after->direction);
 }
 

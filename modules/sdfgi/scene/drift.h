@@ -9,6 +9,8 @@
 /* If light changes by more than this part in the time of an epoch, what is known of it is outdated. */
 #define DRIFT_OUTDATES 0.1f
 
+/* What a light contributes, per channel: finite. */
+void sdfgi_light_power(const struct sdfgi_light_desc *light, float out[static 3]);
 /* The largest difference of so many numbers, over the largest of all. */
 float sdfgi_relative_difference(const float *before, const float *after, int count);
 

@@ -25,7 +25,7 @@
 #define LEAST_PART (1.0f / 4096.0f)
 
 /* Squares, as powf may differ from machine to machine. */
-static float power(float base, uint64_t exponent)
+static float raised(float base, uint64_t exponent)
 {
     float result = 1;
     for (; exponent > 0; exponent >>= 1) {
@@ -33,12 +33,6 @@ static float power(float base, uint64_t exponent)
         base *= base;
     }
     return result;
-}
-
-static void power_of(const struct sdfgi_light_desc *lamp, float out[static 3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = lamp->indirect_energy * lamp->intensity[i];
 }
 
 static void approach(float mean[static 3], const float value[static 3], float stays)
@@ -51,10 +45,10 @@ static void approach(float mean[static 3], const float value[static 3], float st
 static void take_in(struct lamp_habit *habit, const struct sdfgi_light_desc *before, uint64_t frames)
 {
     float was[3];
-    power_of(before, was);
-    approach(habit->usual, was, power(USUAL_STAYS, frames));
-    approach(habit->lately, was, power(LATELY_STAYS, frames));
-    habit->restless *= power(USUAL_STAYS, frames);
+    sdfgi_light_power(before, was);
+    approach(habit->usual, was, raised(USUAL_STAYS, frames));
+    approach(habit->lately, was, raised(LATELY_STAYS, frames));
+    habit->restless *= raised(USUAL_STAYS, frames);
     if (frames > 0)
         habit->restless += 1 - USUAL_STAYS;
 }
@@ -62,8 +56,8 @@ static void take_in(struct lamp_habit *habit, const struct sdfgi_light_desc *bef
 struct lamp_habit sdfgi_habit_begin(const struct sdfgi_light_desc *lamp, uint64_t frame)
 {
     struct lamp_habit habit = { .frame = frame };
-    power_of(lamp, habit.usual);
-    power_of(lamp, habit.lately);
+    sdfgi_light_power(lamp, habit.usual);
+    sdfgi_light_power(lamp, habit.lately);
     return habit;
 }
 
@@ -71,7 +65,7 @@ float sdfgi_habit_change(struct lamp_habit *habit, const struct sdfgi_light_desc
                          const struct sdfgi_light_desc *after, uint64_t frame)
 {
     float is[3];
-    power_of(after, is);
+    sdfgi_light_power(after, is);
     take_in(habit, before, frame - habit->frame);
     habit->frame = frame;
     if (!sdfgi_same_reach(before, after) || habit->restless < RESTLESS ||

@@ -38,8 +38,9 @@ void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *
     note_light(journals, bits);
     if (change >= 1)
         sdfgi_journal_note(journals, JOURNAL_LAMPS);
-    for (struct journal *j = journals; j && change < 1; j = j->next)
-        j->flicker = larger(j->flicker, change);
+    else
+        for (struct journal *j = journals; j; j = j->next)
+            j->flicker = larger(j->flicker, change);
 }
 
 /* If a sun changes by more than this part of its light in a frame, all surfaces follow in this frame. */

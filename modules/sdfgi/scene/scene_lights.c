@@ -17,8 +17,9 @@ static struct sdfgi_light_desc resolved(const struct sdfgi_light_desc *desc)
 
 static float brightness(const struct sdfgi_light_desc *light)
 {
-    const float *i = light->intensity;
-    return light->indirect_energy * fmaxf(i[0], fmaxf(i[1], i[2]));
+    float power[3];
+    sdfgi_light_power(light, power);
+    return fmaxf(power[0], fmaxf(power[1], power[2]));
 }
 
 /* A light that was a thousand times dimmer may have been too dim to count. */
