@@ -116,7 +116,8 @@
       PIXELS, gather, SDFGI_GROUP_TILES, VIEW, 0, V(REFLECTION) | V(TILES))                                  \
     X(REFLECT_RAYS, COMPUTE, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                                 \
       TILE_LIST, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) | R(LIGHT) |             \
-      R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(ALBEDO) | R(NORMALS) | V(TILES), V(REFLECTION))        \
+      R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(EMITTERS) | R(ALBEDO) | R(NORMALS) | V(TILES),         \
+      V(REFLECTION))                                                                                         \
     X(REFLECT_FILTER, COMPUTE, reflect_filter, PIXELS, REFLECTIONS, OWN, DEMAND,                             \
       TILE_LIST, gather, 1, VIEW, V(TILES) | V(DIFFUSE), V(REFLECTION) | V(FILTERED))                        \
     X(DEBUG_VIEW, COMPUTE, debug_view, PIXELS, DEBUG_VIEW, OWN, DEMAND,                                      \

@@ -92,7 +92,7 @@
 #define SEEN_COUNT(e) \
     ((e)->gathers ? sdfgi_seen_end((uint32_t)(e)->light_cells, (uint32_t)(e)->cascades) : 1)
 /* None where nothing emits. */
-#define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + (e)->blocks) * (e)->cascades : 1)
+#define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + 2 * (e)->blocks) * (e)->cascades : 1)
 #define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)
 #define SUM_COUNT(e)   (SDFGI_SUMS_STRIDE * (e)->probes * (e)->cascades)
 #define RAY_COUNT(e)   ((e)->probes * (e)->cascades * sdfgi_extent_probe_words(e))

@@ -64,6 +64,30 @@ uvec2 slices_bounds(uvec2 cells[8], int axis)
     return depths == 0u ? uvec2(0u) : uvec2(findLSB(depths), findMSB(depths));
 }
 
+/* Bits of the sub-voxels of a cell between two corners of its block, both included. `cell` is 0 or 1 along
+ * each axis. */
+uvec2 box_of_cell(uvec3 low, uvec3 high, uvec3 cell)
+{
+    const uvec3 along = ((uvec3(2u) << high) - (uvec3(1u) << low)) >> (4u * cell);
+    const uint row = along.x & 15u;
+    const uint layer =
+        row * (along.y & 1u | (along.y & 2u) << 3u | (along.y & 4u) << 6u | (along.y & 8u) << 9u);
+    return layer * (uvec2(along.z, along.z >> 2u) & 1u | (uvec2(along.z, along.z >> 2u) & 2u) << 15u);
+}
+
+/* The slice along an axis of a box between two corners of the block, both included. */
+uvec2 slice_of_box(int axis, uvec3 low, uvec3 high)
+{
+    uvec2 cells[8];
+    low[axis] = 0u;
+    high[axis] = 7u;
+    [[unroll]] for (uint i = SDFGI_ZERO; i < 8u; i++)
+    {
+        cells[i] = box_of_cell(low, high, uvec3(i & 1u, i >> 1u & 1u, i >> 2u));
+    }
+    return slice_of_block(cells, axis, 0);
+}
+
 /* Area of the cross-section of a sub-voxel's column along an axis, in squares of a sub-voxel's width. */
 float slices_column_area(int axis)
 {

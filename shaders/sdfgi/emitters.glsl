@@ -5,35 +5,9 @@
 #ifndef SDFGI_EMITTERS_GLSL
 #define SDFGI_EMITTERS_GLSL
 
-#include "surface.glsl"
+#include "emitter_shapes.glsl"
 #include "../include/sdfgi_trace.glsl"
 #include "../lib/light_pack.glsl"
-
-#ifdef SDFGI_WRITES_EMITTERS
-#define SDFGI_ACCESS_EMITTERS
-#else
-#define SDFGI_ACCESS_EMITTERS readonly
-#endif
-
-/* Per cascade: the number of listed emitters, and 1 if these are all; from word 8 on the list,
- * SDFGI_EMITTER_WORDS each, in the order of their blocks; from word SDFGI_EMITTERS_STRIDE on the shape of
- * each block that emits. */
-layout(std430, set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_EMITTERS) SDFGI_ACCESS_EMITTERS buffer sdfgi_emitters_buffer
-{
-    uint sdfgi_emitters[];
-};
-
-/* Word of the number of a cascade's emitters. */
-uint emitter_count_word(uint cascade)
-{
-    return cascade * (uint(SDFGI_EMITTERS_STRIDE) + sdfgi_albedo_block_count());
-}
-
-uint emitter_shape_word(uint cascade, uint block)
-{
-    return emitter_count_word(cascade) + uint(SDFGI_EMITTERS_STRIDE) + block;
-}
 
 /* The words of an emitter: its block, its shape, RGB9E5 radiance, what the two sides of each axis see of it,
  * together and the one less the other, as half floats, its power, and SDFGI_EMISSION_IS_BRIGHT. */
@@ -45,21 +19,6 @@ uint emitter_word(uint cascade, uint i)
 uint emitter_count(uint cascade)
 {
     return sdfgi_frame.emitter_samples != 0u ? sdfgi_emitters_at(emitter_count_word(cascade)) : 0u;
-}
-
-/* Bounds of sub-voxels in the block, both included, 3 bits per axis, and `fill` in 14 bits: the emitters' own
- * area over the sum of the areas that the block's six sides see. It is 1 for a level square or for a box, and
- * 2/3 for a sphere; more belongs to what no side sees. 0 stands for an emitter that its box does not
- * describe, and that is not to be listed. */
-uint emitter_shape_pack(uvec3 low, uvec3 high, float fill)
-{
-    return low.x | low.y << 3u | low.z << 6u | high.x << 9u | high.y << 12u | high.z << 15u |
-           uint(round(clamp(fill, 0.0, 1.0) * 16383.0)) << 18u;
-}
-
-float emitter_shape_fill(uint shape)
-{
-    return float(shape >> 18u) / 16383.0;
 }
 
 /* In the list `boxy` and `bent` take the place of `fill`, in 7 bits each. */
@@ -103,9 +62,9 @@ emitter emitter_load(uint cascade, uint i)
                shape = sdfgi_emitters_at(word + 1u);
     const vec3 corner = vec3(sdfgi_cell_from_texel(cascade, sdfgi_albedo_block_texel(block)));
     emitter e;
-    e.low = corner + vec3(uvec3(shape, shape >> 3u, shape >> 6u) & 7u) / float(SDFGI_SUBVOXELS);
-    e.high =
-        corner + vec3((uvec3(shape >> 9u, shape >> 12u, shape >> 15u) & 7u) + 1u) / float(SDFGI_SUBVOXELS);
+    const emitter_bounds bounds = emitter_shape_bounds(shape);
+    e.low = corner + vec3(bounds.low) / float(SDFGI_SUBVOXELS);
+    e.high = corner + vec3(bounds.high + 1u) / float(SDFGI_SUBVOXELS);
     e.radiance = uvec2(sdfgi_emitters_at(word + 2u), sdfgi_emitters_at(word + 7u));
     const vec2 x = unpackHalf2x16(sdfgi_emitters_at(word + 3u)),
                y = unpackHalf2x16(sdfgi_emitters_at(word + 4u)),

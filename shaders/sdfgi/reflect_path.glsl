@@ -4,6 +4,7 @@
 #ifndef SDFGI_REFLECT_PATH_GLSL
 #define SDFGI_REFLECT_PATH_GLSL
 
+#include "emitter_shapes.glsl"
 #include "metal.glsl"
 #include "../include/sdfgi_reflection.glsl"
 
@@ -37,6 +38,18 @@ vec3 leg_end(reflect_leg leg, sdfgi_trace_hit hit)
     const vec3 at =
         sdfgi_first_from_cascade(leg.cascade, leg.from + sdfgi_cells_from_metric(leg.dir) * hit.distance);
     return sdfgi_cascade_from_first(hit.cascade, at) - 0.01 * vec3(sdfgi_axis_direction(hit.axis));
+}
+
+/* What the surface at the end of a leg emits: it alone, where the side of a block shows others as well. */
+vec3 end_emission(reflect_leg leg, sdfgi_trace_hit hit, uint block)
+{
+    const vec3 emission = sdfgi_block_emission(block, hit.axis);
+    if (sdfgi_frame.emitter_samples == 0u || emission == vec3(0.0))
+        return emission;
+    const vec3 from_corner = leg_end(leg, hit) - vec3(hit.solid & ~1);
+    const uvec3 subvoxel = uvec3(clamp(from_corner * float(SDFGI_SUBVOXELS), 0.0, 7.0));
+    const uint word = emitter_shape_word(hit.cascade, block - hit.cascade * sdfgi_albedo_block_count());
+    return emission * emitter_gain(word, subvoxel, hit.axis);
 }
 
 /* The leg that goes on from metal, after `length_m`. `point` chooses its direction: see metal_direction. */
@@ -146,7 +159,7 @@ reflect_found reflect_trace(vec3 pos_first, vec3 normal, vec3 dir, uint point)
             continue;
         const uint block = sdfgi_block_index(hit.cascade, hit.solid);
         if (sdfgi_surfaces_emit())
-            found.light += leg.share * albedo_unpack(leg.albedo) * sdfgi_block_emission(block, hit.axis);
+            found.light += leg.share * albedo_unpack(leg.albedo) * end_emission(leg, hit, block);
         goes_on = !leg.beyond_metal && surface_metal(block) != 0u;
         if (goes_on)
             leg = leg_beyond(leg, hit, block, length_m, point);

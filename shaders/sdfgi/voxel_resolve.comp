@@ -11,7 +11,7 @@
 #include "accumulators.glsl"
 #include "block_slices.glsl"
 #include "dirty_bounds.glsl"
-#include "emitters.glsl"
+#include "emitter_shapes.glsl"
 #include "surface.glsl"
 #include "surface_front.glsl"
 #include "workgroup.glsl"
@@ -176,6 +176,9 @@ uint resolve_normals(uint block, uint samples)
 uvec2 block_bits[8];
 uvec2 block_emissive[8];
 uvec2 block_facing[3][8];
+/* Of those that emit, and the slice of the box around them along each axis. */
+emitter_bounds block_bounds;
+uvec2 block_box[3];
 
 /* What one side of the block shows. */
 struct side_view {
@@ -183,6 +186,7 @@ struct side_view {
     uint emits;   /* those that meet what emits along them */
     uint walls;   /* those that meet what emits, but along other axes */
     uint reaches; /* those that would meet what emits along them if nothing but walls were there */
+    uint inside;  /* those that meet something within the bounds of what emits */
     float depth;  /* mean depth behind the side, in sub-voxels, of what emits */
 };
 
@@ -193,7 +197,7 @@ side_view view_from(uint side)
 {
     const int axis = int(side >> 1u);
     uvec2 hidden = uvec2(0u), facing = uvec2(0u), walls = uvec2(0u);
-    uint emits = 0u, depths = 0u;
+    uint emits = 0u, inside = 0u, depths = 0u;
     [[unroll]] for (int i = int(SDFGI_ZERO); i < 8; i++)
     {
         const int depth = (side & 1u) == 0u ? 7 - i : i;
@@ -201,12 +205,14 @@ side_view view_from(uint side)
                     faces = slice_of_block(block_facing[axis], axis, depth);
         const uint count = slice_count(first & faces);
         emits += count;
+        const bool within = uint(depth) >= block_bounds.low[axis] && uint(depth) <= block_bounds.high[axis];
+        inside += within ? slice_count(first & block_box[axis]) : 0u;
         depths += count * uint(i);
         hidden |= first;
         facing |= faces;
         walls |= first & slice_of_block(block_emissive, axis, depth) & ~faces;
     }
-    return side_view(slice_count(hidden), emits, slice_count(walls), slice_count(facing & ~walls),
+    return side_view(slice_count(hidden), emits, slice_count(walls), slice_count(facing & ~walls), inside,
                      float(depths) / float(max(emits, 1u)));
 }
 
@@ -229,12 +235,27 @@ void load_block(ivec3 first)
     }
 }
 
+void load_bounds()
+{
+    [[unroll]] for (int axis = int(SDFGI_ZERO); axis < 3; axis++)
+    {
+        const uvec2 ends = slices_bounds(block_emissive, axis);
+        block_bounds.low[axis] = ends.x;
+        block_bounds.high[axis] = ends.y;
+    }
+    [[unroll]] for (int axis = int(SDFGI_ZERO); axis < 3; axis++)
+    {
+        block_box[axis] = slice_of_box(axis, block_bounds.low, block_bounds.high);
+    }
+}
+
 /* What the six sides show of an emitter. */
 struct emitter_view {
     float areas[6];  /* that emit, in columns */
     float depths[6]; /* as in side_view */
     float largest;   /* of the areas */
     float projected; /* sum of the areas, in squares of a sub-voxel's width */
+    uint inside;     /* the shares of lines that end within the emitter's bounds: emitter_share_pack */
 };
 
 /* Area of the triangles that face a side, in columns. They cover their sub-voxels in part. */
@@ -243,62 +264,65 @@ float facing_area(uint block, uint side)
     return float(accumulated(SDFGI_ACCUM_EMISSION_SIDES + side, block)) / SDFGI_AREA_STEPS;
 }
 
-/* The share of what a side sees that emits. Of lines that meet an emitter its area covers a part: at most all
- * of it, however many layers lie there. Where a wall that emits stands on a floor that emits everywhere,
- * lines through the wall see no face, and what is in the room never sees along them: they do not count. */
-float share_that_emits(float area, side_view shown)
+/* Of lines that meet an emitter its area covers a part: at most all of it, however many layers lie there. */
+float covered_part(float area, side_view shown)
 {
-    const float covered = min(area / float(max(shown.reaches, 1u)), 1.0);
-    const float walls = float(shown.walls) * clamp(10.0 * covered - 9.0, 0.0, 1.0);
-    return covered * float(shown.emits) / max(float(shown.seen) - walls, 1.0);
+    return min(area / float(max(shown.reaches, 1u)), 1.0);
+}
+
+/* Where a wall that emits stands on a floor that emits everywhere, lines through the wall see no face, and
+ * what is in the room never sees along them: they do not count. */
+float lines_along_walls(float covered, side_view shown)
+{
+    return float(shown.walls) * clamp(10.0 * covered - 9.0, 0.0, 1.0);
 }
 
 /* True if an emitter fills its box badly: it lies deep behind a face, like a room's corner in which floor and
  * walls emit. */
-bool is_hollow(emitter_view view, uvec3 low, uvec3 high)
+bool is_hollow(emitter_view view)
 {
     bool hollow = false;
     [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
-        const uint axis = side >> 1u, face = (side & 1u) == 0u ? 7u - high[axis] : low[axis];
+        const uint axis = side >> 1u,
+                   face = (side & 1u) == 0u ? 7u - block_bounds.high[axis] : block_bounds.low[axis];
         const float behind = view.depths[side] - float(face),
-                    half_width = 0.5 * float(high[axis] - low[axis] + 1u);
+                    half_width = 0.5 * float(block_bounds.high[axis] - block_bounds.low[axis] + 1u);
         hollow = hollow || (view.areas[side] > 0.2 * view.largest && behind > half_width);
     }
     return hollow;
 }
 
-/* Where the block's emissive sub-voxels are, and the emitters' own area over what the sides show. */
+/* Where the block's emissive sub-voxels are, and what the sides show of them and of their surroundings. */
 void store_emitter_shape(uint block, ivec3 first, emitter_view view)
 {
     if (sdfgi_frame.emitter_samples == 0u)
         return;
-    uvec3 low, high;
-    [[unroll]] for (int axis = int(SDFGI_ZERO); axis < 3; axis++)
-    {
-        const uvec2 bounds = slices_bounds(block_emissive, axis);
-        low[axis] = bounds.x;
-        high[axis] = bounds.y;
-    }
     const float area = float(accumulated(SDFGI_ACCUM_EMISSION_AREA, block)) / SDFGI_AREA_STEPS;
-    const float fill = is_hollow(view, low, high) ? 0.0 : area / max(view.projected, 1e-6);
-    sdfgi_emitters[emitter_shape_word(args.cascade, sdfgi_albedo_block_index(args.cascade, first))] =
-        emitter_shape_pack(low, high, fill);
+    const float fill = is_hollow(view) ? 0.0 : area / max(view.projected, 1e-6);
+    const uint word = emitter_shape_word(args.cascade, sdfgi_albedo_block_index(args.cascade, first));
+    sdfgi_emitters[word] = emitter_shape_pack(block_bounds, fill);
+    sdfgi_emitters[word + 1u] = view.inside;
 }
 
 /* Emission of the brightest side, and the six sides relative to it, 5 bits each. */
 uvec2 resolve_emission(uint block, ivec3 first)
 {
     load_block(first);
+    load_bounds();
     emitter_view view;
     view.largest = view.projected = 0.0;
+    view.inside = 0u;
     float fractions[6], largest = 0.0, all_sides = 0.0;
     [[unroll]] for (uint side = SDFGI_ZERO; side < 6u; side++)
     {
         const side_view shown = view_from(side);
         const float facing = facing_area(block, side);
         all_sides += facing;
-        fractions[side] = share_that_emits(facing, shown);
+        const float covered = covered_part(facing, shown), along_walls = lines_along_walls(covered, shown),
+                    seen = max(float(shown.seen) - along_walls, 1.0);
+        fractions[side] = covered * float(shown.emits) / seen;
+        view.inside |= emitter_share_pack(max(float(shown.inside) - along_walls, 1.0) / seen, side);
         largest = max(largest, fractions[side]);
         view.areas[side] = fractions[side] * float(shown.seen);
         view.depths[side] = shown.depth;

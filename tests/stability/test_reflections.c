@@ -273,6 +273,53 @@ static void a_mirror_close_below_a_lamp_shows_it(void **state)
     REQUIRE_NEAR(gi_test_half(texel[0][1]), 1, 0.03);
 }
 
+/* A lamp and what is black, in one block of cells above the mirror: beside each other, and one behind the
+ * other. */
+static const struct lamp_and_black {
+    double lamp[2][3], black[2][3];
+} lamps_and_black[] = {
+    { { { 0, 0, 0 }, { 0.1875, 0.25, 0.5 } }, { { 0.1875, 0, 0 }, { 0.5, 0.25, 0.5 } } },
+    { { { 0, 0, 0.3125 }, { 0.5, 0.5, 0.5 } }, { { 0, 0, 0 }, { 0.5, 0.5, 0.3125 } } },
+    { { { 0.125, 0, 0.25 }, { 0.3125, 0.125, 0.5 } }, { { 0, 0.25, 0 }, { 0.5, 0.5, 0.5 } } },
+};
+
+/* Metres by which a place of the mirror lies within the sides of a box above it. */
+static double within(const double box[2][3], double x, double z)
+{
+    return fmin(fmin(x - box[0][0], box[1][0] - x), fmin(z - box[0][2], box[1][2] - z));
+}
+
+/* A side of a block has one emission, a mean. What the lamp has of it is known to 1/31 of its root. */
+static void a_mirror_tells_a_lamp_from_what_is_beside_it(void **state)
+{
+    struct gi_test *t = *state;
+    static uint16_t texels[ROW * ROW][4];
+    const struct sdfgi_settings settings = light_settings(32, 0.25f);
+    for (size_t k = 0; k < sizeof lamps_and_black / sizeof *lamps_and_black; k++) {
+        const struct lamp_and_black *scene = &lamps_and_black[k];
+        struct mirror mirror;
+        double off = 0, black = 0;
+        gi_test_restart(t, &settings);
+        light_add_box(t, scene->lamp[0], scene->lamp[1], (float[]){ 0, 0, 0 }, 1);
+        light_add_box(t, scene->black[0], scene->black[1], (float[]){ 0, 0, 0 }, 0);
+        gi_test_update(t, 20);
+        mirror_open(&mirror, t, ROW, ROW, HALF_M);
+        look_along(&mirror, (float[]){ 0, -1, 0 });
+        mirror_read(&mirror, texels);
+        mirror_close(&mirror);
+        for (int i = 0; i < ROW * ROW; i++) {
+            const double inside = within(scene->lamp, ((i % ROW + 0.5) / ROW - 0.5) * 2 * (double)HALF_M,
+                                         ((i / ROW + 0.5) / ROW - 0.5) * 2 * (double)HALF_M);
+            const double light = (double)gi_test_half(texels[i][1]);
+            off = fmax(off, inside > 0.03 ? fabs(light - 1) : 0);
+            black = fmax(black, inside < -0.03 ? light : 0);
+        }
+        printf("a mirrored lamp is off by %.3f, what is beside it shows %.3f\n", off, black);
+        REQUIRE_CMP(off, <=, 0.07);
+        REQUIRE_CMP(black, <=, 0);
+    }
+}
+
 /* ---- Metal in mirrors */
 
 /* The ray goes up to a wall and from there, mirrored again, up to the sky. As long as the wall is matt, the
@@ -440,6 +487,7 @@ TEST_GROUP(reflections)
         cmocka_unit_test(hard_69_views_of_one_row_reflect),
         cmocka_unit_test(a_mirror_shows_no_cells_of_a_wall),
         cmocka_unit_test(a_mirror_close_below_a_lamp_shows_it),
+        cmocka_unit_test(a_mirror_tells_a_lamp_from_what_is_beside_it),
         cmocka_unit_test(metal_shows_in_a_mirror_what_it_reflects),
         cmocka_unit_test(facets_of_gloss_count_by_what_they_send),
         cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
