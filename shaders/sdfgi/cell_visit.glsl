@@ -5,6 +5,7 @@
 #ifndef SDFGI_CELL_VISIT_GLSL
 #define SDFGI_CELL_VISIT_GLSL
 
+#include "cell_states.glsl"
 #include "emitters.glsl"
 #include "gather_cycle.glsl"
 #include "metal.glsl"
@@ -117,27 +118,36 @@ bool looks_for_changes(uint own)
     return sdfgi_frame.changes_are_local != 0u && gathered_epochs_behind(cell_of(own).state) > 0u;
 }
 
-/* True if a ray, of so many cells of its cascade, crosses a place where geometry has changed. */
-bool crosses_edit(uint cascade, vec3 from, vec3 dir, float range)
+const float NO_EDIT = 1e30;
+
+/* Cells of its cascade from where a ray begins to the first place that it crosses where geometry has changed.
+ */
+float way_to_edit(uint cascade, vec3 from, vec3 dir)
 {
     const vec3 inv_dir = 1.0 / sdfgi_nonzero(sdfgi_cells_from_metric(dir));
-    bool crosses = false;
-    for (uint i = 0u; i < sdfgi_frame.edited_count && !crosses; i++) {
+    float nearest = NO_EDIT;
+    for (uint i = 0u; i < sdfgi_frame.edited_count; i++) {
         const vec3 low = sdfgi_cascade_from_first(cascade, vec3(sdfgi_frame.edited[i].low)) - from,
                    high = sdfgi_cascade_from_first(cascade, vec3(sdfgi_frame.edited[i].high)) - from;
         const vec3 a = low * inv_dir, b = high * inv_dir, near = min(a, b), far = max(a, b);
-        const float enters = max(max(near.x, near.y), max(near.z, 0.0)),
-                    leaves = min(far.x, min(far.y, far.z));
-        crosses = enters <= min(leaves, range + 1.0);
+        const float enters = max(max(near.x, near.y), max(near.z, 0.0));
+        if (enters <= min(far.x, min(far.y, far.z)))
+            nearest = min(nearest, enters);
     }
-    return crosses;
+    return nearest;
 }
 
-/* Wakes a cell if its ray crosses such a place. */
+/* Wakes a cell if its ray, so many cells long, gets as far as such a place. */
+void wake_within(uint own, float edit, float range)
+{
+    if (edit <= range + 1.0)
+        wake(own);
+}
+
 void wake_by_edit(uint cascade, uint own, vec3 from, vec3 dir, float range)
 {
-    if (looks_for_changes(own) && crosses_edit(cascade, from, dir, range))
-        wake(own);
+    if (looks_for_changes(own))
+        wake_within(own, way_to_edit(cascade, from, dir), range);
 }
 
 /* Wakes a cell if its ray has hit a surface whose light has changed. */
@@ -175,8 +185,13 @@ vec4 send_emitter_ray(uint cascade, ray_source source, uint index)
     const emitter_way way = emitter_way_to(source.pos, point.face);
     /* Rays at random start in the open, too: what they cannot meet does not count here either. */
     const float cosine = dot(source.normal, way.dir);
-    wake_by_edit(cascade, source.own, source.pos, way.dir, way.range);
-    if (light == vec3(0.0) || cosine <= 0.0 || !emitter_is_seen(cascade, chosen, source.pos, way))
+    if (light == vec3(0.0) || cosine <= 0.0)
+        return vec4(0.0);
+    /* Before the ray is traced, as less has to be kept then. */
+    const float edit = looks_for_changes(source.own) ? way_to_edit(cascade, source.pos, way.dir) : NO_EDIT;
+    const sdfgi_trace_hit hit = emitter_trace(cascade, chosen, source.pos, way);
+    wake_within(source.own, edit, hit.hit ? hit.distance : way.range);
+    if (hit.hit && !emitter_is_hit(chosen, hit, way.range))
         return vec4(0.0);
     const float share = share_of_emitter_rays(chosen, chance, way.dir, way.range, cosine);
     return vec4(light * (share / chance), 1.0);
@@ -264,6 +279,24 @@ vec4 send_random_ray(uint cascade, ray_source source, uint index)
     return vec4(light + share * leaving, 1.0);
 }
 
+/* ---- Emitters that have changed */
+
+/* Wakes the cell of a surface that sees a box around something that emits, or did. Few rays at random cross a
+ * small one. */
+void look_out(uint cascade, ray_source source)
+{
+    const uint i = sdfgi_random_hash(source.shift + source.visits) % sdfgi_frame.edited_emitter_count;
+    const vec3 low = sdfgi_cascade_from_first(cascade, vec3(sdfgi_frame.edited_emitters[i].low)),
+               high = sdfgi_cascade_from_first(cascade, vec3(sdfgi_frame.edited_emitters[i].high)),
+               place = sdfgi_random_r3(source.visits, source.shift);
+    const emitter_way way = emitter_way_to(source.pos, mix(low, high, place));
+    if (!looks_for_changes(source.own) || dot(source.normal, way.dir) <= 0.0)
+        return;
+    const sdfgi_trace_hit hit =
+        sdfgi_trace_solid(cascade, sdfgi_frame.cascade_count - 1u, source.pos, way.dir, way.range);
+    wake_by_edit(cascade, source.own, source.pos, way.dir, hit.hit ? hit.distance : way.range);
+}
+
 /* ---- A visit */
 
 /* Rays that a surface of a cell sends in a visit: at random, and towards emitters. */
@@ -274,6 +307,12 @@ struct visit_rays {
 visit_rays rays_times(uint cascade, uint times)
 {
     return visit_rays(RAYS * times, emitter_count(cascade) > 0u ? EMITTER_RAYS * times : 0u);
+}
+
+/* True if each surface sends one ray more, which looks out for emitters that have changed. */
+bool surfaces_look_out()
+{
+    return sdfgi_frame.changes_are_local != 0u && sdfgi_frame.edited_emitter_count > 0u;
 }
 
 visit_rays rays_of(uint cascade, uint own)
@@ -321,84 +360,10 @@ vec4 visit_mean(visit_light found)
                     variance_of_mean(sdfgi_light_luminance(found.emitters.rgb), found.squares.y, emitters));
 }
 
-bool is_new(gathered_state state)
-{
-    return state.mean == GATHERED_NOTHING && state.visits == 0u;
-}
-
 /* visited_cell::times_rays of a cell in a state. */
 uint times_rays_of(gathered_state state)
 {
     return state.mean < GATHERED_FIRST ? args.new_rays : 1u;
-}
-
-/* The state of a cell that is woken: a cycle begins anew. */
-gathered_state state_woken(gathered_state state)
-{
-    return gathered_state(0u, is_new(state) ? GATHERED_NOTHING : GATHERED_OUTDATED,
-                          sdfgi_frame.epoch & EPOCH_MASK, state.mark);
-}
-
-/* What a cell knows of light that has changed by this part counts as a visit. */
-const float DRIFT_OF_VISIT = 0.125;
-/* The same of lamps that flicker, whose mean goes to and fro. */
-const float FLICKER_OF_VISIT = 0.5;
-/* It counts as so many at most, and as one at least. */
-const float DRIFT_MOST_VISITS = 96.0;
-
-/* True if the light of a cell has drifted since it was last visited. While it drifts a cell lies back by an
- * epoch: its rays go on to look for what has changed in that. */
-bool has_drifted(gathered_state state)
-{
-    const uint behind = gathered_epochs_behind(state), since = sdfgi_frame.epoch - sdfgi_frame.epoch_of_drift;
-    return state.mean >= GATHERED_FIRST &&
-           since + (state.mean == GATHERED_DRIFTS ? 1u : 0u) < min(behind, EPOCHS_BACK);
-}
-
-/* The state of a cell that goes on from what it has shown. That counts as so many visits at most: the fewer,
- * the more may have changed. */
-gathered_state state_going_on(gathered_state state, float visits)
-{
-    const float most = clamp(visits, 1.0, DRIFT_MOST_VISITS),
-                shown = state.mean < GATHERED_FIRST ? min(float(state.visits), GATHERED_RECENT_VISITS)
-                                                    : gathered_shown_visits(state);
-    return gathered_state(0u, GATHERED_DRIFTS, state.epoch, uint(round(min(shown, most))));
-}
-
-/* That of one whose light has drifted. */
-gathered_state state_drifted(gathered_state state)
-{
-    const float change = sdfgi_frame.drift * float(gathered_epochs_behind(state));
-    return state_going_on(state, DRIFT_OF_VISIT / max(change, 1e-6));
-}
-
-/* Epochs for which light goes round corners, after a change that outdates what is known. */
-const uint LOCAL_CHANGE_EPOCHS = 6u;
-
-/* That of one which a change reaches. If lamps that flicker alone have changed, it goes on. */
-gathered_state state_reached(gathered_state state)
-{
-    const uint behind = max(gathered_epochs_behind(state), LOCAL_CHANGE_EPOCHS);
-    if (state.mean < GATHERED_FIRST && state.visits == 0u ||
-        sdfgi_frame.epoch - sdfgi_frame.epoch_of_local < behind)
-        return state_woken(state);
-    gathered_state reached = state_going_on(state, FLICKER_OF_VISIT / max(sdfgi_frame.flicker, 1e-6));
-    reached.epoch = sdfgi_frame.epoch & EPOCH_MASK;
-    return reached;
-}
-
-/* The state with which a visit begins, as far as it is known before the rays. `begins`: see visited_cell. */
-gathered_state state_of_visit(uint cascade, uint entry, out bool begins)
-{
-    gathered_state state = gathered_load_state(cascade, entry);
-    begins = is_new(state) || gathered_is_behind(state, sdfgi_frame.epoch_of_all) ||
-             gathered_epochs_behind(state) > EPOCHS_BACK;
-    /* Visited cells alone lie back for long. */
-    state.epoch = sdfgi_frame.epoch - min(gathered_epochs_behind(state), EPOCHS_BACK / 2u) & EPOCH_MASK;
-    if (begins)
-        return state_woken(state);
-    begins = has_drifted(state);
-    return begins ? state_drifted(state) : state;
 }
 
 /* Sum and mean with which a visit begins. Of a cycle that begins anew the mean is what the cell has shown. */

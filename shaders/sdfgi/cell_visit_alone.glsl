@@ -57,6 +57,8 @@ vec4 send_rays(uint cascade, ray_source source)
     for (uint ray = 0u; ray < rays.to_emitters; ray++)
         visit_add(light, kept(send_emitter_ray(cascade, source, source.visits * rays.to_emitters + ray)),
                   false);
+    if (surfaces_look_out())
+        look_out(cascade, source);
     return visit_mean(light);
 }
 

@@ -122,6 +122,8 @@ void send_rays(uint cascade)
         keep_ray(first_found(of_surface) + most.at_random + ray,
                  send_emitter_ray(cascade, source, source.visits * rays + ray));
     }
+    for (uint i = gl_LocalInvocationIndex; surfaces_look_out() && i < surface_count; i += THREADS)
+        look_out(cascade, source_of(cascade, surfaces[i]));
 }
 
 /* What the rays of a surface, the i-th, have found. */

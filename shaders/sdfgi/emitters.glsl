@@ -173,11 +173,17 @@ bool emitter_is_hit(emitter e, sdfgi_trace_hit hit, float range)
     return !hit.capped && hit.distance >= range - NEAR && ((hit.axis & 1u) == 0u ? net : -net) >= 0.0;
 }
 
-/* True if a ray meets the emitter, or nothing. It starts in the open, and leads through the emitter's box. */
-bool emitter_is_seen(uint cascade, emitter e, vec3 pos, emitter_way way)
+/* The ray to a point of an emitter. It starts in the open, and leads through the emitter's box. */
+sdfgi_trace_hit emitter_trace(uint cascade, emitter e, vec3 pos, emitter_way way)
 {
     const float beyond = length(sdfgi_metric_from_cells(e.high - e.low));
-    const sdfgi_trace_hit hit = sdfgi_trace_solid(cascade, cascade, pos, way.dir, way.range + beyond);
+    return sdfgi_trace_solid(cascade, cascade, pos, way.dir, way.range + beyond);
+}
+
+/* True if it meets the emitter, or nothing. */
+bool emitter_is_seen(uint cascade, emitter e, vec3 pos, emitter_way way)
+{
+    const sdfgi_trace_hit hit = emitter_trace(cascade, e, pos, way);
     return !hit.hit || emitter_is_hit(e, hit, way.range);
 }
 

@@ -95,13 +95,16 @@ struct sdfgi_frame_params {
     uint changes_are_local; /* 1: something has changed of late for some light cells alone */
     uint epoch_of_local;   /* the last one in which more than lamps that flicker had changed */
     float flicker;         /* by which part the mean of these lamps' light has changed of late */
-    uint padding_1, padding_2, padding_3;
+    uint edited_emitter_count; /* boxes in `edited_emitters` */
+    uint padding_1, padding_2;
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
     /* Around geometry that has changed in the last epochs, of cascade 0. They may lie beyond it. */
     SDFGI_STRUCT(sdfgi_dirty_box) edited[SDFGI_EDITED_BOXES];
+    /* Of these, around things that emit, or did. */
+    SDFGI_STRUCT(sdfgi_dirty_box) edited_emitters[SDFGI_EDITED_BOXES];
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params,
-                  SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 21 * 16 + 32 * SDFGI_EDITED_BOXES);
+                  SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 21 * 16 + 64 * SDFGI_EDITED_BOXES);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

@@ -328,20 +328,21 @@ static void a_box_inside_another_one_is_left_out(void **state)
     REQUIRE_CMP(journal.box_count, ==, 1u);
 }
 
-/* Lamps and geometry wake the cells that they reach. Whatever emits may wake all, and a sun that changes
- * much.
- */
+/* Lamps, geometry and what emits wake the cells that they reach, and a sun that changes much all of them.
+ * What emits outside the cascades wakes none. */
 static void a_journal_tells_which_cells_are_woken(void **state)
 {
     (void)state;
-    const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } };
+    const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } }, outside = { { 900, 0, 0 }, { 901, 1, 1 } };
+    const struct edited_places here = { { box }, 1 }, there = { { outside }, 1 };
     const struct {
         struct journal journal;
         bool begins, lights, all;
     } cases[] = {
         { { .boxes = { box }, .box_count = 1 }, true, false, false },
         { { .notes = JOURNAL_LAMPS, .lights = { 1, 0 } }, true, true, false },
-        { { .boxes = { box }, .box_count = 1, .notes = JOURNAL_EMITTERS }, true, true, true },
+        { { .boxes = { box }, .box_count = 1, .emitters = here }, true, true, false },
+        { { .boxes = { outside }, .box_count = 1, .emitters = there }, false, false, false },
         { { .drift = 0.01f }, true, false, false },
         { { .drift = 1, .lights = { 1, 1 } }, true, true, true },
         { { .drift = 0.01f, .notes = JOURNAL_LAMPS, .lights = { 2, 0 } }, true, true, false },
@@ -355,7 +356,20 @@ static void a_journal_tells_which_cells_are_woken(void **state)
         REQUIRE_CMP(volume.gathering.epoch_over, ==, cases[i].begins);
         REQUIRE_CMP(volume.gathering.lights_over, ==, cases[i].lights);
         REQUIRE_CMP(volume.gathering.all_over, ==, cases[i].all);
+        REQUIRE_CMP(volume.gathering.emitters.count, ==,
+                    cases[i].begins ? cases[i].journal.emitters.count : 0);
     }
+}
+
+static void before_the_first_frame_there_is_no_cell_to_wake(void **state)
+{
+    (void)state;
+    const struct journal lamp = { .notes = JOURNAL_LAMPS, .lights = { 1, 0 } };
+    struct volume_state fresh = { .cascades = { .count = 1, .resolution = N } };
+    sdfgi_gathering_init(&fresh.gathering);
+    sdfgi_volume_apply_journal(&lamp, &fresh);
+    REQUIRE_TRUE(fresh.gathering.all_over);
+    REQUIRE_CMP(fresh.gathering.local_epochs, ==, 0u);
 }
 
 int main(void)
@@ -376,6 +390,7 @@ int main(void)
         cmocka_unit_test(flat_boxes_in_one_plane_are_two),
         cmocka_unit_test(a_box_inside_another_one_is_left_out),
         cmocka_unit_test(a_journal_tells_which_cells_are_woken),
+        cmocka_unit_test(before_the_first_frame_there_is_no_cell_to_wake),
     };
     return cmocka_run_group_tests_name("changes", tests, NULL, NULL);
 }

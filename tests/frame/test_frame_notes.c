@@ -13,23 +13,29 @@ static void every_journal_of_a_scene_gets_all_notes(void **state)
 {
     (void)state;
     struct journal second = { 0 }, first = { .next = &second }, lit = { 0 };
-    const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } };
+    const struct box box = { { 0, 0, 0 }, { 1, 1, 1 } }, other = { { 2, 0, 0 }, { 3, 1, 1 } };
     sdfgi_journal_note_lamp(&lit, &(struct light_bits){ .changed = 1 }, 1);
     REQUIRE_TRUE(!sdfgi_journal_is_empty(&lit));
-    sdfgi_journal_note(&first, JOURNAL_EMITTERS);
+    sdfgi_journal_note(&first, JOURNAL_MATERIALS);
     sdfgi_journal_note_lamp(&first, &(struct light_bits){ .changed = 5, .moved = 4 }, 1);
     sdfgi_journal_note_lamp(&first, &(struct light_bits){ .changed = 4 }, 0.1f);
     sdfgi_journal_add_box(&first, &box);
+    sdfgi_journal_add_emitter(&first, &box);
+    sdfgi_journal_add_emitter(&first, &other);
     sdfgi_journal_clear(&first);
     REQUIRE_CMP(first.lights.changed | first.lights.moved, ==, 0u);
     REQUIRE_TRUE(sdfgi_journal_is_empty(&first) && first.next == &second);
+    REQUIRE_CMP(first.emitters.count, ==, 0u);
     REQUIRE_TRUE(!sdfgi_journal_is_empty(&second) && second.box_count == 1);
-    REQUIRE_CMP(second.notes, ==, (uint32_t)(JOURNAL_EMITTERS | JOURNAL_LAMPS));
+    REQUIRE_CMP(second.notes, ==, (uint32_t)(JOURNAL_MATERIALS | JOURNAL_LAMPS));
     REQUIRE_NEAR(second.flicker, 0.1f, 0);
-    const struct journal earlier = { .lights = { .changed = 2, .moved = 2 } };
+    REQUIRE_CMP(second.emitters.count, ==, 2u);
+    const struct journal earlier = { .lights = { .changed = 2, .moved = 2 },
+                                     .emitters = { { { { -2, 0, 0 }, { -1, 1, 1 } } }, 1 } };
     sdfgi_journal_prepend(&second, &earlier);
     REQUIRE_CMP(second.lights.changed, ==, 7u);
     REQUIRE_CMP(second.lights.moved, ==, 6u);
+    REQUIRE_CMP(second.emitters.count, ==, 3u);
 }
 
 /* Surfaces follow them in turn. One that changes more is noted as a lamp is. */

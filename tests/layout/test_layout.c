@@ -58,10 +58,11 @@
     X(sdfgi_frame_params, changes_are_local)                                                                 \
     X(sdfgi_frame_params, epoch_of_local)                                                                    \
     X(sdfgi_frame_params, flicker)                                                                           \
+    X(sdfgi_frame_params, edited_emitter_count)                                                              \
     X(sdfgi_frame_params, padding_1)                                                                         \
     X(sdfgi_frame_params, padding_2)                                                                         \
-    X(sdfgi_frame_params, padding_3)                                                                         \
     X(sdfgi_frame_params, edited)                                                                            \
+    X(sdfgi_frame_params, edited_emitters)                                                                   \
     X(sdfgi_frame_params, y_scale)                                                                           \
     X(sdfgi_frame_params, exposure)                                                                          \
     X(sdfgi_frame_params, exposure_inverse)                                                                  \

@@ -53,10 +53,18 @@ static void a_local_change_begins_an_epoch_for_those_that_it_reaches(void **stat
     REQUIRE_BYTES(&g.edited_last.boxes[0], &here, sizeof here);
     REQUIRE_BYTES(&g.edited_last.boxes[1], &there, sizeof there);
     REQUIRE_CMP(g.epoch_of_all, ==, 1u);
+    sdfgi_gathering_emitter(&g, &there);
+    sdfgi_gathering_emitter(&g, &here);
+    begin_epoch(&g);
+    REQUIRE_CMP(g.epoch_of_all, ==, 1u);
+    REQUIRE_CMP(g.edited_last.count, ==, 0u);
+    REQUIRE_CMP(g.emitters_last.count, ==, 2u);
+    REQUIRE_TRUE(sdfgi_gathering_changes_are_local(&g));
     sdfgi_gathering_change(&g, &here);
     sdfgi_gathering_outdate(&g);
     begin_epoch(&g);
-    REQUIRE_CMP(g.epoch_of_all, ==, 4u);
+    REQUIRE_CMP(g.epoch_of_all, ==, 5u);
+    REQUIRE_CMP(g.emitters_last.count, ==, 0u);
     REQUIRE_CMP(g.edited_last.count, ==, 1u);
     REQUIRE_BYTES(&g.edited_last.boxes[0], &here, sizeof here);
 }

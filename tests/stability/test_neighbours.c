@@ -70,14 +70,14 @@ static void look(struct stage *s, double x, float (*irradiance)[3])
                                             { 0, 1, 0 } };
     }
     gi_test_irradiance(&s->t, points, POINTS, irradiance);
-    for (int i = 0; i < POINTS; i++)
-        REQUIRE_TRUE(irradiance[i][1] > 0.01f);
 }
 
 /* The largest relative change of a point since `before`. */
 static double change(const struct stage *s)
 {
     double most = 0;
+    for (int i = 0; i < POINTS; i++)
+        REQUIRE_TRUE(s->before[i][1] > 0.01f);
     for (int i = 0; i < POINTS; i++)
         most = fmax(most, fabs((double)s->now[i][1] / (double)s->before[i][1] - 1));
     return most;
@@ -138,6 +138,23 @@ static void what_moves_next_door_changes_nothing_here(void **state)
     (void)state;
     REQUIRE_CMP(watch(&stage, "a box that moves next door", HERE_M, PERIOD, move), <=, 0.004);
     REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, stage.box), ==, (int)SDFGI_OK);
+}
+
+/* A small thing there emits, and does no more. */
+static void blink(struct stage *s, int step)
+{
+    const double x = THERE_M - 0.5;
+    if (step % 2)
+        REQUIRE_CMP((int)sdfgi_instance_destroy(s->t.gi, s->box), ==, (int)SDFGI_OK);
+    else
+        s->box = light_add_box(&s->t, (double[]){ x, 0.2, -0.4 }, (double[]){ x + 0.2, 0.4, -0.2 },
+                               (float[]){ 0, 0, 0 }, 20);
+}
+
+static void what_emits_next_door_changes_nothing_here(void **state)
+{
+    (void)state;
+    REQUIRE_CMP(watch(&stage, "a thing that emits next door", HERE_M, PERIOD, blink), <=, 0.004);
 }
 
 /* Two boxes walk, one in either room, a step at a time: there is no end to the places where something was. */
@@ -210,24 +227,26 @@ static void the_lamp_is_seen_at_once_where_it_is(void **state)
     REQUIRE_CMP(mean, <=, 0.325);
 }
 
-/* Few rays cross the place of a small thing that has emitted: that it is gone wakes all cells. */
+/* Few rays at random cross the place of a small thing that emitted, far away in a hall: those that look out
+ * for it do. */
 static void a_small_lamp_that_is_gone_is_missed_at_once(void **state)
 {
     (void)state;
-    set_lamp(&stage, 0.01f);
-    const double x = THERE_M + 0.5;
-    const sdfgi_instance lamp = light_add_box(&stage.t, (double[]){ x, 0.6, 0.4 },
-                                              (double[]){ x + 0.05, 0.65, 0.45 }, (float[]){ 0, 0, 0 }, 2000);
+    const double centre[] = { 0, 0, 0 }, half[] = { 4.2, HALF_M, HALF_M };
+    start_anew(&stage);
+    light_add(&stage.t, test_mesh_room(centre, half, 0.3, test_rotation_none), 0.5f, 0);
+    const sdfgi_instance lamp = light_add_box(&stage.t, (double[]){ -3.6, 0.6, 0.4 },
+                                              (double[]){ -3.55, 0.65, 0.45 }, (float[]){ 0, 0, 0 }, 20000);
     gi_test_update(&stage.t, 60);
-    look(&stage, THERE_M, stage.before);
+    look(&stage, 3, stage.before);
     REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, lamp), ==, (int)SDFGI_OK);
     gi_test_update(&stage.t, 10);
-    look(&stage, THERE_M, stage.now);
     double most = 0;
+    look(&stage, 3, stage.now);
     for (int i = 0; i < POINTS; i++)
         most = fmax(most, (double)stage.now[i][1] / (double)stage.before[i][1]);
     printf("a small lamp is gone: %.4f of its light at most after ten frames\n", most);
-    REQUIRE_CMP(most, <=, 0.15);
+    REQUIRE_CMP(most, <=, 0.3);
 }
 
 /* ---- Round corners: a room of 4.8 m with walls across, and a lamp at one end */
@@ -342,6 +361,7 @@ TEST_GROUP(neighbours)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lamp_that_flickers_next_door_changes_nothing_here),
         cmocka_unit_test(what_moves_next_door_changes_nothing_here),
+        cmocka_unit_test(what_emits_next_door_changes_nothing_here),
         cmocka_unit_test(a_sun_that_turns_outside_changes_nothing_here),
         cmocka_unit_test(the_lamp_is_seen_at_once_where_it_is),
         cmocka_unit_test(a_small_lamp_that_is_gone_is_missed_at_once),

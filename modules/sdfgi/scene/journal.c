@@ -3,7 +3,15 @@
 
 #include "drift.h"
 
-#include "shaders/shared/constants.h"
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+void sdfgi_edited_places_add(struct edited_places *places, const struct box *box)
+{
+    sdfgi_box_list_join(places->boxes, &places->count, SDFGI_EDITED_BOXES, box);
+}
 
 uint32_t sdfgi_light_bit(uint32_t slot)
 {
@@ -26,11 +34,6 @@ static void note_light(struct journal *journals, const struct light_bits *bits)
 {
     for (struct journal *j = journals; j; j = j->next)
         sdfgi_light_bits_add(&j->lights, bits);
-}
-
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
 }
 
 void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *bits, float change)
@@ -74,6 +77,12 @@ void sdfgi_journal_add_box(struct journal *journals, const struct box *box)
         sdfgi_box_list_add(j->boxes, &j->box_count, JOURNAL_BOXES, box);
 }
 
+void sdfgi_journal_add_emitter(struct journal *journals, const struct box *box)
+{
+    for (struct journal *j = journals; j; j = j->next)
+        sdfgi_edited_places_add(&j->emitters, box);
+}
+
 bool sdfgi_journal_is_empty(const struct journal *journal)
 {
     return journal->notes == 0 && journal->drift == 0 && journal->lights.changed == 0 &&
@@ -92,6 +101,8 @@ void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlie
     add_suns(&journal->suns, &later.suns);
     for (uint32_t i = 0; i < later.box_count; i++)
         sdfgi_box_list_add(journal->boxes, &journal->box_count, JOURNAL_BOXES, &later.boxes[i]);
+    for (uint32_t i = 0; i < later.emitters.count; i++)
+        sdfgi_edited_places_add(&journal->emitters, &later.emitters.boxes[i]);
 }
 
 void sdfgi_journal_clear(struct journal *journal)
@@ -102,4 +113,5 @@ void sdfgi_journal_clear(struct journal *journal)
     journal->lights = (struct light_bits){ 0 };
     journal->suns = (struct sun_drift){ .most = 0 };
     journal->box_count = 0;
+    journal->emitters = (struct edited_places){ .count = 0 };
 }

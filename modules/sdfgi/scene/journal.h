@@ -5,13 +5,14 @@
 
 #include "core/box.h"
 
+#include "shaders/shared/constants.h"
+
 enum { JOURNAL_BOXES = 64 };
 
 enum journal_note {
     JOURNAL_MATERIALS = 1,  /* constants of materials that are shown */
     JOURNAL_EVERYTHING = 2, /* all that was voxelised is out of date */
-    JOURNAL_EMITTERS = 4,   /* something that emits has changed: its light may reach all */
-    JOURNAL_LAMPS = 8,      /* a light other than a sun has changed, and does not flicker */
+    JOURNAL_LAMPS = 4,      /* a light other than a sun has changed, and does not flicker */
 };
 
 /* Which lights have changed, a bit each of SDFGI_LIGHT_BITS. */
@@ -30,6 +31,15 @@ void sdfgi_light_bits_add(struct light_bits *bits, const struct light_bits *othe
 /* The bit of the light in a slot. Slots that are so far apart share one. */
 uint32_t sdfgi_light_bit(uint32_t slot);
 
+/* Where something has changed, at most so many boxes: those near each other become one. */
+struct edited_places {
+    struct box boxes[SDFGI_EDITED_BOXES]; /* world */
+    uint32_t count;
+};
+
+/* With no room left, places that are near each other become one. */
+void sdfgi_edited_places_add(struct edited_places *places, const struct box *box);
+
 struct journal {
     uint32_t notes;                  /* enum journal_note */
     struct light_bits lights;        /* that were made, changed or destroyed */
@@ -38,7 +48,8 @@ struct journal {
     float flicker;                   /* by which part the mean of a lamp that flickers changes, at most */
     struct box boxes[JOURNAL_BOXES]; /* world: geometry changed there. When they are full, boxes grow */
     uint32_t box_count;
-    struct journal *next; /* of the same scene */
+    struct edited_places emitters; /* of these, around things that emit */
+    struct journal *next;          /* of the same scene */
 };
 
 void sdfgi_journal_note(struct journal *journals, enum journal_note note);
@@ -48,6 +59,8 @@ void sdfgi_journal_note_lamp(struct journal *journals, const struct light_bits *
 void sdfgi_journal_note_sun(struct journal *journals, const struct light_bits *bits, float change);
 void sdfgi_journal_note_sky(struct journal *journals, float change);
 void sdfgi_journal_add_box(struct journal *journals, const struct box *box);
+/* Something in a box emits, or did. */
+void sdfgi_journal_add_emitter(struct journal *journals, const struct box *box);
 bool sdfgi_journal_is_empty(const struct journal *journal);
 /* Adds the entries of `earlier` before those of the journal. */
 void sdfgi_journal_prepend(struct journal *journal, const struct journal *earlier);

@@ -237,6 +237,6 @@ enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double b
     memcpy(box.max, box_max, sizeof box.max);
     sdfgi_journal_add_box(scene->journals, &box);
     if (scene->emissive > 0)
-        sdfgi_journal_note(scene->journals, JOURNAL_EMITTERS);
+        sdfgi_journal_add_emitter(scene->journals, &box);
     return SDFGI_OK;
 }

@@ -137,7 +137,7 @@ static void instance_changed(struct scene *scene, const struct instance *instanc
     const struct material *material = sdfgi_pool_get(&scene->materials, instance->desc.material.id);
     sdfgi_journal_add_box(scene->journals, &instance->bounds);
     if (material && sdfgi_scene_emits(&material->desc))
-        sdfgi_journal_note(scene->journals, JOURNAL_EMITTERS);
+        sdfgi_journal_add_emitter(scene->journals, &instance->bounds);
 }
 
 /* The instance is, or is no longer, what volumes hold where its bounds are. */

@@ -90,11 +90,16 @@ void sdfgi_cascade_outdate(struct cascade *cascade)
         cascade->place = CASCADE_OUTDATED;
 }
 
-bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box)
+bool sdfgi_cascade_overlaps(const struct cascade *cascade, uint32_t resolution, const struct box *box)
 {
     const struct cell_box whole = sdfgi_cell_box_whole(resolution);
     const struct box own = sdfgi_cascade_world_box(cascade, &whole);
-    if (cascade->place == CASCADE_UNPLACED || !sdfgi_box_overlaps(&own, box))
+    return cascade->place != CASCADE_UNPLACED && sdfgi_box_overlaps(&own, box);
+}
+
+bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box)
+{
+    if (!sdfgi_cascade_overlaps(cascade, resolution, box))
         return false;
     sdfgi_box_list_join(cascade->edits, &cascade->edit_count, SDFGI_MAX_CHANGES, box);
     return true;

@@ -95,6 +95,8 @@ struct box sdfgi_cascade_world_box(const struct cascade *cascade, const struct c
 
 /* Notes that everything stored is out of date. */
 void sdfgi_cascade_outdate(struct cascade *cascade);
+/* True if a box lies in a cascade, in part at least. */
+bool sdfgi_cascade_overlaps(const struct cascade *cascade, uint32_t resolution, const struct box *box);
 /* Notes that geometry changed in a box. Returns false if the cascade has no cell there. */
 bool sdfgi_cascade_add_edit(struct cascade *cascade, uint32_t resolution, const struct box *box);
 

@@ -42,11 +42,6 @@ uint32_t sdfgi_gathering_new_rays(const struct gathering *gathering)
     return gathering->first_frames <= FIRST_FRAMES ? SDFGI_NEW_RAYS : 1;
 }
 
-void sdfgi_edited_places_add(struct edited_places *places, const struct box *box)
-{
-    sdfgi_box_list_join(places->boxes, &places->count, SDFGI_EDITED_BOXES, box);
-}
-
 void sdfgi_gathering_outdate(struct gathering *gathering)
 {
     gathering->epoch_over = gathering->lights_over = true;
@@ -68,6 +63,12 @@ void sdfgi_gathering_change(struct gathering *gathering, const struct box *edite
     gathering->lights_over = gathering->lights_over || !edited;
     if (edited)
         sdfgi_edited_places_add(&gathering->edited, edited);
+}
+
+void sdfgi_gathering_emitter(struct gathering *gathering, const struct box *box)
+{
+    sdfgi_gathering_change(gathering, NULL);
+    sdfgi_edited_places_add(&gathering->emitters, box);
 }
 
 void sdfgi_gathering_flicker(struct gathering *gathering, float change)
@@ -154,7 +155,8 @@ static void begin_epoch(struct gathering *gathering)
     gathering->epoch_over = gathering->lights_over = gathering->all_over = false;
     gathering->drifted = gathering->flickered = 0;
     gathering->edited_last = gathering->edited;
-    gathering->edited.count = 0;
+    gathering->emitters_last = gathering->emitters;
+    gathering->edited = gathering->emitters = (struct edited_places){ .count = 0 };
 }
 
 void sdfgi_gathering_begin(struct gathering *gathering, uint64_t invalidations)

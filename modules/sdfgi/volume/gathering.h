@@ -12,8 +12,8 @@
 #define SDFGI_GATHERING_H
 
 #include "accumulation.h"
-#include "core/box.h"
 #include "relight.h"
+#include "scene/journal.h"
 
 struct gather_cursor {
     uint32_t next;          /* entry */
@@ -28,12 +28,6 @@ struct gather_cursor {
     uint32_t round;  /* of visits to watched cells: in each, other cells that rays hit have their turn */
     bool rough;      /* cycles are short, because the lights have changed */
     bool settled;
-};
-
-/* Where geometry has changed. */
-struct edited_places {
-    struct box boxes[SDFGI_EDITED_BOXES];
-    uint32_t count;
 };
 
 struct gathering {
@@ -53,10 +47,12 @@ struct gathering {
     float flicker;                    /* by which part the mean of lamps that flicker has changed of late, */
     float flickered;                  /* and since the epoch began */
     uint32_t local_epochs;            /* for which cells look for changes of lamps and geometry */
-    struct edited_places edited;      /* since the epoch began, */
+    struct edited_places edited;      /* geometry, since the epoch began, */
     struct edited_places edited_last; /* and in the one before */
-    uint32_t seen_frames;             /* since it was forgotten which cells were seen */
-    uint32_t first_frames;            /* that have taken cells since many of them were new, or were woken */
+    struct edited_places emitters;    /* things that emit, likewise */
+    struct edited_places emitters_last;
+    uint32_t seen_frames;    /* since it was forgotten which cells were seen */
+    uint32_t first_frames;   /* that have taken cells since many of them were new, or were woken */
     uint32_t hit_turns_log2; /* each cell that rays hit has its turn once in 2^hit_turns_log2 rounds */
 };
 
@@ -82,8 +78,6 @@ void sdfgi_gathering_init(struct gathering *gathering);
 void sdfgi_gathering_restart(struct gathering *gathering);
 /* Times as many rays as others new and woken cells send in this frame. */
 uint32_t sdfgi_gathering_new_rays(const struct gathering *gathering);
-/* With no room left, places that are near each other become one. */
-void sdfgi_edited_places_add(struct edited_places *places, const struct box *box);
 /* What all cells have gathered is outdated: sun or sky is another one, or everything. */
 void sdfgi_gathering_outdate(struct gathering *gathering);
 /* Sun or sky have changed by a part of their light. If that is small, cells go on from what they know. */
@@ -91,6 +85,8 @@ void sdfgi_gathering_drift(struct gathering *gathering, float change);
 /* Some have to gather anew: those whose rays meet what a lamp lights otherwise than before; or, if geometry
  * has changed in a box, those whose rays cross it. NULL: none has. */
 void sdfgi_gathering_change(struct gathering *gathering, const struct box *edited);
+/* Something in a box emits, or did: those have to gather anew that see the box. */
+void sdfgi_gathering_emitter(struct gathering *gathering, const struct box *box);
 /* Lamps that flicker have changed; the mean of their light by a part of it. Cells that they reach go on from
  * what they know. */
 void sdfgi_gathering_flicker(struct gathering *gathering, float change);

@@ -172,19 +172,20 @@ static void fill_cycle(struct sdfgi_frame_params *p, const struct volume_state *
     p->rays_per_frame = keep ? old->rays_per_frame : rays;
 }
 
-/* Where geometry has changed. */
-static void fill_edited(struct sdfgi_frame_params *p, const struct volume_state *state)
+/* Where something has changed in this epoch, and in the last one. Returns the number of boxes. */
+static uint32_t fill_places(struct sdfgi_dirty_box boxes[static SDFGI_EDITED_BOXES],
+                            const struct cascade *finest, const struct edited_places *now,
+                            const struct edited_places *last)
 {
-    const struct gathering *gathering = &state->gathering;
-    struct edited_places places = gathering->edited;
-    for (uint32_t i = 0; i < gathering->edited_last.count; i++)
-        sdfgi_edited_places_add(&places, &gathering->edited_last.boxes[i]);
-    p->edited_count = places.count;
+    struct edited_places places = *now;
+    for (uint32_t i = 0; i < last->count; i++)
+        sdfgi_edited_places_add(&places, &last->boxes[i]);
     for (uint32_t i = 0; i < places.count; i++) {
-        const struct cell_box cells = cells_of_box(&state->cascades.at[0], &places.boxes[i], 0);
-        p->edited[i].low = cell_of(cells.low);
-        p->edited[i].high = cell_of(cells.high);
+        const struct cell_box cells = cells_of_box(finest, &places.boxes[i], 0);
+        boxes[i].low = cell_of(cells.low);
+        boxes[i].high = cell_of(cells.high);
     }
+    return places.count;
 }
 
 /* What has changed. It stays once light has converged, as in fill_cycle. */
@@ -195,6 +196,8 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
     if (state->accumulation.phase == LIGHTING_CONVERGED) {
         memcpy(p->edited, old->edited, sizeof p->edited);
         p->edited_count = old->edited_count;
+        memcpy(p->edited_emitters, old->edited_emitters, sizeof p->edited_emitters);
+        p->edited_emitter_count = old->edited_emitter_count;
         p->epoch = old->epoch;
         p->epoch_of_all = old->epoch_of_all;
         p->next_epoch = old->next_epoch;
@@ -205,7 +208,10 @@ static void fill_epoch(struct sdfgi_frame_params *p, const struct volume_state *
         p->changes_are_local = old->changes_are_local;
         return;
     }
-    fill_edited(p, state);
+    p->edited_count =
+        fill_places(p->edited, &state->cascades.at[0], &gathering->edited, &gathering->edited_last);
+    p->edited_emitter_count = fill_places(p->edited_emitters, &state->cascades.at[0], &gathering->emitters,
+                                          &gathering->emitters_last);
     p->epoch = gathering->epoch;
     p->epoch_of_all = gathering->epoch_of_all;
     p->next_epoch = sdfgi_gathering_next_epoch(gathering);

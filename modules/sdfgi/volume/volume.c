@@ -69,11 +69,46 @@ void sdfgi_volume_invalidate(struct volume *volume)
     sdfgi_accumulation_invalidate(&volume->undo.state.accumulation);
 }
 
+static bool overlaps_any(const struct cascades *cascades, const struct box *box)
+{
+    for (uint32_t c = 0; c < cascades->count; c++)
+        if (sdfgi_cascade_overlaps(&cascades->at[c], cascades->resolution, box))
+            return true;
+    return false;
+}
+
+/* True if no cascade has a place yet: all light cells will be new. */
+static bool none_is_placed(const struct cascades *cascades)
+{
+    for (uint32_t c = 0; c < cascades->count; c++)
+        if (cascades->at[c].place != CASCADE_UNPLACED)
+            return false;
+    return true;
+}
+
+/* Which cells the changes of a journal wake, but for those of geometry. */
+static void wake_cells(const struct journal *journal, const struct cascades *cascades,
+                       struct gathering *gathering)
+{
+    if (journal->notes & JOURNAL_EVERYTHING || none_is_placed(cascades)) {
+        sdfgi_gathering_outdate(gathering);
+        return;
+    }
+    for (uint32_t i = 0; i < journal->emitters.count; i++)
+        if (overlaps_any(cascades, &journal->emitters.boxes[i]))
+            sdfgi_gathering_emitter(gathering, &journal->emitters.boxes[i]);
+    if (journal->drift > 0)
+        sdfgi_gathering_drift(gathering, journal->drift);
+    if (journal->notes & JOURNAL_LAMPS)
+        sdfgi_gathering_change(gathering, NULL);
+    if (journal->flicker > 0)
+        sdfgi_gathering_flicker(gathering, journal->flicker);
+}
+
 void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_state *state)
 {
     bool invalidates =
         journal->lights.changed != 0 || journal->drift > 0 || journal->notes & JOURNAL_EVERYTHING;
-    const bool reaches_all = journal->notes & (JOURNAL_EVERYTHING | JOURNAL_EMITTERS);
     for (uint32_t c = 0; c < state->cascades.count; c++) {
         struct cascade *cascade = &state->cascades.at[c];
         if (journal->notes & JOURNAL_EVERYTHING)
@@ -87,14 +122,7 @@ void sdfgi_volume_apply_journal(const struct journal *journal, struct volume_sta
     if (!invalidates)
         return;
     sdfgi_accumulation_invalidate(&state->accumulation);
-    if (reaches_all)
-        sdfgi_gathering_outdate(&state->gathering);
-    else if (journal->drift > 0)
-        sdfgi_gathering_drift(&state->gathering, journal->drift);
-    if (journal->notes & JOURNAL_LAMPS)
-        sdfgi_gathering_change(&state->gathering, NULL);
-    if (journal->flicker > 0)
-        sdfgi_gathering_flicker(&state->gathering, journal->flicker);
+    wake_cells(journal, &state->cascades, &state->gathering);
 }
 
 void sdfgi_volume_note_content(const struct scene *scene, struct volume_state *state)
