@@ -8,6 +8,12 @@ enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_material_d
     return sdfgi_scene_material_create(&gi->scene, desc, out);
 }
 
+enum sdfgi_result sdfgi_material_update(sdfgi *gi, sdfgi_material material,
+                                        const struct sdfgi_material_desc *desc)
+{
+    return sdfgi_scene_material_update(&gi->scene, material, desc);
+}
+
 enum sdfgi_result sdfgi_material_destroy(sdfgi *gi, sdfgi_material material)
 {
     return sdfgi_scene_material_destroy(&gi->scene, material);

@@ -174,12 +174,14 @@ static void materials_are_checked(void **state)
 {
     (void)state;
     const struct sdfgi_material_desc good = { .albedo = { 0.5f, 0.5f, 0.5f } };
-    sdfgi_material out = { 77 };
+    sdfgi_material out = { 77 }, material;
+    REQUIRE_CMP((int)sdfgi_material_create(t.gi, &good, &material), ==, (int)SDFGI_OK);
 #define REFUSE(change)                                                                                       \
     do {                                                                                                     \
         struct sdfgi_material_desc d = good;                                                                 \
         change;                                                                                              \
         REQUIRE_INVALID(sdfgi_material_create(t.gi, &d, &out));                                              \
+        REQUIRE_INVALID(sdfgi_material_update(t.gi, material, &d));                                          \
         REQUIRE_CMP(out.id, ==, 77u);                                                                        \
     } while (0)
     REFUSE(d.specular_albedo = 1.01f);
@@ -197,9 +199,9 @@ static void materials_are_checked(void **state)
     REFUSE(d.albedo_texture.address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER);
     REFUSE(d.emission_texture.address_v = VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE);
 #undef REFUSE
-    REQUIRE_CMP((int)sdfgi_material_create(t.gi, &good, &out), ==, (int)SDFGI_OK);
-    REQUIRE_CMP((int)sdfgi_material_destroy(t.gi, out), ==, (int)SDFGI_OK);
-    REQUIRE_STALE(sdfgi_material_destroy(t.gi, out));
+    REQUIRE_CMP((int)sdfgi_material_destroy(t.gi, material), ==, (int)SDFGI_OK);
+    REQUIRE_STALE(sdfgi_material_destroy(t.gi, material));
+    REQUIRE_STALE(sdfgi_material_update(t.gi, material, &good));
     REQUIRE_STALE(sdfgi_material_destroy(t.gi, (sdfgi_material){ 0 }));
     REQUIRE_STALE(sdfgi_material_destroy(t.gi, (sdfgi_material){ UINT32_MAX }));
 }
@@ -454,14 +456,12 @@ static void messages_name_function_object_field_value_and_limit(void **state)
 static void frames_are_checked(void **state)
 {
     (void)state;
-    struct sdfgi_frame_desc f = { .camera_position = { NAN, 0, 0 } };
-    REQUIRE_INVALID(sdfgi_update(t.gi, VK_NULL_HANDLE, &f));
-    f = (struct sdfgi_frame_desc){ .origin = { 0, INFINITY, 0 } };
-    REQUIRE_INVALID(sdfgi_update(t.gi, VK_NULL_HANDLE, &f));
-    f = (struct sdfgi_frame_desc){ .exposure = -1 };
-    REQUIRE_INVALID(sdfgi_update(t.gi, VK_NULL_HANDLE, &f));
-    f = (struct sdfgi_frame_desc){ .exposure = NAN };
-    REQUIRE_INVALID(sdfgi_update(t.gi, VK_NULL_HANDLE, &f));
+    const struct sdfgi_frame_desc wrong[] = { { .camera_position = { NAN, 0, 0 } },
+                                              { .origin = { 0, INFINITY, 0 } },
+                                              { .exposure = -1 },
+                                              { .exposure = NAN } };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        REQUIRE_INVALID(sdfgi_update(t.gi, VK_NULL_HANDLE, &wrong[i]));
     /* Off, nothing is recorded: no command buffer is touched. */
     REQUIRE_CMP((int)sdfgi_update(t.gi, VK_NULL_HANDLE, &(struct sdfgi_frame_desc){ 0 }), ==, (int)SDFGI_OK);
     REQUIRE_CMP((int)sdfgi_gather(t.gi, VK_NULL_HANDLE, &(struct sdfgi_gather_desc){ 0 }), ==, (int)SDFGI_OK);

@@ -246,6 +246,26 @@ static void room_for_instances_comes_as_soon_as_there_is_memory(void **state)
     sdfgi_destroy(gi);
 }
 
+static void a_material_that_cannot_change_stays_as_it_was(void **state)
+{
+    (void)state;
+    const struct sdfgi_material_desc plain = { .albedo = { 1, 1, 1 } },
+                                     textured = { .albedo_texture = { .view = (VkImageView)(uintptr_t)1 } };
+    sdfgi *gi = create(SDFGI_VOXELIZER_COMPUTE, true);
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(gi, &plain, &material), ==, (int)SDFGI_OK);
+    const struct material *kept = sdfgi_pool_get(&gi->scene.materials, material.id);
+    for (uint32_t k = 1; k <= 3; k++) { /* a shader module, a pipeline, a sampler */
+        errors = 0;
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        REQUIRE_CMP((int)sdfgi_material_update(gi, material, &textured), ==, (int)SDFGI_ERROR_OUT_OF_MEMORY);
+        REQUIRE_CMP(errors, ==, 1u);
+        REQUIRE_TRUE(!kept->set && !kept->desc.albedo_texture.view && kept->desc.albedo[0] > 0);
+    }
+    failing_vulkan_reset(0, VK_SUCCESS);
+    sdfgi_destroy(gi);
+}
+
 /* A warning says what it costs; frames go on. */
 static void lists_of_emitters_can_be_done_without(void **state)
 {
@@ -365,6 +385,7 @@ TEST_GROUP(vulkan_failures)
         cmocka_unit_test(what_a_frame_found_out_can_be_done_without),
         cmocka_unit_test(light_rests_even_if_nothing_is_told_of_a_while),
         cmocka_unit_test(room_for_instances_comes_as_soon_as_there_is_memory),
+        cmocka_unit_test(a_material_that_cannot_change_stays_as_it_was),
         cmocka_unit_test(lists_of_emitters_can_be_done_without),
         cmocka_unit_test(switching_off_reset_and_cancel_call_nothing_that_can_fail),
         cmocka_unit_test(preparing_may_fail_anywhere),

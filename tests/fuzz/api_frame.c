@@ -231,7 +231,8 @@ static enum sdfgi_result stale_handle(struct api_world *w)
                                               .material = { stale_id(w, &w->materials) },
                                               .transform = transform };
     sdfgi_instance out;
-    switch (api_below(w, 7)) {
+    const struct sdfgi_material_desc material = api_random_material(&w->random);
+    switch (api_below(w, 8)) {
     case 0:
         return sdfgi_mesh_destroy(gi, (sdfgi_mesh){ stale_id(w, &w->meshes) });
     case 1:
@@ -243,6 +244,8 @@ static enum sdfgi_result stale_handle(struct api_world *w)
     case 4:
         return sdfgi_light_update(gi, (sdfgi_light){ stale_id(w, &w->lights) }, &light);
     case 5:
+        return sdfgi_material_update(gi, (sdfgi_material){ stale_id(w, &w->materials) }, &material);
+    case 6:
         return sdfgi_instance_set_transform(gi, (sdfgi_instance){ stale_id(w, &w->instances) }, &transform);
     default:
         return sdfgi_instance_create(gi, &desc, &out);

@@ -137,13 +137,21 @@ static bool is_used(const struct api_world *w, uint32_t material)
     return false;
 }
 
-static void toggle_material(struct api_world *w)
+static void change_material(struct api_world *w)
 {
     const uint32_t slot = api_below(w, API_MATERIALS);
-    if (!w->scene.materials[slot].live) {
+    const bool updates = w->scene.materials[slot].live && api_below(w, 2);
+    if (!w->scene.materials[slot].live || updates) {
         w->scene.materials[slot].desc = api_random_material(&w->random);
         if (api_below(w, 10) == 0)
             w->scene.materials[slot].desc.albedo_texture.view = w->device->texture.view;
+    }
+    if (updates) {
+        require_ok(
+            sdfgi_material_update(w->t->gi, w->scene.materials[slot].handle, &w->scene.materials[slot].desc));
+        return;
+    }
+    if (!w->scene.materials[slot].live) {
         require_ok(sdfgi_material_create(w->t->gi, &w->scene.materials[slot].desc,
                                          &w->scene.materials[slot].handle));
         w->scene.materials[slot].live = true;
@@ -351,7 +359,7 @@ static const struct {
     { "instance", 30, change_instance },
     { "mesh", 8, toggle_mesh },
     { "settings", 2, change_settings },
-    { "material", 8, toggle_material },
+    { "material", 8, change_material },
     { "instances", 12, change_instances },
     { "camera", 10, move_camera },
     { "invalidate", 3, invalidate },

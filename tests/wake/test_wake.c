@@ -274,7 +274,7 @@ static void fuzz_close(struct fuzz *f)
 
 /* ---- Tests */
 
-/* Fields of materials and meshes reach the library in one way, as new objects; so do properties that recreate
+/* Fields of materials and meshes reach the library as whole objects; so do properties that recreate
  * everything. Of those the first ones stand for all. */
 static bool is_telling(uint32_t row)
 {

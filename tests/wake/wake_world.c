@@ -186,25 +186,22 @@ static bool has_mesh(const struct wake_world *w, uint32_t instance, uint32_t mes
     return w->instance_exists[instance] && w->instances[instance].mesh.id == mesh;
 }
 
-/* Materials cannot go before their instances. */
-static void replace_material(const struct following *f, uint32_t m)
+/* Materials cannot go before their instances. They need not go either: `new_first` stands for an update. */
+static void change_material(const struct following *f, uint32_t m)
 {
     const sdfgi_material old = f->c->materials[m];
-    for (uint32_t i = 0; i < WAKE_INSTANCES && !f->new_first; i++)
+    if (f->new_first) {
+        OK(sdfgi_material_update(f->c->gi, old, &f->after->materials[m]));
+        return;
+    }
+    for (uint32_t i = 0; i < WAKE_INSTANCES; i++)
         if (has_material(f->before, i, m))
             OK(sdfgi_instance_destroy(f->c->gi, f->c->instances[i]));
-    if (!f->new_first)
-        OK(sdfgi_material_destroy(f->c->gi, old));
+    OK(sdfgi_material_destroy(f->c->gi, old));
     add_material(f->c, f->after, m);
     for (uint32_t i = 0; i < WAKE_INSTANCES; i++)
-        if (has_material(f->before, i, m)) {
-            const sdfgi_instance instance = f->c->instances[i];
+        if (has_material(f->before, i, m))
             add_instance(f->c, f->after, i);
-            if (f->new_first)
-                OK(sdfgi_instance_destroy(f->c->gi, instance));
-        }
-    if (f->new_first)
-        OK(sdfgi_material_destroy(f->c->gi, old));
 }
 
 /* Instances go with their mesh. */
@@ -314,7 +311,7 @@ void wake_context_follow(struct wake_context *c, struct wake_device *device, con
         change_light(&f, index);
         break;
     case WAKE_MATERIAL:
-        replace_material(&f, index);
+        change_material(&f, index);
         break;
     case WAKE_MESH:
         replace_mesh(&f, index);

@@ -17,6 +17,22 @@ static bool same_doubles(const double *a, const double *b, int count)
     return true;
 }
 
+static bool same_texture(const struct sdfgi_texture *a, const struct sdfgi_texture *b)
+{
+    return a->view == b->view && a->layout == b->layout && same_floats(a->uv_transform, b->uv_transform, 6) &&
+           a->address_u == b->address_u && a->address_v == b->address_v && a->decode_srgb == b->decode_srgb;
+}
+
+bool sdfgi_same_material(const struct sdfgi_material_desc *a, const struct sdfgi_material_desc *b)
+{
+    return same_floats(a->albedo, b->albedo, 3) && a->alpha == b->alpha &&
+           same_floats(a->emission, b->emission, 3) && a->alpha_cutoff == b->alpha_cutoff &&
+           a->double_sided_emission == b->double_sided_emission && a->smoothness == b->smoothness &&
+           a->specular_albedo == b->specular_albedo && a->metallic == b->metallic &&
+           same_texture(&a->albedo_texture, &b->albedo_texture) &&
+           same_texture(&a->emission_texture, &b->emission_texture);
+}
+
 bool sdfgi_same_transform(const struct sdfgi_transform *a, const struct sdfgi_transform *b)
 {
     return same_floats(a->basis, b->basis, 9) && same_doubles(a->translation, b->translation, 3);

@@ -6,6 +6,7 @@
 
 #include <sdfgi/sky.h>
 
+bool sdfgi_same_material(const struct sdfgi_material_desc *a, const struct sdfgi_material_desc *b);
 bool sdfgi_same_transform(const struct sdfgi_transform *a, const struct sdfgi_transform *b);
 /* The same surfaces, as far as it is bright enough. */
 bool sdfgi_same_reach(const struct sdfgi_light_desc *a, const struct sdfgi_light_desc *b);

@@ -136,6 +136,31 @@ void sdfgi_scene_material_shown(struct scene *scene, const struct sdfgi_material
     sdfgi_journal_note(scene->journals, JOURNAL_EVERYTHING);
 }
 
+/* What zero stands for is filled in. */
+static struct sdfgi_material_desc resolved(const struct sdfgi_material_desc *desc)
+{
+    struct sdfgi_material_desc material = *desc;
+    material.alpha = desc->alpha > 0 ? desc->alpha : 1;
+    return material;
+}
+
+/* The scene has a material, */
+static void count_in(struct scene *scene, const struct sdfgi_material_desc *desc)
+{
+    scene->emissive += sdfgi_scene_emits(desc);
+    scene->metals += sdfgi_scene_metal_kind(desc) > 0;
+    scene->smoothest = fmaxf(scene->smoothest, desc->smoothness);
+}
+
+/* or no longer has it. */
+static void count_out(struct scene *scene, const struct sdfgi_material_desc *desc)
+{
+    scene->emissive -= sdfgi_scene_emits(desc);
+    scene->metals -= sdfgi_scene_metal_kind(desc) > 0;
+    if (desc->smoothness >= scene->smoothest)
+        scene->smoothest = smoothest(scene);
+}
+
 enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
                                               sdfgi_material *out)
 {
@@ -146,17 +171,42 @@ enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct 
     struct material *material = sdfgi_pool_add(&scene->materials, &scene->backend->hooks, &id);
     if (!material)
         return sdfgi_check_out_of_slots(scene, "sdfgi_material_create", SDFGI_MAX_MATERIALS);
-    material->desc = *desc;
-    material->desc.alpha = desc->alpha > 0 ? desc->alpha : 1;
+    material->desc = resolved(desc);
     const VkResult result = sdfgi_scene_sets_material(scene, material);
     if (result != VK_SUCCESS) {
         sdfgi_pool_remove(&scene->materials, id);
         return sdfgi_message_vulkan(&scene->backend->hooks, result, "sdfgi_material_create");
     }
-    scene->emissive += sdfgi_scene_emits(desc);
-    scene->metals += sdfgi_scene_metal_kind(desc) > 0;
-    scene->smoothest = fmaxf(scene->smoothest, desc->smoothness);
+    count_in(scene, desc);
     out->id = id;
+    return SDFGI_OK;
+}
+
+enum sdfgi_result sdfgi_scene_material_update(struct scene *scene, sdfgi_material handle,
+                                              const struct sdfgi_material_desc *desc)
+{
+    static const char name[] = "sdfgi_material_update";
+    struct material *material = sdfgi_pool_get(&scene->materials, handle.id);
+    if (!material)
+        return sdfgi_check_unknown_handle(scene, name, handle.id);
+    const struct problem problem = sdfgi_check_material(desc);
+    if (problem.text[0])
+        return sdfgi_problem_report_of(&problem, &scene->backend->hooks, name, "material", handle.id);
+    const struct material before = *material;
+    struct material after = { .desc = resolved(desc), .users = before.users };
+    if (sdfgi_same_material(&before.desc, &after.desc))
+        return SDFGI_OK;
+    const VkResult result = sdfgi_scene_sets_material(scene, &after);
+    if (result != VK_SUCCESS)
+        return sdfgi_message_vulkan(&scene->backend->hooks, result, name);
+    sdfgi_scene_instances_leave(scene, handle);
+    sdfgi_scene_sets_retire(scene, before.set);
+    *material = after;
+    count_in(scene, &after.desc);
+    count_out(scene, &before.desc);
+    if (after.users > 0)
+        sdfgi_scene_material_shown(scene, &after.desc);
+    sdfgi_scene_instances_enter(scene, handle);
     return SDFGI_OK;
 }
 
@@ -180,13 +230,10 @@ enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_materi
         return sdfgi_check_unknown_handle(scene, "sdfgi_material_destroy", handle.id);
     if (material->users > 0)
         return still_used(scene, handle);
+    const struct sdfgi_material_desc desc = material->desc;
     sdfgi_scene_sets_retire(scene, material->set);
-    scene->emissive -= sdfgi_scene_emits(&material->desc);
-    scene->metals -= sdfgi_scene_metal_kind(&material->desc) > 0;
-    const bool was_smoothest = material->desc.smoothness >= scene->smoothest;
     sdfgi_pool_remove(&scene->materials, handle.id);
-    if (was_smoothest)
-        scene->smoothest = smoothest(scene);
+    count_out(scene, &desc);
     return SDFGI_OK;
 }
 

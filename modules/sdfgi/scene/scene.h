@@ -90,6 +90,8 @@ void sdfgi_scene_add_journal(struct scene *scene, struct journal *journal);
 /* The functions of sdfgi.h by the same names: they check what they are given. */
 enum sdfgi_result sdfgi_scene_material_create(struct scene *scene, const struct sdfgi_material_desc *desc,
                                               sdfgi_material *out);
+enum sdfgi_result sdfgi_scene_material_update(struct scene *scene, sdfgi_material material,
+                                              const struct sdfgi_material_desc *desc);
 enum sdfgi_result sdfgi_scene_material_destroy(struct scene *scene, sdfgi_material material);
 enum sdfgi_result sdfgi_scene_mesh_create(struct scene *scene, const struct sdfgi_mesh_desc *desc,
                                           sdfgi_mesh *out);
@@ -113,6 +115,9 @@ enum sdfgi_result sdfgi_scene_set_harmonics(struct scene *scene, const struct sd
 enum sdfgi_result sdfgi_scene_invalidate_box(struct scene *scene, const double box_min[static 3],
                                              const double box_max[static 3]);
 
+/* All instances of a material leave the volumes, to enter them again once the material is another one. */
+void sdfgi_scene_instances_leave(struct scene *scene, sdfgi_material material);
+void sdfgi_scene_instances_enter(struct scene *scene, sdfgi_material material);
 /* True if an instance that is in the volumes may touch the box. */
 bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
 /* A material has its first instance. One that nothing shows costs nothing, however bright it is. Sums of

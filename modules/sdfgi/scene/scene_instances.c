@@ -162,6 +162,25 @@ static void leave_volumes(struct scene *scene, uint32_t slot)
     instance_changed(scene, instance);
 }
 
+static void for_all_of(struct scene *scene, sdfgi_material material, void (*call)(struct scene *, uint32_t))
+{
+    for (uint32_t slot = 0; slot < scene->instances.end; slot++) {
+        const struct instance *instance = sdfgi_pool_at(&scene->instances, slot);
+        if (instance && instance->desc.material.id == material.id)
+            call(scene, slot);
+    }
+}
+
+void sdfgi_scene_instances_leave(struct scene *scene, sdfgi_material material)
+{
+    for_all_of(scene, material, leave_volumes);
+}
+
+void sdfgi_scene_instances_enter(struct scene *scene, sdfgi_material material)
+{
+    for_all_of(scene, material, enter_volumes);
+}
+
 /* ---- Life */
 
 /* There is room, and the description has been checked. */
