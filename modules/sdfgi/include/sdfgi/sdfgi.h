@@ -227,9 +227,9 @@ struct sdfgi_material_desc {
 SDFGI_API enum sdfgi_result sdfgi_material_create(sdfgi *gi, const struct sdfgi_material_desc *desc,
                                                   sdfgi_material *out);
 /* May be called in each frame: what is as before costs nothing. Else all that shows the material is voxelised
- * anew, as if it had moved, and its light follows as that of sdfgi_light_update does. To find it takes longer
- * the more instances there are, of all materials. Views of former textures must stay until the frames in
- * flight are over. If it fails the material stays as it was. */
+ * anew, as if it had moved, and light follows as after sdfgi_light_update. The time that the call takes grows
+ * with the number of all instances. Views of former textures must stay until the frames in flight are over.
+ * If the call fails, the material stays as it was. */
 SDFGI_API enum sdfgi_result sdfgi_material_update(sdfgi *gi, sdfgi_material material,
                                                   const struct sdfgi_material_desc *desc);
 /* Fails while an instance uses the material. */
