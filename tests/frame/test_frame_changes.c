@@ -343,6 +343,7 @@ static void a_journal_tells_which_cells_are_woken(void **state)
         { { .notes = JOURNAL_LAMPS, .lights = { 1, 0 } }, true, true, false },
         { { .boxes = { box }, .box_count = 1, .emitters = here }, true, true, false },
         { { .boxes = { outside }, .box_count = 1, .emitters = there }, false, false, false },
+        { { .boxes = { box, outside }, .box_count = 2, .emitters = there }, true, false, false },
         { { .drift = 0.01f }, true, false, false },
         { { .drift = 1, .lights = { 1, 1 } }, true, true, true },
         { { .drift = 0.01f, .notes = JOURNAL_LAMPS, .lights = { 2, 0 } }, true, true, false },
@@ -357,7 +358,7 @@ static void a_journal_tells_which_cells_are_woken(void **state)
         REQUIRE_CMP(volume.gathering.lights_over, ==, cases[i].lights);
         REQUIRE_CMP(volume.gathering.all_over, ==, cases[i].all);
         REQUIRE_CMP(volume.gathering.emitters.count, ==,
-                    cases[i].begins ? cases[i].journal.emitters.count : 0);
+                    cases[i].lights ? cases[i].journal.emitters.count : 0);
     }
 }
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * What a scene notes of lights that change (scene/journal.h), and by which part of their light they do
- * (scene/drift.h, scene/flicker.h). */
+ * (scene/drift.h, scene/flicker.h). Which materials are the same (scene/same.h). */
 #include "core/box.h"
 #include "require.h"
 #include "scene/drift.h"
 #include "scene/flicker.h"
 #include "scene/journal.h"
+#include "scene/same.h"
 
 #include <math.h>
 
@@ -254,6 +255,38 @@ static void a_habit_counts_frames(void **state)
     REQUIRE_NEAR(once.habit.restless, 1.0 / 3, 0.02);
 }
 
+/* Hosts push their materials in each frame: what is as before must not be voxelised anew, and nothing else
+ * may count as such. */
+static void each_field_makes_another_material(void **state)
+{
+    (void)state;
+    const struct sdfgi_material_desc before = { .albedo = { 0.5f, 0.4f, 0.3f }, .alpha = 1 };
+    struct sdfgi_material_desc after = before;
+    REQUIRE_TRUE(sdfgi_same_material(&before, &after));
+#define DIFFERS(change)                                                                                      \
+    do {                                                                                                     \
+        after = before;                                                                                      \
+        change;                                                                                              \
+        REQUIRE_TRUE(!sdfgi_same_material(&before, &after));                                                 \
+    } while (0)
+    DIFFERS(after.albedo[2] = 0.2f);
+    DIFFERS(after.alpha = 0.5f);
+    DIFFERS(after.emission[0] = 1);
+    DIFFERS(after.alpha_cutoff = 0.5f);
+    DIFFERS(after.double_sided_emission = true);
+    DIFFERS(after.smoothness = 1);
+    DIFFERS(after.specular_albedo = 0.1f);
+    DIFFERS(after.metallic = 1);
+    DIFFERS(after.albedo_texture.view = (VkImageView)(uintptr_t)1);
+    DIFFERS(after.emission_texture.view = (VkImageView)(uintptr_t)1);
+    DIFFERS(after.albedo_texture.layout = VK_IMAGE_LAYOUT_GENERAL);
+    DIFFERS(after.albedo_texture.uv_transform[5] = 1);
+    DIFFERS(after.albedo_texture.address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    DIFFERS(after.albedo_texture.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    DIFFERS(after.albedo_texture.decode_srgb = true);
+#undef DIFFERS
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +300,7 @@ int main(void)
         cmocka_unit_test(a_lamp_that_fades_changes_its_mean),
         cmocka_unit_test(a_lamp_may_be_brighter_than_floats_can_tell),
         cmocka_unit_test(a_habit_counts_frames),
+        cmocka_unit_test(each_field_makes_another_material),
     };
     return cmocka_run_group_tests_name("notes", tests, NULL, NULL);
 }
