@@ -169,6 +169,47 @@ static void a_sign_that_blinks_next_door_changes_nothing_here(void **state)
     REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, stage.box), ==, (int)SDFGI_OK);
 }
 
+/* Mean irradiance of a room's floor. */
+static double floor_light(struct stage *s, double x)
+{
+    double sum = 0;
+    look(s, x, s->now);
+    for (int i = 0; i < POINTS; i++)
+        sum += (double)s->now[i][1] / POINTS;
+    return sum;
+}
+
+/* A wall there becomes white: nothing moves, and no light is another one. */
+static void a_wall_that_is_painted_shows_within_few_frames(void **state)
+{
+    (void)state;
+    const struct sdfgi_material_desc white = { .albedo = { 0.9f, 0.9f, 0.9f } };
+    struct test_mesh wall =
+        test_mesh_box((double[]){ THERE_M - 1, 0, 0 }, (double[]){ 0.2, 1.2, 1.2 }, test_rotation_none);
+    const sdfgi_material paint =
+        gi_test_material(&stage.t, (float[]){ 0.05f, 0.05f, 0.05f }, (float[]){ 0, 0, 0 });
+    const sdfgi_instance painted = gi_test_add(&stage.t, &wall, paint);
+    double shown[WATCHED];
+    test_mesh_destroy(&wall);
+    gi_test_update(&stage.t, SETTLE);
+    const double dark = floor_light(&stage, THERE_M);
+    REQUIRE_CMP((int)sdfgi_material_update(stage.t.gi, paint, &white), ==, (int)SDFGI_OK);
+    for (int i = 0; i < WATCHED; i++) {
+        gi_test_update(&stage.t, 1);
+        shown[i] = floor_light(&stage, THERE_M);
+    }
+    gi_test_update(&stage.t, SETTLE);
+    const double bright = floor_light(&stage, THERE_M);
+    int frames = 0;
+    while (frames < WATCHED && shown[frames] < dark + 0.9 * (bright - dark))
+        frames++;
+    printf("a painted wall: light of %.4f, %.4f at last, nine tenths of that after %d frames\n", dark, bright,
+           frames + 1);
+    REQUIRE_CMP(bright, >, 1.2 * dark);
+    REQUIRE_CMP(frames + 1, <=, 15);
+    REQUIRE_CMP((int)sdfgi_instance_destroy(stage.t.gi, painted), ==, (int)SDFGI_OK);
+}
+
 /* Two boxes walk, one in either room, a step at a time: there is no end to the places where something was. */
 static void walk(struct stage *s, int step)
 {
@@ -374,6 +415,7 @@ TEST_GROUP(neighbours)
         cmocka_unit_test(a_lamp_that_flickers_next_door_changes_nothing_here),
         cmocka_unit_test(what_moves_next_door_changes_nothing_here),
         cmocka_unit_test(a_sign_that_blinks_next_door_changes_nothing_here),
+        cmocka_unit_test(a_wall_that_is_painted_shows_within_few_frames),
         cmocka_unit_test(a_sun_that_turns_outside_changes_nothing_here),
         cmocka_unit_test(the_lamp_is_seen_at_once_where_it_is),
         cmocka_unit_test(a_small_lamp_that_is_gone_is_missed_at_once),
