@@ -137,24 +137,28 @@ static bool is_used(const struct api_world *w, uint32_t material)
     return false;
 }
 
+static struct sdfgi_material_desc any_material(struct api_world *w)
+{
+    struct sdfgi_material_desc desc = api_random_material(&w->random);
+    if (api_below(w, 10) == 0)
+        desc.albedo_texture.view = w->device->texture.view;
+    return desc;
+}
+
 static void change_material(struct api_world *w)
 {
     const uint32_t slot = api_below(w, API_MATERIALS);
-    const bool updates = w->scene.materials[slot].live && api_below(w, 2);
-    if (!w->scene.materials[slot].live || updates) {
-        w->scene.materials[slot].desc = api_random_material(&w->random);
-        if (api_below(w, 10) == 0)
-            w->scene.materials[slot].desc.albedo_texture.view = w->device->texture.view;
-    }
-    if (updates) {
-        require_ok(
-            sdfgi_material_update(w->t->gi, w->scene.materials[slot].handle, &w->scene.materials[slot].desc));
-        return;
-    }
     if (!w->scene.materials[slot].live) {
+        w->scene.materials[slot].desc = any_material(w);
         require_ok(sdfgi_material_create(w->t->gi, &w->scene.materials[slot].desc,
                                          &w->scene.materials[slot].handle));
         w->scene.materials[slot].live = true;
+        return;
+    }
+    if (api_below(w, 2)) {
+        w->scene.materials[slot].desc = any_material(w);
+        require_ok(
+            sdfgi_material_update(w->t->gi, w->scene.materials[slot].handle, &w->scene.materials[slot].desc));
         return;
     }
     const enum sdfgi_result result = sdfgi_material_destroy(w->t->gi, w->scene.materials[slot].handle);

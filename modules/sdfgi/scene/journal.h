@@ -31,7 +31,7 @@ void sdfgi_light_bits_add(struct light_bits *bits, const struct light_bits *othe
 /* The bit of the light in a slot. Slots that are so far apart share one. */
 uint32_t sdfgi_light_bit(uint32_t slot);
 
-/* Where something has changed, at most so many boxes: those near each other become one. */
+/* Where something has changed. */
 struct edited_places {
     struct box boxes[SDFGI_EDITED_BOXES]; /* world */
     uint32_t count;

@@ -120,12 +120,12 @@ void sdfgi_scene_instances_leave(struct scene *scene, sdfgi_material material);
 void sdfgi_scene_instances_enter(struct scene *scene, sdfgi_material material);
 /* True if an instance that is in the volumes may touch the box. */
 bool sdfgi_scene_touches(const struct scene *scene, const struct box *box);
-/* A material has its first instance. One that nothing shows costs nothing, however bright it is. Sums of
- * emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times smaller. Only a material that is
- * brighter makes the unit larger, and no other makes it smaller again: all of the scene is voxelised anew for
- * that. */
 /* True if a material emits light. */
 bool sdfgi_scene_emits(const struct sdfgi_material_desc *desc);
+/* A material has its first instance, or is another one and has some. One that nothing shows costs nothing,
+ * however bright it is. Sums of emission hold SDFGI_EMISSION_MOST units and fractions of one 10^15 times
+ * smaller. Only a material that is brighter makes the unit larger, and no other makes it smaller again: all
+ * of the scene is voxelised anew for that. */
 void sdfgi_scene_material_shown(struct scene *scene, const struct sdfgi_material_desc *desc);
 /* The kind of metal from which rays go on towards what it reflects: 1 for mirrors, to 3; 0 for all else. */
 uint32_t sdfgi_scene_metal_kind(const struct sdfgi_material_desc *desc);
