@@ -51,7 +51,7 @@ enum sdfgi_result sdfgi_gather(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
     if (problem.text[0])
         return sdfgi_problem_report(&problem, &gi->backend.hooks, "sdfgi_gather");
     const struct work work = sdfgi_picture_work(desc);
-    VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, 0);
+    VkResult result = sdfgi_pipelines_require(&gi->backend, work.pass, PASS_PLAIN);
     struct sdfgi_view *view =
         result == VK_SUCCESS ? sdfgi_views_next(&gi->backend, &gi->views, &result) : NULL;
     if (!view)
@@ -134,11 +134,13 @@ static bool wants_reflections(const struct sdfgi *gi, const struct sdfgi_resolve
 static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct sdfgi_resolve_desc *desc,
                         enum pass gather)
 {
-    VkResult result = sdfgi_pipelines_require(&gi->backend, gather, 0);
-    if (result != VK_SUCCESS || !wants_reflections(gi, desc))
+    const bool reflects = wants_reflections(gi, desc), lobes = reflects && gi->volume.state.low_light;
+    VkResult result = sdfgi_pipelines_require(&gi->backend, gather, lobes ? PASS_LOBES : PASS_PLAIN);
+    if (result != VK_SUCCESS || !reflects)
         return result;
-    for (int i = PASS_REFLECT_TILES; i <= PASS_REFLECT_FILTER && result == VK_SUCCESS; i++)
-        result = sdfgi_pipelines_require(&gi->backend, (enum pass)i, 0);
+    for (int i = lobes ? PASS_REFLECT_LOBES : PASS_REFLECT_TILES; i <= PASS_REFLECT_FILTER; i++)
+        if (result == VK_SUCCESS)
+            result = sdfgi_pipelines_require(&gi->backend, (enum pass)i, PASS_PLAIN);
     return result == VK_SUCCESS ? sdfgi_view_add_reflection(&gi->backend, view) : result;
 }
 
@@ -149,16 +151,20 @@ static void clear_tiles(struct sdfgi *gi, const struct sdfgi_view *view)
     gpu_fill(rec, &view->tiles, 0, sizeof(uint32_t) * SDFGI_TILES_HEADER, 0);
 }
 
-/* The gather and the rays run side by side: each makes the reflections of other pixels. Rays come first, as
- * some of them take longest. */
+/* Answers of rough lobes and lists are made side by side. So are the gather and the rays, each of which makes
+ * the reflections of other pixels. Rays come first, as some of them take longest. */
 static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, struct work gather)
 {
     struct pass_recorder *rec = &gi->recorder;
     gather.args.gather.ray_step = sdfgi_picture_step(view->desc.reflection);
-    struct work tiles = gather, beside[2] = { gather, gather }, filter[2] = { gather, gather };
-    tiles.pass = PASS_REFLECT_TILES;
+    struct work first[2] = { gather, gather }, beside[2] = { gather, gather }, filter[2] = { gather, gather };
+    const bool lobes = gi->volume.state.low_light;
+    first[0].pass = lobes ? PASS_REFLECT_LOBES : PASS_REFLECT_TILES;
+    first[1].pass = PASS_REFLECT_TILES;
+    first[0].group = first[1].group = 2;
     beside[0].pass = PASS_REFLECT_RAYS;
     beside[0].group = beside[1].group = 1;
+    beside[1].variant = lobes ? PASS_LOBES : PASS_PLAIN;
     filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;
     filter[0].args.gather.filter_step = 1;
     filter[1].args.gather.filter_step = SDFGI_RAYS_SIDE;
@@ -168,7 +174,9 @@ static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, s
         gpu_image_to_general(&rec->gpu, &view->filtered, 1);
     }
     view->reflection_ready = true;
-    sdfgi_pass_record(rec, &tiles);
+    sdfgi_pass_begin_beside(rec, first, lobes ? 2 : 1);
+    for (int i = 0; i < (lobes ? 2 : 1); i++)
+        sdfgi_pass_record(rec, &first[i]);
     sdfgi_pass_begin_beside(rec, beside, 2);
     sdfgi_pass_record_indirect(rec, &beside[0], &view->tiles, sizeof(uint32_t) * SDFGI_TILES_RAYS);
     sdfgi_pass_record(rec, &beside[1]);

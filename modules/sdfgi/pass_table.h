@@ -5,7 +5,7 @@
  *
  * X(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)
  *   kind    COMPUTE: <shader>.comp; RASTER: <shader>.vert and .frag. _TEXTURED: a second variant for
- *           materials with textures
+ *           materials with textures; _LOBES: for light cells that keep from where they get their light
  *   unit    what its work counter counts: enum pass_unit in pass/pass_rows.h
  *   need    the condition of the scene that calls for it: frame/frame_needs.c
  *   phase   where in a frame it runs, in the order of the rows: enum pass_phase in pass/pass_rows.h. A row is
@@ -55,13 +55,13 @@
       CASCADE, cascade, 1, NONE, R(BITS) | R(SCRATCH), R(EMISSION) | R(EMITTERS))                            \
     X(LIGHT_MARK, COMPUTE, light_mark, CELLS, LIST, MARK, CREATED,                                           \
       LIGHT_BLOCKS, light_mark, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(LIGHT_CELLS) |           \
-      R(LIGHT_BLOCKS) | R(LIGHT) | R(SURFACES) | R(GATHERED) | R(INDIRECT) | R(DIRECT), R(MASKS) |           \
-      R(SCRATCH))                                                                                            \
+      R(LIGHT_BLOCKS) | R(LIGHT) | R(SURFACES) | R(GATHERED) | R(SEEN) | R(INDIRECT) | R(DIRECT),            \
+      R(MASKS) | R(SCRATCH))                                                                                 \
     X(PROBE_PLACE, COMPUTE, probe_place, PROBES, COMPLETE, PLACE, CREATED,                                   \
       PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE), R(PROBES) | R(COUNTERS))                              \
     X(LIGHT_LIST, COMPUTE, light_list, LIGHT_CELLS, LIST, LIST, CREATED,                                     \
       LIGHT_ROWS, cascade, SDFGI_GROUP_LINEAR, NONE, R(BITS), R(LIGHT) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) |  \
-      R(SURFACES) | R(GATHERED) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT) | R(DIRECT))                        \
+      R(SURFACES) | R(GATHERED) | R(SEEN) | R(SCRATCH) | R(COUNTERS) | R(INDIRECT) | R(DIRECT))              \
     X(LIGHT_DIRECT, COMPUTE, light_direct, LIGHT_CELLS, DIRECT, OWN, CREATED,                                \
       LIGHT_CELLS, light_direct, SDFGI_CELLS_OF_SURFACES, NONE, R(BITS) | R(DISTANCE) | R(LIGHTS) |          \
       R(ALBEDO) | R(NORMALS) | R(SCRATCH) | R(INDIRECT) | R(LIGHT_CELLS), R(DIRECT) | R(COUNTERS))           \
@@ -91,7 +91,7 @@
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
       ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)               \
       | R(INDIRECT) | R(EMITTERS), R(RAYS))                                                                  \
-    X(CELL_GATHER, COMPUTE, cell_gather, RAYS, CELLS, OWN, CREATED,                                          \
+    X(CELL_GATHER, COMPUTE_LOBES, cell_gather, RAYS, CELLS, OWN, CREATED,                                    \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(ALBEDO)    \
       | R(NORMALS) | R(EMISSION) | R(EMITTERS) | R(LIGHT_CELLS) | R(LIGHT_BLOCKS) | R(INDIRECT),             \
       R(SEEN) | R(GATHERED))                                                                                 \
@@ -106,12 +106,15 @@
       R(EMISSION) | R(INDIRECT), R(SUMS) | R(COUNTERS))                                                      \
     X(PROBE_BLEND, COMPUTE, probe_blend, PROBES, BLEND, BLEND, CREATED,                                      \
       ALL_PROBES, probe_blend, 1, NONE, R(PROBES), R(SUMS) | R(PREVIOUS) | R(IRRADIANCE) | R(COUNTERS))      \
-    X(GATHER, COMPUTE, gather, PIXELS, GATHER, OWN, DEMAND,                                                  \
+    X(GATHER, COMPUTE_LOBES, gather, PIXELS, GATHER, OWN, DEMAND,                                            \
       PIXELS, gather, SDFGI_GROUP_PIXELS, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |          \
-      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE) | V(REFLECTION))                     \
-    X(GATHER_SPARSE, COMPUTE, gather_sparse, PIXELS, GATHER_SPARSE, OWN, DEMAND,                             \
+      R(LIGHT_BLOCKS) | R(SURFACES) | V(TILES), R(SEEN) | R(COUNTERS) | V(DIFFUSE) | V(REFLECTION))          \
+    X(GATHER_SPARSE, COMPUTE_LOBES, gather_sparse, PIXELS, GATHER_SPARSE, OWN, DEMAND,                       \
       TILES, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) |                            \
-      R(LIGHT_BLOCKS) | R(SURFACES), R(SEEN) | R(COUNTERS) | V(DIFFUSE) | V(REFLECTION))                     \
+      R(LIGHT_BLOCKS) | R(SURFACES) | V(TILES), R(SEEN) | R(COUNTERS) | V(DIFFUSE) | V(REFLECTION))          \
+    X(REFLECT_LOBES, COMPUTE, reflect_lobes, PIXELS, ROUGH_LOBES, OWN, DEMAND,                               \
+      PIXELS, gather, SDFGI_GROUP_LOBES, VIEW, R(BITS) | R(LIGHT_BLOCKS) | R(SURFACES) | R(SEEN),            \
+      V(TILES))                                                                                              \
     X(REFLECT_TILES, COMPUTE, reflect_tiles, PIXELS, REFLECTIONS, OWN, DEMAND,                               \
       PIXELS, gather, SDFGI_GROUP_TILES, VIEW, 0, V(REFLECTION) | V(TILES))                                  \
     X(REFLECT_RAYS, COMPUTE, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                                 \

@@ -26,10 +26,17 @@ static uint32_t part_of(enum need need)
 {
     static const uint32_t parts[NEED_COUNT] = {
         [NEED_GATHER] = SDFGI_PREPARE_GATHER,           [NEED_GATHER_SPARSE] = SDFGI_PREPARE_GATHER,
-        [NEED_REFLECTIONS] = SDFGI_PREPARE_REFLECTIONS, [NEED_DEBUG_VIEW] = SDFGI_PREPARE_DEBUG,
-        [NEED_DEBUG_TIER] = SDFGI_PREPARE_DEBUG,
+        [NEED_REFLECTIONS] = SDFGI_PREPARE_REFLECTIONS, [NEED_ROUGH_LOBES] = SDFGI_PREPARE_REFLECTIONS,
+        [NEED_DEBUG_VIEW] = SDFGI_PREPARE_DEBUG,        [NEED_DEBUG_TIER] = SDFGI_PREPARE_DEBUG,
     };
     return parts[need];
+}
+
+/* True if light cells keep from where they get their light once a view has reflections. */
+static bool wants_low_light(const struct job *job)
+{
+    return (job->parts & SDFGI_PREPARE_REFLECTIONS) && job->settings.rough_lobes &&
+           sdfgi_settings_cycle_visits(&job->settings) > 0;
 }
 
 static bool wants_pipeline(const struct job *job, enum pass pass, uint32_t variant)
@@ -37,8 +44,10 @@ static bool wants_pipeline(const struct job *job, enum pass pass, uint32_t varia
     const struct pass_row *row = sdfgi_pass_row(pass);
     if (row->made == PASS_MADE_RASTER) /* made with its target */
         return false;
-    if (variant == 1)
+    if (variant != PASS_PLAIN && row->kind != PASS_KIND_COMPUTE_LOBES)
         return row->kind == PASS_KIND_COMPUTE_TEXTURED && (job->parts & SDFGI_PREPARE_TEXTURES);
+    if (variant != PASS_PLAIN && !wants_low_light(job))
+        return false;
     return row->made == PASS_MADE_CREATED ? sdfgi_pass_fits(pass, &job->settings)
                                           : (job->parts & part_of(row->need)) != 0;
 }
@@ -70,7 +79,7 @@ static bool fits(const struct resources *r, const struct job *job)
 {
     const bool emission = job->parts & SDFGI_PREPARE_EMISSION;
     return sdfgi_settings_change(&r->settings, &job->settings) != SETTINGS_ALL &&
-           (r->extent.emits || !emission);
+           (r->extent.emits || !emission) && (r->extent.low_light || !wants_low_light(job));
 }
 
 /* True if nothing is missing, room for instances included: the scene may have grown meanwhile. */
@@ -134,7 +143,8 @@ static enum sdfgi_result make_volume_object(struct sdfgi *gi, const struct job *
 {
     struct preparation *p = &gi->preparation;
     if (!p->making) {
-        const struct scene_extent scene = { job->instances, job->parts & SDFGI_PREPARE_EMISSION };
+        const struct scene_extent scene = { job->instances, job->parts & SDFGI_PREPARE_EMISSION,
+                                            wants_low_light(job) };
         const enum sdfgi_result begun =
             sdfgi_resources_begin(&gi->backend, &job->settings, scene, "sdfgi_prepare", &p->making);
         if (begun != SDFGI_OK)

@@ -144,6 +144,11 @@ static const struct row rows[] = {
         "rays for pixels that are smoother, and noise on the roughest",
         "Surfaces of this roughness and above send no rays: they reflect their irradiance. 0 switches rays "
         "off, and views make no reflections then."),
+    LIVE(rough_lobes, "sdfgi_rough_lobes", BOOL, 1, 0, 1, "", "",
+        "sheen on rough floors and walls: light at small angles that dielectrics reflect most",
+        "a lookup for each square of 4 x 4 pixels, and 24 bytes per light cell, where a view has reflections",
+        "Rough dielectrics reflect their light by where it comes from. Light cells keep that then, since a "
+        "view has asked for reflections. Off, rough surfaces reflect their irradiance."),
     RECREATE(sdf_method, "sdfgi_sdf_method", ENUM, SDFGI_SDF_EXACT, 0, 1, "", "exact,flood",
         "nothing: the two differ in kind",
         "flood oversteps by up to 0.14 cell, and its cost does not fall where a cascade is empty",

@@ -24,7 +24,8 @@
  * SURFACES                  irradiance per light cell and axis, in the order of the list, and as long
  * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits
  * SEEN                      which light cells gathers of pictures have read of late, and which light these;
- *                           then which of them the frame visits: see shared/seen.h
+ *                           then which of them the frame visits; and from where light cells get their
+ *                           light: see shared/seen.h
  * SEARCH                    where the distance search finds set bits, and which blocks it makes again
  * GATHERED                  what light cells gathered with rays of their own, in the order of the list
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes; behind the
@@ -89,8 +90,9 @@
 /* None where light cells read probes alone; a binding needs a word. */
 #define GATHERED_COUNT(e) \
     ((e)->gathers ? SDFGI_GATHERED_WORDS * ENTRY_COUNT(e) + SDFGI_COUNTER_COUNT - SDFGI_COUNTER_GATHER : 1)
-#define SEEN_COUNT(e) \
-    ((e)->gathers ? sdfgi_seen_end((uint32_t)(e)->light_cells, (uint32_t)(e)->cascades) : 1)
+#define SEEN_COUNT(e)                                                                            \
+    ((e)->gathers                                                                                \
+         ? sdfgi_seen_end((uint32_t)(e)->light_cells, (uint32_t)(e)->cascades, (e)->low_light) : 1)
 /* None where nothing emits. */
 #define EMITTER_COUNT(e) ((e)->emits ? (SDFGI_EMITTERS_STRIDE + 2 * (e)->blocks) * (e)->cascades : 1)
 #define TEXEL_COUNT(e) (SDFGI_IRRADIANCE_COUNT * (e)->probes * (e)->cascades)

@@ -22,7 +22,13 @@ static uint32_t threads_per_ray(const struct gpu_device *device)
     return device->is_cpu ? 1 : SDFGI_GROUP_SURFACES;
 }
 
-static struct frame_input frame_input(struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
+/* True if rough surfaces of a view are to reflect light by where it comes from. */
+static bool wants_low_light(const struct sdfgi *gi)
+{
+    return gi->settings.rough_lobes && sdfgi_views_reflect(&gi->views);
+}
+
+static struct frame_input frame_input(struct sdfgi *gi, const struct sdfgi_frame_desc *desc, bool low_light)
 {
     return (struct frame_input){ .state = &gi->volume.state,
                                  .desc = desc,
@@ -33,6 +39,7 @@ static struct frame_input frame_input(struct sdfgi *gi, const struct sdfgi_frame
                                  .counters = gi->volume.feedback.counters,
                                  .lists = sdfgi_volume_light_lists(&gi->volume),
                                  .gaps = gi->volume.gaps,
+                                 .low_light = low_light,
                                  .starts_in_parts = sdfgi_preparation_keeps(gi),
                                  .threads_per_ray = threads_per_ray(&gi->backend.device),
                                  .software = gi->backend.software };
@@ -114,10 +121,11 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
         return read;
     sdfgi_volume_make_room(&gi->volume);
     sdfgi_volume_add_emitters(&gi->volume, gi->scene.emissive > 0);
+    const bool low_light = wants_low_light(gi) && sdfgi_volume_add_low_light(&gi->volume);
     sdfgi_volume_add_instances(&gi->volume, &gi->scene);
 
     /* Decide what this frame does. */
-    const struct frame_input input = frame_input(gi, desc);
+    const struct frame_input input = frame_input(gi, desc, low_light);
     sdfgi_frame_plan(&gi->frame, &input);
 
     /* Record it. */

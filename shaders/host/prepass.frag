@@ -24,6 +24,7 @@ void main()
     if (material_has(HOST_MATERIAL_MASK) && material_base_color(in_uv, in_color).a < material.surface.w)
         discard;
     const bool front_facing = gl_FrontFacing == (push.params.x > 0.0);
-    const float roughness = material_has(HOST_MATERIAL_LAMBERT) ? 1.0 : material_surface(in_uv).y;
+    const vec2 surface = material_has(HOST_MATERIAL_LAMBERT) ? vec2(0.0, 1.0) : material_surface(in_uv).xy;
+    const float roughness = surface.x > 0.5 ? -surface.y : surface.y; /* of metal below 0, as views want it */
     out_normal = vec4(material_normal(in_uv, in_normal, in_tangent, front_facing), roughness);
 }

@@ -84,10 +84,13 @@ const uint SDFGI_CELLS_ARRIVING = 0u;
 const uint SDFGI_CELLS_LEAVING = 1u;
 
 /* The light of the surface of a light cell that faces an axis, times weight, in rgb; its weight in a, which
- * is 0 where there is none. */
+ * is 0 where there is none. A pass with SDFGI_ROUGH_LOBES gets what its lobe answers to that. */
 vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, float weight, uint what)
 {
     const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces_at(index);
+#ifdef SDFGI_ROUGH_LOBES
+    return sdfgi_lobe_answer_of_surface(index, arriving, axis, weight);
+#endif
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING) {
         const float counts = arriving == SDFGI_SURFACE_NONE ? 0.0 : weight;

@@ -51,11 +51,17 @@ vec3 sdfgi_lookup_position(vec3 position)
     return sdfgi_first_from_position(dot(position, position) < 1e30 ? position : vec3(1e15));
 }
 
+/* The way to the viewer in cell widths of a cascade, as far as a lookup goes. */
+vec3 sdfgi_lookup_eye(uint cascade, vec3 to_eye)
+{
+    const float reach_m = length(to_eye) / SDFGI_CELLS_REACH;
+    return to_eye / max(reach_m, sdfgi_frame.cascades[cascade].cell_m);
+}
+
 /* Light times exposure and weight in rgb, and its weight in a, of one cascade. */
 vec4 sdfgi_lookup_cascade(uint cascade, vec3 pos, sdfgi_lookup_query query)
 {
-    const float reach_m = length(query.to_eye) / SDFGI_CELLS_REACH;
-    const vec3 eye = query.to_eye / max(reach_m, sdfgi_frame.cascades[cascade].cell_m);
+    const vec3 eye = sdfgi_lookup_eye(cascade, query.to_eye);
     vec4 light =
         sdfgi_cells_lookup(cascade, pos, query.normal, eye,
                            query.what == SDFGI_LOOKUP_LEAVING ? SDFGI_CELLS_LEAVING : SDFGI_CELLS_ARRIVING);

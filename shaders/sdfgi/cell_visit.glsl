@@ -15,6 +15,7 @@
 #include "../lib/irradiance_pack.glsl"
 
 SDFGI_PUSH(sdfgi_cell_gather_args);
+#include "visit_light.glsl"
 #include "visits.glsl"
 
 const uint RAYS = uint(SDFGI_VISIT_RAYS);
@@ -172,9 +173,10 @@ float share_of_emitter_rays(emitter e, float chance, vec3 dir, float range, floa
     return towards / max(towards + at_random, 1e-30);
 }
 
-/* Light that a surface gets from the emitters, by one ray: the `index`-th of a cycle. */
-vec4 send_emitter_ray(uint cascade, ray_source source, uint index)
+/* Light that a surface gets from the emitters, by one ray along `dir`: the `index`-th of a cycle. */
+vec4 send_emitter_ray(uint cascade, ray_source source, uint index, out vec3 dir)
 {
+    dir = source.normal;
     vec3 place = sdfgi_random_r3(index, source.shift);
     emitter chosen;
     float chance;
@@ -183,6 +185,7 @@ vec4 send_emitter_ray(uint cascade, ray_source source, uint index)
     const emitter_point point = emitter_point_at(chosen, source.surface, place);
     const vec3 light = emitter_light(chosen, source.surface, source.normal, point.inside);
     const emitter_way way = emitter_way_to(source.pos, point.face);
+    dir = way.dir;
     /* Rays at random start in the open, too: what they cannot meet does not count here either. */
     const float cosine = dot(source.normal, way.dir);
     if (light == vec3(0.0) || cosine <= 0.0)
@@ -320,46 +323,6 @@ visit_rays rays_of(uint cascade, uint own)
     return rays_times(cascade, cell_of(own).times_rays);
 }
 
-/* What is kept of a ray: radiance, and 1 if it is known. */
-uvec2 ray_pack_light(vec4 light)
-{
-    return sdfgi_half4_encode(sdfgi_half4_round(min(light, vec4(65504.0))));
-}
-
-/* Variance of the mean of so many values: from their sum, and from that of their squares. */
-float variance_of_mean(float sum, float squares, float count)
-{
-    const float mean = sum / count;
-    return max(squares / count - mean * mean, 0.0) / count;
-}
-
-/* What rays of a surface have found. */
-struct visit_light {
-    vec4 sum;      /* of those at random, and how many are known */
-    vec4 emitters; /* of those towards emitters, and how many there are */
-    vec2 squares;  /* of luminances, of both kinds */
-};
-
-void visit_add(inout visit_light found, vec4 ray, bool at_random)
-{
-    const float light = sdfgi_light_luminance(ray.rgb);
-    if (at_random)
-        found.sum += vec4(ray.rgb * ray.a, ray.a);
-    else
-        found.emitters += vec4(ray.rgb, 1.0);
-    found.squares += light * light * (at_random ? vec2(ray.a, 0.0) : vec2(0.0, 1.0));
-}
-
-/* The mean of what the rays of a surface have found, and of what those towards emitters have. In a: the
- * variance of its luminance. */
-vec4 visit_mean(visit_light found)
-{
-    const float count = max(found.sum.a, 1.0), emitters = max(found.emitters.a, 1.0);
-    return vec4(found.sum.rgb / count + found.emitters.rgb / emitters,
-                variance_of_mean(sdfgi_light_luminance(found.sum.rgb), found.squares.x, count) +
-                    variance_of_mean(sdfgi_light_luminance(found.emitters.rgb), found.squares.y, emitters));
-}
-
 /* visited_cell::times_rays of a cell in a state. */
 uint times_rays_of(gathered_state state)
 {
@@ -387,17 +350,42 @@ gather_cycle cycle_of(uint cascade, visited_cell own)
 
 const float MOST_NOISE = 64.0; /* of a visit, so that sums are finite as half floats */
 
+/* A visit counts as one of so many, at most, for from where light comes. */
+const float LOW_LIGHT_VISITS = 64.0;
+
+/* Adds a visit to what a surface knows of from where its light comes. `before`: luminance of its light. */
+void add_low_light(uint cascade, uint axis, visited_cell own, float before, visit_light light)
+{
+    const float now = sdfgi_light_luminance(light.mean);
+    if (!VISITS_KEEP_LOW_LIGHT || !(now > 0.0))
+        return;
+    const uint word = low_light_word(sdfgi_surface_index(cascade, own.entry, axis)),
+               packed = sdfgi_seen[word];
+    const float worth = own.state.mean >= GATHERED_FIRST ? gathered_worth(own.state) : 0.0,
+                share = 1.0 / min(float(own.state.visits) + worth + 1.0, LOW_LIGHT_VISITS),
+                of_visit = packed == 0u ? 1.0 : share * now / (share * now + (1.0 - share) * before);
+    const sdfgi_low_light known = sdfgi_low_unpack(packed);
+    const float rounding = sdfgi_random_unit(
+        sdfgi_random_hash(light_cell_hash(cascade, own.cell) + 64u * axis + own.state.visits));
+    sdfgi_seen[word] = sdfgi_low_pack(sdfgi_low_light(mix(known.low, light.low.low / now, of_visit),
+                                                      mix(known.around, light.low.around / now, of_visit)),
+                                      rounding);
+}
+
 /* Adds a visit to the sum of a surface. The last visit of a cycle makes the sum the mean. */
-void add_visit(uint cascade, uint surface, vec4 light)
+void add_visit(uint cascade, uint surface, visit_light light)
 {
     const visited_cell own = cell_of(surface / 6u);
     const uint axis = surface % 6u;
     gathered_light gathered = load_light(cascade, own, axis);
-    gathered.sum = gathered_add(own.state, gathered, light.rgb);
+    add_low_light(cascade, axis, own,
+                  sdfgi_light_luminance(own.state.mean >= GATHERED_FIRST ? gathered.mean : gathered.sum),
+                  light);
+    gathered.sum = gathered_add(own.state, gathered, light.mean);
     const float shown =
         sdfgi_light_luminance(own.state.mean >= GATHERED_FIRST ? gathered.mean : gathered.sum) +
         sdfgi_frame.dark;
-    visit_notes found = visit_notes(0.0, 0.0, min(light.a / (shown * shown), MOST_NOISE));
+    visit_notes found = visit_notes(0.0, 0.0, min(light.variance / (shown * shown), MOST_NOISE));
     const gather_cycle cycle = cycle_of(cascade, own);
     if (cycle.ends) {
         const vec3 mean = gathered_mean(own.state, gathered.sum, own.state.visits + 1u);

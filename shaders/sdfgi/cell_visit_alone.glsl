@@ -42,24 +42,26 @@ bool choose_emitter(uint cascade, uint own, inout float place, out emitter chose
                         chosen, chance);
 }
 
-vec4 kept(vec4 ray)
-{
-    return sdfgi_half4_decode(ray_pack_light(ray));
-}
-
-/* The mean of a surface's rays. */
-vec4 send_rays(uint cascade, ray_source source)
+/* What the rays of a surface find. */
+visit_light send_rays(uint cascade, ray_source source, uint axis)
 {
     const visit_rays rays = rays_of(cascade, 0u);
-    visit_light light = visit_light(vec4(0.0), vec4(0.0), vec2(0.0));
-    for (uint ray = 0u; ray < rays.at_random; ray++)
-        visit_add(light, kept(send_random_ray(cascade, source, source.visits * rays.at_random + ray)), true);
-    for (uint ray = 0u; ray < rays.to_emitters; ray++)
-        visit_add(light, kept(send_emitter_ray(cascade, source, source.visits * rays.to_emitters + ray)),
-                  false);
+    ray_sums at_random = NO_RAYS, to_emitters = NO_RAYS;
+    for (uint ray = 0u; ray < rays.at_random; ray++) {
+        const uint index = source.visits * rays.at_random + ray;
+        const vec4 light = send_random_ray(cascade, source, index);
+        ray_add(at_random,
+                ray_pack(source.normal, axis, ray_direction(source.normal, index, source.shift), light),
+                false);
+    }
+    for (uint ray = 0u; ray < rays.to_emitters; ray++) {
+        vec3 dir;
+        const vec4 light = send_emitter_ray(cascade, source, source.visits * rays.to_emitters + ray, dir);
+        ray_add(to_emitters, ray_pack(source.normal, axis, dir, light), true);
+    }
     if (surfaces_look_out())
         look_out(cascade, source);
-    return visit_mean(light);
+    return visit_mean(at_random, to_emitters);
 }
 
 void visit_cell(uint cascade)
@@ -77,10 +79,10 @@ void visit_cell(uint cascade)
     visited.watched = watched_holds(cascade, visited.entry);
     visited.importance = sum_importance(cascade, visited.cell, 0u, emitter_count(cascade));
     wakes = false;
-    vec4 light[6];
+    visit_light light[6];
     for (uint left = facing; left != 0u; left &= left - 1u) {
         const uint surface = uint(findLSB(left));
-        light[surface] = send_rays(cascade, source_of(cascade, surface));
+        light[surface] = send_rays(cascade, source_of(cascade, surface), surface);
     }
     if (wakes) {
         visited.state = state_reached(visited.state);

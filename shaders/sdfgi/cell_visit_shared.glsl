@@ -18,7 +18,7 @@ shared bool wakes[CELLS];         /* a ray has met what has changed */
 shared uint facing[CELLS];        /* a bit per axis; 0 for a cell that is not there */
 shared uint surfaces[6u * CELLS]; /* a cell's index in `cells` times 6, plus an axis */
 shared uint surface_count;
-/* Per surface and ray at random, and then those towards emitters: radiance, and 1 if it is known. */
+/* Per surface and ray at random, and then those towards emitters: ray_pack. */
 shared uvec2 found[6u * CELLS * MOST_RAYS];
 shared float importance[CELLS * PARTS]; /* per cell and part of the list: sums over emitters */
 
@@ -90,11 +90,6 @@ bool choose_emitter(uint cascade, uint own, inout float place, out emitter chose
 
 /* ---- A visit */
 
-void keep_ray(uint i, vec4 light)
-{
-    found[i] = ray_pack_light(light);
-}
-
 /* Where the rays of a surface are kept. */
 uint first_found(uint surface)
 {
@@ -111,7 +106,11 @@ void send_rays(uint cascade)
         if (ray >= rays)
             continue;
         const ray_source source = source_of(cascade, surfaces[of_surface]);
-        keep_ray(first_found(of_surface) + ray, send_random_ray(cascade, source, source.visits * rays + ray));
+        const uint index = source.visits * rays + ray;
+        const vec4 light = send_random_ray(cascade, source, index);
+        found[first_found(of_surface) + ray] =
+            ray_pack(source.normal, surfaces[of_surface] % 6u,
+                     ray_direction(source.normal, index, source.shift), light);
     }
     for (uint i = gl_LocalInvocationIndex; i < surface_count * most.to_emitters; i += THREADS) {
         const uint of_surface = i / most.to_emitters, ray = i % most.to_emitters,
@@ -119,24 +118,26 @@ void send_rays(uint cascade)
         if (ray >= rays)
             continue;
         const ray_source source = source_of(cascade, surfaces[of_surface]);
-        keep_ray(first_found(of_surface) + most.at_random + ray,
-                 send_emitter_ray(cascade, source, source.visits * rays + ray));
+        vec3 dir;
+        const vec4 light = send_emitter_ray(cascade, source, source.visits * rays + ray, dir);
+        found[first_found(of_surface) + most.at_random + ray] =
+            ray_pack(source.normal, surfaces[of_surface] % 6u, dir, light);
     }
     for (uint i = gl_LocalInvocationIndex; surfaces_look_out() && i < surface_count; i += THREADS)
         look_out(cascade, source_of(cascade, surfaces[i]));
 }
 
 /* What the rays of a surface, the i-th, have found. */
-vec4 light_of_rays(uint cascade, uint i)
+visit_light light_of_rays(uint cascade, uint i)
 {
     const visit_rays rays = rays_of(cascade, surfaces[i] / 6u);
     const uint first = first_found(i), first_emitter = first + RAYS * args.new_rays;
-    visit_light light = visit_light(vec4(0.0), vec4(0.0), vec2(0.0));
+    ray_sums at_random = NO_RAYS, to_emitters = NO_RAYS;
     for (uint ray = 0u; ray < rays.at_random; ray++)
-        visit_add(light, sdfgi_half4_decode(found[first + ray]), true);
+        ray_add(at_random, found[first + ray], false);
     for (uint ray = 0u; ray < rays.to_emitters; ray++)
-        visit_add(light, sdfgi_half4_decode(found[first_emitter + ray]), false);
-    return visit_mean(light);
+        ray_add(to_emitters, found[first_emitter + ray], true);
+    return visit_mean(at_random, to_emitters);
 }
 
 /* Finds the cells that the workgroup visits, and their surfaces. Called by the whole workgroup. */

@@ -15,7 +15,7 @@ void main()
     picture_surface s;
     const bool is_surface = picture_surface_at(pixel, s);
     const vec3 irradiance = is_surface ? picture_irradiance(s) : vec3(0.0);
-    picture_store(pixel, is_surface, irradiance);
+    picture_store(pixel, is_surface, s.normal, irradiance);
     if (is_surface)
         picture_mark(s, gl_LocalInvocationIndex);
 }

@@ -127,7 +127,7 @@ void pixel_interpolate(ivec2 at)
         }
         irradiance = m.sum / m.weight;
     }
-    picture_store(pixel, is_surface, irradiance);
+    picture_store(pixel, is_surface, s.normal, irradiance);
 }
 
 /* Neighbouring threads take neighbouring pixels. */
@@ -154,7 +154,7 @@ void look_up(bool is_sample, uint index)
     if (is_sample && is_surface)
         picture_mark(s, index);
     if (!is_sample)
-        picture_store(pixel, is_surface, irradiance);
+        picture_store(pixel, is_surface, s.normal, irradiance);
 }
 
 void main()

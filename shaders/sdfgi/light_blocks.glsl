@@ -9,8 +9,8 @@
  * the first entry of its cells in the previous list; and, of dirty blocks, two with the bits of that list;
  * - per row of SDFGI_GROUP_LINEAR blocks two words: how many light cells it has, and how many in dirty
  * blocks;
- * - per entry of the previous list SDFGI_LIGHT_KEPT_WORDS words: its direct light, its outgoing light and its
- *   irradiance along six axes, and what it has gathered;
+ * - per entry of the previous list sdfgi_scratch_light_words: its direct light, its outgoing light and its
+ *   irradiance along six axes, what it has gathered, and from where;
  * - per light cell in a dirty block, in the order of the list, two words: its entry and its texel index.
  *
  * The host clears blocks and rows to 0 before light_mark. */
@@ -72,7 +72,8 @@ uint light_row_slot(uint row)
 }
 
 const uint LIGHT_KEPT_DIRECT = 0u, LIGHT_KEPT_LIGHT = uint(SDFGI_DIRECT_WORDS),
-           LIGHT_KEPT_SURFACES = LIGHT_KEPT_LIGHT + 6u, LIGHT_KEPT_GATHERED = LIGHT_KEPT_SURFACES + 6u;
+           LIGHT_KEPT_SURFACES = LIGHT_KEPT_LIGHT + 6u, LIGHT_KEPT_GATHERED = LIGHT_KEPT_SURFACES + 6u,
+           LIGHT_KEPT_LOW = LIGHT_KEPT_GATHERED + uint(SDFGI_GATHERED_WORDS);
 
 /* Word `k` of what an entry of the previous list held, from LIGHT_KEPT_* on. Threads that follow one another
  * take entries that do. */
@@ -84,7 +85,9 @@ uint light_previous_slot(uint entry, uint k)
 /* First of the two words of the n-th light cell in dirty blocks. */
 uint light_dirty_slot(uint n)
 {
-    return sdfgi_scratch_light_dirty(sdfgi_frame.resolution_log2, sdfgi_frame.light_cell_room) + 2u * n;
+    return sdfgi_scratch_light_dirty(sdfgi_frame.resolution_log2, sdfgi_frame.light_cell_room,
+                                     sdfgi_frame.keeps_low_light != 0u) +
+           2u * n;
 }
 
 /* Finds the n-th entry to light: of the light cells in dirty blocks, or of the range [first, end). False if

@@ -15,10 +15,12 @@
 #define SDFGI_WRITES_LIGHT_BLOCKS
 #define SDFGI_WRITES_LIGHT_CELLS
 #define SDFGI_WRITES_SCRATCH
+#define SDFGI_WRITES_SEEN
 #define SDFGI_WRITES_SURFACES
 #include "../lib/on_cpu.glsl"
 #include "gathered.glsl"
 #include "light_blocks.glsl"
+#include "low_lights.glsl"
 #include "../include/sdfgi_cells.glsl"
 #include "../lib/nth_bit.glsl"
 
@@ -103,6 +105,9 @@ void take_over(uint entry, uint previous)
         sdfgi_light[index] = sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_LIGHT + axis));
         sdfgi_surfaces[index] = sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_SURFACES + axis));
     }
+    for (uint axis = 0u; keeps_low_light() && axis < 6u; axis++)
+        sdfgi_seen[low_light_word(sdfgi_surface_index(args.cascade, entry, axis))] =
+            sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_LOW + axis));
     for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
         sdfgi_gathered[gathered_word(args.cascade, k, entry)] =
             sdfgi_scratch_at(light_previous_slot(previous, LIGHT_KEPT_GATHERED + k));
@@ -115,6 +120,8 @@ void begin_dark(uint entry)
         sdfgi_light[index] = 0u;
         sdfgi_surfaces[index] = SDFGI_SURFACE_NONE;
     }
+    for (uint axis = 0u; keeps_low_light() && axis < 6u; axis++)
+        sdfgi_seen[low_light_word(sdfgi_surface_index(args.cascade, entry, axis))] = 0u;
     for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
         sdfgi_gathered[gathered_word(args.cascade, k, entry)] = 0u;
 }

@@ -15,6 +15,7 @@
 #include "dirty.glsl"
 #include "light_blocks.glsl"
 #include "gathered.glsl"
+#include "low_lights.glsl"
 #include "visibility.glsl"
 #include "../include/sdfgi_cells.glsl"
 
@@ -130,6 +131,9 @@ void keep_light(uint entry)
         sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_LIGHT + axis)] = sdfgi_light_at(index);
         sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_SURFACES + axis)] = sdfgi_surfaces_at(index);
     }
+    for (uint axis = 0u; keeps_low_light() && axis < 6u; axis++)
+        sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_LOW + axis)] =
+            sdfgi_seen_at(low_light_word(sdfgi_surface_index(args.cascade, entry, axis)));
     for (uint k = 0u; gathers() && k < SDFGI_GATHERED_WORDS; k++)
         sdfgi_scratch[light_previous_slot(entry, LIGHT_KEPT_GATHERED + k)] =
             sdfgi_gathered_at(gathered_word(args.cascade, k, entry));

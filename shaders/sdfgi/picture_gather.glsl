@@ -7,6 +7,9 @@
 #define SDFGI_WRITES_SEEN
 #include "seen.glsl"
 #include "picture_rays.glsl"
+#ifdef SDFGI_LOBES
+#include "picture_lobes.glsl"
+#endif
 #include "../include/sdfgi.glsl"
 #include "../lib/random.glsl"
 
@@ -52,11 +55,18 @@ vec3 picture_irradiance(picture_surface s)
 }
 
 /* Stores the irradiance of a pixel, and what it reflects where a view has reflections and rays make none. */
-void picture_store(ivec2 pixel, bool is_surface, vec3 irradiance)
+void picture_store(ivec2 pixel, bool is_surface, vec3 normal, vec3 irradiance)
 {
     imageStore(diffuse_image, pixel, vec4(irradiance, 1.0));
-    if (args.ray_step > 0u && !(is_surface && picture_is_smooth(picture_roughness(pixel))))
-        imageStore(reflection_image, pixel, vec4(irradiance / 3.14159265, 0.0));
+    if (args.ray_step == 0u || (is_surface && picture_is_smooth(picture_roughness(pixel))))
+        return;
+    float answer = 1.0;
+#ifdef SDFGI_LOBES
+    if (is_surface)
+        answer = picture_lobe_answer(pixel, normal);
+#endif
+    imageStore(reflection_image, pixel,
+               vec4(min(irradiance * (answer / 3.14159265), vec3(PICTURE_BRIGHTEST)), 0.0));
 }
 
 #endif

@@ -14,10 +14,17 @@ layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_ROUGHNESS) uniform sam
 
 const float PICTURE_NO_RAY = -1.0;
 
+/* 1 for what is no roughness. That of metal is stored below 0. */
 float picture_roughness(ivec2 pixel)
 {
+    const float roughness = abs(texelFetch(roughness_image, pixel, 0).r);
+    return roughness <= 1.0 ? roughness : 1.0;
+}
+
+bool picture_is_metal(ivec2 pixel)
+{
     const float roughness = texelFetch(roughness_image, pixel, 0).r;
-    return roughness >= 0.0 && roughness <= 1.0 ? roughness : 1.0;
+    return roughness < 0.0 && roughness >= -1.0;
 }
 
 /* Where rays count: sdfgi_reflection_ray_share is above 0, unless it rounds to it. */

@@ -5,15 +5,10 @@
 #define SDFGI_PICTURE_REFLECT_GLSL
 
 #include "picture_rays.glsl"
+#include "picture_tiles.glsl"
 
 /* What the filter's first run has made of the rays, in listed tiles. */
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_FILTERED, rgba16f) uniform image2D filtered_image;
-
-/* The counts and indirect arguments of both lists, all tiles, and all pixels: x | y << 16. */
-layout(std430, set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_TILES) buffer sdfgi_tiles_buffer
-{
-    uint sdfgi_tiles[];
-};
 
 const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TILES_TILES) + 3u;
 /* Roughness from which on the filter takes squares of squares in part, and wholly. */
@@ -29,19 +24,6 @@ uint picture_pack(ivec2 place)
 ivec2 picture_unpack(uint place)
 {
     return ivec2(place & 0xffffu, place >> 16u);
-}
-
-/* The word of a tile of the list, and that of a ray. */
-uint picture_tile_word(uint i)
-{
-    return uint(SDFGI_TILES_HEADER) + i;
-}
-
-uint picture_ray_word(uint i)
-{
-    const uvec2 tiles =
-        (uvec2(args.width, args.height) + uint(SDFGI_GROUP_PIXELS) - 1u) / uint(SDFGI_GROUP_PIXELS);
-    return uint(SDFGI_TILES_HEADER) + tiles.x * tiles.y + i;
 }
 
 /* The pixel of this thread in the tile of a number of the list. */

@@ -8,6 +8,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "../lib/on_cpu.glsl"
 #include "../include/sdfgi_reflection.glsl"
+#include "picture_lobes.glsl"
 #include "picture_reflect.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
@@ -98,12 +99,13 @@ void filter_pixel(ivec2 pixel)
     if (!picture_reflects(pixel, s, roughness))
         return;
     const vec4 mean = filtered(pixel, s, roughness);
-    const vec3 rough = imageLoad(diffuse_image, pixel).rgb / 3.14159265;
-    if (is_first())
+    if (is_first()) {
         imageStore(filtered_image, pixel, mean);
-    else
-        imageStore(reflection_image, pixel,
-                   mean.a < 0.0 ? vec4(rough, 0.0) : blended(rough, mean, roughness));
+        return;
+    }
+    const vec3 rough =
+        imageLoad(diffuse_image, pixel).rgb * (picture_lobe_answer(pixel, s.normal) / 3.14159265);
+    imageStore(reflection_image, pixel, mean.a < 0.0 ? vec4(rough, 0.0) : blended(rough, mean, roughness));
 }
 
 void main()

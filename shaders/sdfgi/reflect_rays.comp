@@ -45,9 +45,11 @@ vec3 facet_direction(vec2 point, picture_surface s, float roughness)
                                point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
 }
 
-/* True if the surface of a pixel is metal. */
-bool is_metal(picture_surface s)
+/* True if the surface of a pixel is metal: the host says so, or the voxels do. */
+bool is_metal(ivec2 pixel, picture_surface s)
 {
+    if (picture_is_metal(pixel))
+        return true;
     const vec3 first = sdfgi_first_from_position(s.pos);
     for (uint c = 0u; c < sdfgi_frame.cascade_count; c++) {
         const ivec3 cell = ivec3(floor(sdfgi_cascade_from_first(c, first) - BEHIND * s.normal));
@@ -61,9 +63,9 @@ bool is_metal(picture_surface s)
  * what hosts multiply reflections by. At a small angle water mirrors lamps far off better than the sky above,
  * and facets that lean hide each other: `is_hidden` says that they hide all of it. What metal reflects
  * depends little on the angle. */
-float facet_share(picture_surface s, float roughness, vec3 dir, bool is_hidden)
+float facet_share(ivec2 pixel, picture_surface s, float roughness, vec3 dir, bool is_hidden)
 {
-    if (is_metal(s))
+    if (is_metal(pixel, s))
         return 1.0;
     const vec3 eye = normalize(s.to_eye);
     const float alpha = roughness * roughness, n_v = clamp(dot(s.normal, eye), 0.01, 1.0),
@@ -133,7 +135,7 @@ void reflect_pixel(ivec2 pixel)
     const vec3 face = face_normal(pixel, s, even), of_facet = facet_direction(point, s, roughness),
                of_lobe = sdfgi_ggx_above(of_facet, s.normal), dir = off_face(of_lobe, face);
     const float share = (even ? open_share(of_lobe, face) : 1.0) *
-                        facet_share(s, roughness, dir, dot(of_facet, s.normal) <= 0.0);
+                        facet_share(pixel, s, roughness, dir, dot(of_facet, s.normal) <= 0.0);
     const reflect_found found =
         reflect_trace(sdfgi_first_from_position(s.pos), face, dir, packUnorm2x16(fract(5.0 * point)));
     const vec3 light = scale * share * reflect_light(found);

@@ -141,6 +141,10 @@
 #define SDFGI_TILES_RAYS   0
 #define SDFGI_TILES_TILES  4
 #define SDFGI_TILES_HEADER 8
+/* Pixels along each axis from one answer of a rough lobe to the next, and along a side of the square whose
+ * answers a workgroup makes. */
+#define SDFGI_LOBE_STEP    4
+#define SDFGI_GROUP_LOBES  32
 
 /* gather_sparse: a workgroup looks up so many samples, one a thread, and fills the squares between them. Its
  * list of pixels must fit 16 KiB, and 128 threads are what every device has. */

@@ -79,21 +79,26 @@ SDFGI_FUNCTION uint sdfgi_scratch_light_rows(uint bits)
     return 8u << (3u * bits - 6u);
 }
 
-/* SDFGI_LIGHT_KEPT_WORDS times `room` words of what the previous list held, */
+/* Behind them, so many words for each entry that a list has room for: what the previous list held; */
+SDFGI_FUNCTION uint sdfgi_scratch_light_words(bool keeps_low_light)
+{
+    return SDFGI_LIGHT_KEPT_WORDS + (keeps_low_light ? 6u : 0u);
+}
+
 SDFGI_FUNCTION uint sdfgi_scratch_light_before(uint bits)
 {
     return sdfgi_scratch_light_rows(bits) + (2u << (3u * bits - 6u)) / SDFGI_GROUP_LINEAR;
 }
 
 /* then two words per dirty light cell. `room` is the number of entries that a list has room for. */
-SDFGI_FUNCTION uint sdfgi_scratch_light_dirty(uint bits, uint room)
+SDFGI_FUNCTION uint sdfgi_scratch_light_dirty(uint bits, uint room, bool keeps_low_light)
 {
-    return sdfgi_scratch_light_before(bits) + SDFGI_LIGHT_KEPT_WORDS * room;
+    return sdfgi_scratch_light_before(bits) + sdfgi_scratch_light_words(keeps_low_light) * room;
 }
 
-SDFGI_FUNCTION uint sdfgi_scratch_light_end(uint bits, uint room)
+SDFGI_FUNCTION uint sdfgi_scratch_light_end(uint bits, uint room, bool keeps_low_light)
 {
-    return sdfgi_scratch_light_dirty(bits, room) + 2u * room;
+    return sdfgi_scratch_light_dirty(bits, room, keeps_low_light) + 2u * room;
 }
 
 #endif

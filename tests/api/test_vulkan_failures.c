@@ -292,6 +292,37 @@ static void lists_of_emitters_can_be_done_without(void **state)
     sdfgi_destroy(gi);
 }
 
+/* Likewise. */
+static void rough_lobes_can_be_done_without(void **state)
+{
+    (void)state;
+    sdfgi *gi = create(SDFGI_VOXELIZER_COMPUTE, true);
+    struct sdfgi_settings settings = small_settings(SDFGI_VOXELIZER_COMPUTE, true);
+    settings.surface_light = SDFGI_SURFACE_LIGHT_CELLS;
+    REQUIRE_CMP((int)sdfgi_set_settings(gi, &settings), ==, (int)SDFGI_OK);
+    const struct sdfgi_view_desc desc = { .width = 16, .height = 16, .reflections = true };
+    sdfgi_view *view;
+    REQUIRE_CMP((int)sdfgi_view_create(gi, &desc, &view), ==, (int)SDFGI_OK);
+    uint32_t k = 1;
+    for (;; k++) {
+        warnings = 0;
+        gi->volume.feedback.low_light_refused = false;
+        failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        update(gi, 1);
+        if (failing_vulkan_calls() < k)
+            break;
+        REQUIRE_CMP(warnings, ==, 1u);
+        REQUIRE_CMP((int)last_warning, ==, (int)SDFGI_MESSAGE_NO_ROUGH_LOBES);
+        REQUIRE_TRUE(!gi->volume.state.low_light && !gi->volume.resources->extent.low_light);
+    }
+    printf("%u Vulkan calls of what rough lobes need can fail\n", k - 1);
+    REQUIRE_CMP(k, >, 3u);
+    REQUIRE_TRUE(gi->volume.state.low_light && gi->volume.resources->extent.low_light);
+    REQUIRE_CMP(errors, ==, 0u);
+    update(gi, 2);
+    sdfgi_destroy(gi);
+}
+
 /* Programs call them where they cannot handle errors. */
 static void switching_off_reset_and_cancel_call_nothing_that_can_fail(void **state)
 {
@@ -387,6 +418,7 @@ TEST_GROUP(vulkan_failures)
         cmocka_unit_test(room_for_instances_comes_as_soon_as_there_is_memory),
         cmocka_unit_test(a_material_that_cannot_change_stays_as_it_was),
         cmocka_unit_test(lists_of_emitters_can_be_done_without),
+        cmocka_unit_test(rough_lobes_can_be_done_without),
         cmocka_unit_test(switching_off_reset_and_cancel_call_nothing_that_can_fail),
         cmocka_unit_test(preparing_may_fail_anywhere),
     };

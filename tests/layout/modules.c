@@ -10,6 +10,8 @@
 #define MODULES_COMPUTE(id, file) MODULE(id, file##_comp) MODULE(id, file##_software_comp)
 #define MODULES_COMPUTE_TEXTURED(id, file)                                                                   \
     MODULES_COMPUTE(id, file) MODULE(id, file##_textured_comp) MODULE(id, file##_textured_software_comp)
+#define MODULES_COMPUTE_LOBES(id, file)                                                                      \
+    MODULES_COMPUTE(id, file) MODULE(id, file##_lobes_comp) MODULE(id, file##_lobes_software_comp)
 #define MODULES_RASTER_TEXTURED(id, file)                                                                    \
     MODULE(id, file##_vert) MODULE(id, file##_frag) MODULE(id, file##_textured_frag)
 

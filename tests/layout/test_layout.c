@@ -59,8 +59,8 @@
     X(sdfgi_frame_params, epoch_of_local)                                                                    \
     X(sdfgi_frame_params, flicker)                                                                           \
     X(sdfgi_frame_params, edited_emitter_count)                                                              \
+    X(sdfgi_frame_params, keeps_low_light)                                                                   \
     X(sdfgi_frame_params, padding_1)                                                                         \
-    X(sdfgi_frame_params, padding_2)                                                                         \
     X(sdfgi_frame_params, edited)                                                                            \
     X(sdfgi_frame_params, edited_emitters)                                                                   \
     X(sdfgi_frame_params, y_scale)                                                                           \

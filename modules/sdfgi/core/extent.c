@@ -69,7 +69,7 @@ static uint64_t scratch_size(const struct extent *e)
         sdfgi_scratch_part_words(sdfgi_scratch_part_cells(bits), e->emits),
         sdfgi_scratch_distance_end(bits),
         sdfgi_scratch_flood_end(bits),
-        sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells),
+        sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells, e->low_light),
         e->probes * e->cascades * sdfgi_extent_probe_rays(e),
     };
     uint64_t most = 0;
@@ -87,6 +87,12 @@ void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells)
 void sdfgi_extent_set_emits(struct extent *extent)
 {
     extent->emits = true;
+    extent->scratch = scratch_size(extent);
+}
+
+void sdfgi_extent_set_low_light(struct extent *extent)
+{
+    extent->low_light = extent->gathers;
     extent->scratch = scratch_size(extent);
 }
 

@@ -21,6 +21,7 @@ struct extent {
     uint64_t instances;  /* room for so many of the scene */
     bool gathers;        /* light cells gather with rays of their own */
     bool emits;          /* something in the scene emits: there is room for emission and for emitters */
+    bool low_light;      /* a view has reflections: there is room for where light comes from */
 };
 
 struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings);
@@ -28,6 +29,8 @@ struct extent sdfgi_extent_from_settings(const struct sdfgi_settings *settings);
 void sdfgi_extent_set_light_cells(struct extent *extent, uint64_t light_cells);
 /* The same for a scene in which something emits. */
 void sdfgi_extent_set_emits(struct extent *extent);
+/* The same where a view has reflections. */
+void sdfgi_extent_set_low_light(struct extent *extent);
 
 /* Samples of a probe in a cycle that go towards emitters. */
 uint64_t sdfgi_extent_emitter_samples(const struct extent *extent);

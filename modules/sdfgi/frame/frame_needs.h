@@ -16,6 +16,7 @@ struct situation {
     bool rescales;         /* light is stored with another exposure than before */
     bool gains_digits;     /* with a larger one: direct light is made again for the digits it had lost */
     bool lists_emitters;   /* something emits, and there is room for emitter lists */
+    bool low_light_begins; /* light cells keep from where they get their light from now on */
     bool has_lights;
     bool lights_changed; /* or gain digits */
     bool relights;       /* light cells wait to be lit again */

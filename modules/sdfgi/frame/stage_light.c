@@ -201,6 +201,7 @@ static void gather(const struct plan_stage *stage)
         return;
     struct sdfgi_cell_gather_args *args = &work->args.cell_gather;
     run_over_visits(stage, work, SDFGI_VISITS_GATHER);
+    work->variant = frame->next.low_light ? PASS_LOBES : PASS_PLAIN;
     for (uint32_t i = 0; i < frame->gather_count; i++) {
         const struct gather_range *range = &frame->gathers[i];
         args->visits[range->cascade] = range->visits;

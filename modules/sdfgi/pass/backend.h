@@ -11,8 +11,6 @@
 
 #include <pthread.h>
 
-enum { PASS_VARIANTS = 2 }; /* without and with textures */
-
 struct pipelines {
     VkDescriptorSetLayout sets[2]; /* by enum resource_set */
     VkDescriptorSetLayout mesh, material, view;

@@ -95,10 +95,11 @@ void sdfgi_pass_open(struct pass_recorder *r, const struct work *work)
     if (!r->beside)
         stamp(r, (uint32_t)work->pass);
     r->open = work;
-    if (sdfgi_pass_row(work->pass)->kind != PASS_KIND_COMPUTE)
+    if (sdfgi_pass_row(work->pass)->domain == DOMAIN_INSTANCES)
         return; /* the voxeliser binds what each material needs */
     sdfgi_pass_bind_resources(r, VK_PIPELINE_BIND_POINT_COMPUTE);
-    gpu_bind_pipeline(&r->gpu, VK_PIPELINE_BIND_POINT_COMPUTE, r->backend->pipelines.passes[work->pass][0]);
+    gpu_bind_pipeline(&r->gpu, VK_PIPELINE_BIND_POINT_COMPUTE,
+                      r->backend->pipelines.passes[work->pass][work->variant]);
 }
 
 /* Where a record of indirect arguments begins. */

@@ -8,6 +8,7 @@
 enum pass_kind {
     PASS_KIND_COMPUTE,
     PASS_KIND_COMPUTE_TEXTURED, /* with a second variant for materials with textures */
+    PASS_KIND_COMPUTE_LOBES,    /* with one for light cells that keep from where they get their light */
     PASS_KIND_RASTER_TEXTURED,
 };
 
@@ -40,6 +41,7 @@ enum need {
     NEED_GATHER,
     NEED_GATHER_SPARSE,
     NEED_REFLECTIONS,
+    NEED_ROUGH_LOBES,
     NEED_DEBUG_VIEW,
     NEED_DEBUG_TIER,
     NEED_COUNT,

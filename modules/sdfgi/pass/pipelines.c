@@ -35,6 +35,13 @@ struct pass_shaders {
             SHADER(sdfgi_##file##_textured_software_comp)                                                    \
         }                                                                                                    \
     }
+#define SHADERS_COMPUTE_LOBES(file)                                                                          \
+    {                                                                                                        \
+        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_lobes_comp) }, .software = {         \
+            SHADER(sdfgi_##file##_software_comp),                                                            \
+            SHADER(sdfgi_##file##_lobes_software_comp)                                                       \
+        }                                                                                                    \
+    }
 #define SHADERS_RASTER_TEXTURED(file)                                                                        \
     {                                                                                                        \
         .vertex = SHADER(sdfgi_##file##_vert), .fragment = {                                                 \

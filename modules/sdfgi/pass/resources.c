@@ -195,6 +195,7 @@ static enum sdfgi_result check_sizes(const struct backend *backend, const struct
 {
     struct extent most = *extent;
     sdfgi_extent_set_emits(&most);
+    sdfgi_extent_set_low_light(&most);
     const enum resource resource = too_large(backend, &most);
     if (resource == RESOURCE_COUNT)
         return SDFGI_OK;
@@ -233,6 +234,8 @@ enum sdfgi_result sdfgi_resources_begin(struct backend *backend, const struct sd
     limit_light_cells(backend, &extent);
     if (scene.emits)
         sdfgi_extent_set_emits(&extent);
+    if (scene.low_light)
+        sdfgi_extent_set_low_light(&extent);
     struct resources *r = sdfgi_hooks_alloc_zeroed(&backend->hooks, sizeof *r);
     if (!r)
         return sdfgi_message_vulkan(&backend->hooks, VK_ERROR_OUT_OF_HOST_MEMORY, caller);
@@ -281,6 +284,8 @@ static const enum resource listed[] = { RESOURCE_LIGHT_CELLS, RESOURCE_DIRECT,  
                                         RESOURCE_SCRATCH };
 /* What is there only if something emits, or is larger then. */
 static const enum resource emitting[] = { RESOURCE_EMITTERS, RESOURCE_RAYS, RESOURCE_SCRATCH };
+/* Larger if a view has reflections. */
+static const enum resource reflecting[] = { RESOURCE_SEEN, RESOURCE_SCRATCH };
 
 enum { MAX_GROWN = sizeof listed / sizeof *listed };
 
@@ -366,6 +371,13 @@ bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *r)
     struct extent extent = r->extent;
     sdfgi_extent_set_emits(&extent);
     return grow(backend, r, &extent, emitting, sizeof emitting / sizeof *emitting);
+}
+
+bool sdfgi_resources_add_low_light(struct backend *backend, struct resources *r)
+{
+    struct extent extent = r->extent;
+    sdfgi_extent_set_low_light(&extent);
+    return grow(backend, r, &extent, reflecting, sizeof reflecting / sizeof *reflecting);
 }
 
 bool sdfgi_resources_grow_instances(struct backend *backend, struct resources *r, uint64_t instances)

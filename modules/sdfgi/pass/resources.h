@@ -33,7 +33,8 @@ struct resources {
 /* What a scene calls for besides what settings do. */
 struct scene_extent {
     uint64_t instances;
-    bool emits; /* something in it does, or will */
+    bool emits;     /* something in it does, or will */
+    bool low_light; /* a view has reflections, or will have */
 };
 
 /* Begins resources without any object, with room for a scene. Reports failures, in words of the `caller`;
@@ -59,6 +60,8 @@ bool sdfgi_resources_grow_light_cells(struct backend *backend, struct resources 
 /* Adds what only scenes need in which something emits; it is not cleared. Changes nothing and returns false
  * if memory is short. */
 bool sdfgi_resources_add_emitters(struct backend *backend, struct resources *resources);
+/* Adds what light cells need that keep from where they get their light; it is not cleared. Likewise. */
+bool sdfgi_resources_add_low_light(struct backend *backend, struct resources *resources);
 
 /* Exchanges the buffer of instances for an empty one with room for `instances`. Changes nothing and returns
  * false if memory is short, or if no buffer of the device can be so long. */

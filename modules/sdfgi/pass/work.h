@@ -71,10 +71,14 @@ enum work_kind {
 
 #define WORK_DIRECT UINT32_MAX /* `indirect`: the size follows from the domain */
 
+/* Shaders of a pass: as they are, and for materials with textures or for rough lobes. */
+enum pass_variant { PASS_PLAIN, PASS_TEXTURED, PASS_LOBES = PASS_TEXTURED, PASS_VARIANTS };
+
 struct work {
     enum work_kind kind;
     enum pass pass;
-    const char *reason; /* static: why the pass runs */
+    enum pass_variant variant; /* but for voxelisers, which choose one for each instance */
+    const char *reason;        /* static: why the pass runs */
     uint32_t cascade;
     struct cell_box box;   /* DOMAIN_BOX, DOMAIN_INSTANCES */
     struct cell_box made;  /* DOMAIN_INSTANCES: triangles of what touches this have been checked; or empty */

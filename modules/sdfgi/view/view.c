@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-enum { MAX_BINDINGS = 7, TILE = SDFGI_GROUP_PIXELS };
+enum { MAX_BINDINGS = 7 };
 
 static VkResult create_pool(const struct backend *backend, VkDescriptorPool *pool)
 {
@@ -71,11 +71,16 @@ struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_v
     return NULL;
 }
 
-/* A list of all tiles, and one of all pixels. */
+static uint64_t squares(const struct sdfgi_view_desc *desc, uint32_t side)
+{
+    return ((uint64_t)desc->width + side - 1) / side * (((uint64_t)desc->height + side - 1) / side);
+}
+
+/* A list of all tiles, one of all pixels, and what the lobes of rough surfaces answer. */
 static uint64_t tiles_size(const struct sdfgi_view_desc *desc)
 {
-    const uint64_t x = (desc->width + TILE - 1) / TILE, y = (desc->height + TILE - 1) / TILE;
-    return sizeof(uint32_t) * (SDFGI_TILES_HEADER + x * y + (uint64_t)desc->width * desc->height);
+    return sizeof(uint32_t) * (SDFGI_TILES_HEADER + squares(desc, SDFGI_GROUP_PIXELS) + squares(desc, 1) +
+                               squares(desc, SDFGI_LOBE_STEP));
 }
 
 VkResult sdfgi_view_add_reflection(struct backend *backend, struct sdfgi_view *view)
@@ -103,6 +108,14 @@ static void finish_list(struct backend *backend, struct sdfgi_view **first)
         destroy(&view->retired, backend);
     }
     *first = NULL;
+}
+
+bool sdfgi_views_reflect(const struct views *views)
+{
+    const struct sdfgi_view *view = views->of_host;
+    while (view && !view->tiles.handle)
+        view = view->next;
+    return view != NULL;
 }
 
 void sdfgi_views_finish(struct backend *backend, struct views *views)

@@ -42,6 +42,8 @@ struct sdfgi_view *sdfgi_view_make(struct backend *backend, const struct sdfgi_v
                                    VkResult *result);
 /* Adds what reflections need, unless it is there. */
 VkResult sdfgi_view_add_reflection(struct backend *backend, struct sdfgi_view *view);
+/* True if one of the host's views has what reflections need. */
+bool sdfgi_views_reflect(const struct views *views);
 /* Destroys a view of the host's once no frame in flight can use it. */
 void sdfgi_views_retire(struct backend *backend, struct views *views, struct sdfgi_view *view);
 

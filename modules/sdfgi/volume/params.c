@@ -247,6 +247,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     p->emitter_samples = (uint32_t)sdfgi_extent_emitter_samples(input->extent);
     p->has_metal = input->scene->metals > 0;
     p->seed = state->seed;
+    p->keeps_low_light = state->low_light;
     fill_epoch(p, state);
     fill_cycle(p, state, input->settings);
 }

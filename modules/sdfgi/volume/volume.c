@@ -187,6 +187,21 @@ void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
                       "sdfgi_update: no memory for emission: what emits stays dark");
 }
 
+bool sdfgi_volume_add_low_light(struct volume *volume)
+{
+    struct backend *backend = volume->backend;
+    struct resources *r = volume->resources;
+    if (!r->extent.gathers || volume->feedback.low_light_refused)
+        return false;
+    if (sdfgi_pipelines_require(backend, PASS_CELL_GATHER, PASS_LOBES) == VK_SUCCESS &&
+        (r->extent.low_light || sdfgi_resources_add_low_light(backend, r)))
+        return true;
+    volume->feedback.low_light_refused = true;
+    sdfgi_message_log(&backend->hooks, SDFGI_MESSAGE_NO_ROUGH_LOBES,
+                      "sdfgi_update: no memory for rough lobes: what is rough reflects its irradiance");
+    return false;
+}
+
 /* A longer buffer is empty. The state before this frame says so, too, which it may be taken back to. */
 static void forget_instances(struct volume *volume)
 {

@@ -26,6 +26,7 @@ struct volume_state {
     uint32_t seed;
     uint32_t seed_asked;              /* by the last frame: taken over once two in a row ask for it */
     struct sdfgi_frame_params params; /* as last uploaded */
+    bool low_light;                   /* light cells keep from where they get their light */
     uint64_t instances;               /* revision of the scene up to which instances have been uploaded */
     uint64_t updates;                 /* frames recorded since there was nothing */
     bool paused;                      /* GI has been switched off since, and volumes are kept */
@@ -53,6 +54,7 @@ struct feedback {
     struct feedback_time times[PASS_COUNT];
     uint64_t light_cells_refused; /* light cells for which there was no room; 0: there always was */
     bool emitters_refused;        /* there was no memory for emission */
+    bool low_light_refused;       /* nor for where light comes from */
     uint64_t instances_refused; /* revision of the scene with instances for which there was no memory, or 0 */
 };
 
@@ -112,6 +114,8 @@ VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t slot, bool *has_
 void sdfgi_volume_make_room(struct volume *volume);
 /* Makes room for emission and for emitters as soon as something emits. */
 void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
+/* Sees to it that light cells can keep from where they get their light. False if they cannot. */
+bool sdfgi_volume_add_low_light(struct volume *volume);
 /* Makes room for all instances of the scene. */
 void sdfgi_volume_add_instances(struct volume *volume, const struct scene *scene);
 /* The lists as far as counters know them. */

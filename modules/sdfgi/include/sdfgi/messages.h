@@ -29,6 +29,7 @@
       "triangles lie outside bounds_min and bounds_max of their mesh, where they may be missing")            \
     X(SURFACES_CROWDED, WARNING, "hundreds of surfaces lie in one another: their mean leaves some out")      \
     X(NO_EMITTER_LISTS, WARNING, "no memory for emission: what emits stays dark")                            \
+    X(NO_ROUGH_LOBES, WARNING, "no memory for where light comes from: what is rough reflects irradiance")    \
     X(CREATED, INFO, "version and device")                                                                   \
     X(SWITCHED, INFO, "on or off, and how much memory the volumes take")                                     \
     X(FIRST_LIGHT, INFO, "lookups give light from this update on")                                           \

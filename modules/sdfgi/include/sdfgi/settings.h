@@ -45,6 +45,7 @@ struct sdfgi_settings {
     uint32_t max_scroll_cells;    /* sdfgi_max_scroll_cells_per_frame, [524288, 134217728] */
     float reflection_blend;       /* sdfgi_reflection_blend, roughness, [0, 1] */
     float reflection_end;         /* sdfgi_reflection_end, roughness, [0, 1] */
+    bool rough_lobes;             /* sdfgi_rough_lobes */
 };
 
 enum sdfgi_property_type {

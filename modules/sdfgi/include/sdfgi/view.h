@@ -34,8 +34,10 @@ SDFGI_API void sdfgi_view_destroy(sdfgi *gi, sdfgi_view *view);
 /* What the host has drawn of the picture. Depth and normal as in struct sdfgi_gather_desc. */
 struct sdfgi_resolve_desc {
     VkImageView depth, normal;
-    VkImageView roughness; /* any sampled float, red: roughness in [0, 1]; VK_NULL_HANDLE: no reflections. A
-                              view of the normals that maps alpha to red will do */
+    /* Any sampled float. Red: roughness in [0, 1], and that of metal times -1. VK_NULL_HANDLE: no
+     * reflections. A view of the normals that maps alpha to red will do. What is rough reflects more of what
+     * comes at a small angle, but metal its irradiance; all that is not below 0 counts as dielectric. */
+    VkImageView roughness;
     VkImageLayout input_layout;        /* of these; UNDEFINED (0): SHADER_READ_ONLY_OPTIMAL */
     float inverse_view_projection[16]; /* as in struct sdfgi_gather_desc */
     float background_depth;            /* pixels with exactly this depth get 0 */

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: MIT
+ * Rough surfaces of a view reflect light by where it comes from: what that needs, and what it leaves alone.
+ */
+#include "require.h"
+#include "test_group.h"
+#include "view_stage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct view_stage stage;
+static float diffuse[VIEW_STAGE_PIXELS][4], reflection[VIEW_STAGE_PIXELS][4];
+
+/* Frames after which light cells have seen the wall that glows. */
+enum { FRAMES = 60 };
+
+/* The floor of the stage, seen along the floor: `side` 1 from beyond its wall, so that the wall lies behind
+ * the viewer, -1 from the other end. 20 degrees above the floor. */
+static void look_along(struct sdfgi_resolve_desc *desc, float side)
+{
+    const float eye[] = { -0.94f * side, 0.342f, 0 };
+    for (int i = 0; i < 3; i++) {
+        desc->inverse_view_projection[8 + i] = -2 * eye[i];
+        desc->inverse_view_projection[12 + i] = eye[i] + (i == 1 ? -2.0f : 0.0f);
+    }
+}
+
+/* Resolves the picture with one roughness, that of metal below 0; `side` 0: seen from above. */
+static void resolve(sdfgi_view *view, float roughness, float side)
+{
+    float pixels[VIEW_STAGE_PIXELS];
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+        pixels[i] = roughness;
+    struct gpu_test_image image =
+        gi_test_gather_image(&stage.t, VK_FORMAT_R32_SFLOAT, 4, VIEW_STAGE_SIDE, VIEW_STAGE_SIDE, pixels);
+    struct sdfgi_resolve_desc desc = view_stage_desc(&stage, image.view);
+    if (side != 0)
+        look_along(&desc, side);
+    gi_test_resolve(&stage.t, view, &desc);
+    gpu_test_image_destroy(&stage.t.gpu, &image);
+    view_stage_read(&stage, &view->diffuse, diffuse);
+    view_stage_read(&stage, &view->reflection, reflection);
+}
+
+static double luminance(const float *pixel)
+{
+    return 0.2126 * (double)pixel[0] + 0.7152 * (double)pixel[1] + 0.0722 * (double)pixel[2];
+}
+
+/* What the floor between the wall and a metre before the picture's edge reflects over its irradiance over
+ * pi. */
+static double mean_answer(void)
+{
+    double reflected = 0, arrives = 0;
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++) {
+        const int column = i % VIEW_STAGE_SIDE, row = i / VIEW_STAGE_SIDE;
+        if (column < 8 || column > 19 || row < 6 || row > 17)
+            continue;
+        reflected += luminance(reflection[i]);
+        arrives += luminance(diffuse[i]) / 3.14159265;
+    }
+    REQUIRE_CMP(arrives, >, 0.0);
+    return reflected / arrives;
+}
+
+static double worst_from_irradiance(void)
+{
+    double worst = 0;
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double want = (double)diffuse[i][k] / 3.14159265;
+            worst = fmax(worst, fabs((double)reflection[i][k] - want) / fmax(want, 0.01));
+        }
+    return worst;
+}
+
+static void set_property(const char *name, const char *value)
+{
+    struct sdfgi_settings settings;
+    sdfgi_get_settings(stage.t.gi, &settings);
+    char error[160];
+    REQUIRE_TRUE(sdfgi_settings_set(&settings, name, value, error, sizeof error));
+    REQUIRE_CMP((int)sdfgi_set_settings(stage.t.gi, &settings), ==, (int)SDFGI_OK);
+}
+
+/* The stage with light cells that gather. Its wall alone glows. */
+static void open_stage(float smoothness)
+{
+    view_stage_open(&stage, smoothness);
+    REQUIRE_CMP((int)sdfgi_set_sky(stage.t.gi, &(struct sdfgi_sky){ 0 }), ==, (int)SDFGI_OK);
+    set_property("sdfgi_surface_light", "cells");
+    gi_test_update(&stage.t, 8);
+}
+
+static void close_stage(sdfgi_view *view)
+{
+    sdfgi_view_destroy(stage.t.gi, view);
+    view_stage_close(&stage);
+}
+
+/* A view that has resolved reflections, and light that knows where it comes from. */
+static sdfgi_view *open_lit(void)
+{
+    open_stage(1);
+    sdfgi_view *view = view_stage_view(&stage);
+    resolve(view, 1, 0);
+    gi_test_update(&stage.t, FRAMES);
+    return view;
+}
+
+static void a_floor_reflects_the_wall_beyond_and_not_the_one_behind(void **state)
+{
+    (void)state;
+    sdfgi_view *view = open_lit();
+    resolve(view, 0.8f, -1);
+    const double beyond = mean_answer();
+    resolve(view, 0.8f, 1);
+    const double behind = mean_answer();
+    set_property("sdfgi_reflection_end", "1");
+    set_property("sdfgi_reflection_blend", "0.99");
+    gi_test_update(&stage.t, 1);
+    resolve(view, 0.8f, -1);
+    const double by_rays = mean_answer();
+    resolve(view, 0.8f, 1);
+    const double behind_by_rays = mean_answer();
+    printf("reflected over irradiance: the wall beyond %.3f, by rays %.3f; behind %.3f, by rays %.3f\n",
+           beyond, by_rays, behind, behind_by_rays);
+    close_stage(view);
+    /* Five moments do not tell how narrow light is that comes from beyond. */
+    REQUIRE_CMP(beyond, >, 0.6 * by_rays);
+    REQUIRE_CMP(beyond, <, 1.1 * by_rays);
+    REQUIRE_CMP(fabs(behind / behind_by_rays - 1), <, 0.1);
+}
+
+static void metal_of_roughness_1_reflects_irradiance(void **state)
+{
+    (void)state;
+    sdfgi_view *view = open_lit();
+    resolve(view, -1, -1);
+    const double metal = worst_from_irradiance();
+    REQUIRE_CMP(view_stage_dispatches(&stage, PASS_REFLECT_LOBES), ==, 1u);
+    resolve(view, 1, -1);
+    const double dielectric = worst_from_irradiance();
+    printf("roughness 1 from irradiance: metal off by %.2e, dielectric by %.2f\n", metal, dielectric);
+    close_stage(view);
+    REQUIRE_CMP(metal, <=, 0.002);
+    REQUIRE_CMP(dielectric, >, 0.1);
+}
+
+static bool keeps_low_light(void)
+{
+    return stage.t.gi->volume.state.low_light;
+}
+
+/* The words of all light cells. */
+static uint64_t known_surfaces(void)
+{
+    const struct extent *e = &stage.t.gi->volume.resources->extent;
+    uint64_t size, known = 0;
+    uint32_t *words = gi_test_read(&stage.t, RESOURCE_SEEN, &size);
+    for (uint64_t i = sdfgi_seen_low_light((uint32_t)e->light_cells, (uint32_t)e->cascades); i < size / 4;
+         i++)
+        known += words[i] != 0;
+    free(words);
+    return known;
+}
+
+static void switched_off_surfaces_reflect_irradiance_and_cells_forget(void **state)
+{
+    (void)state;
+    sdfgi_view *view = open_lit();
+    REQUIRE_TRUE(keeps_low_light());
+    REQUIRE_CMP(known_surfaces(), >, 100u);
+    set_property("sdfgi_rough_lobes", "false");
+    gi_test_update(&stage.t, 2);
+    REQUIRE_TRUE(!keeps_low_light());
+    resolve(view, 0.8f, -1);
+    REQUIRE_CMP(worst_from_irradiance(), <=, 0.002);
+    REQUIRE_CMP(view_stage_dispatches(&stage, PASS_REFLECT_LOBES), ==, 0u);
+    set_property("sdfgi_rough_lobes", "true");
+    gi_test_update(&stage.t, FRAMES);
+    resolve(view, 0.8f, -1);
+    REQUIRE_CMP(mean_answer(), >, 1.3);
+    close_stage(view);
+}
+
+/* Nothing of it is there before a view has reflections, and it settles. */
+static void light_cells_keep_it_for_reflections_alone(void **state)
+{
+    (void)state;
+    open_stage(0.05f);
+    sdfgi_view *view = view_stage_view(&stage);
+    view_stage_resolve(&stage, view, 1);
+    gi_test_update(&stage.t, 2);
+    const struct volume *volume = &stage.t.gi->volume;
+    REQUIRE_TRUE(!keeps_low_light() && !volume->resources->extent.low_light);
+    REQUIRE_TRUE(!sdfgi_pipelines_has(&stage.t.gi->backend, PASS_CELL_GATHER, PASS_LOBES));
+    const struct sdfgi_material_desc smooth = { .smoothness = 1 };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(stage.t.gi, &smooth, &material), ==, (int)SDFGI_OK);
+    for (int i = 0; i < 6000 && !sdfgi_volume_has_settled(volume); i++)
+        gi_test_update(&stage.t, 1);
+    REQUIRE_TRUE(sdfgi_volume_has_settled(volume) && !keeps_low_light());
+    resolve(view, 0.8f, -1);
+    REQUIRE_CMP(worst_from_irradiance(), <=, 0.002);
+    gi_test_update(&stage.t, 1);
+    REQUIRE_TRUE(keeps_low_light() && !sdfgi_volume_has_settled(volume));
+    int frames = 0;
+    for (; frames < 6000 && !sdfgi_volume_has_settled(volume); frames++)
+        gi_test_update(&stage.t, 1);
+    resolve(view, 0.8f, -1);
+    printf("settles again in %d frames, and reflects %.3f of irradiance\n", frames, mean_answer());
+    REQUIRE_TRUE(sdfgi_volume_has_settled(volume));
+    REQUIRE_CMP(mean_answer(), >, 1.3);
+    close_stage(view);
+}
+
+static int finish(void **state)
+{
+    (void)state;
+    gi_test_close(&stage.t);
+    return 0;
+}
+
+TEST_GROUP(rough_lobes)
+{
+    const struct CMUnitTest tests[] = {
+        /* first: the pipelines of a context stay */
+        cmocka_unit_test(light_cells_keep_it_for_reflections_alone),
+        cmocka_unit_test(a_floor_reflects_the_wall_beyond_and_not_the_one_behind),
+        cmocka_unit_test(metal_of_roughness_1_reflects_irradiance),
+        cmocka_unit_test(switched_off_surfaces_reflect_irradiance_and_cells_forget),
+    };
+    return cmocka_run_group_tests_name("rough_lobes", tests, NULL, finish);
+}
