@@ -11,6 +11,8 @@ const float SDFGI_LOBE_LOW_COSINE = 0.2236;
 const float SDFGI_LOBE_LOW_SHARE = 0.774;
 /* Azimuths at which it is asked, on one of two sides that are alike. */
 const int SDFGI_LOBE_AZIMUTHS = 8;
+/* So many do not tell narrower lobes. */
+const float SDFGI_LOBE_LEAST_ROUGHNESS = 0.4;
 /* The fit of the directional albedo does not reach smaller cosines to the viewer. */
 const float SDFGI_LOBE_LEAST_COSINE = 0.1;
 
@@ -40,13 +42,15 @@ vec2 sdfgi_lobe_turns(float c)
     return vec2((4.0 * c2 - 3.0) * c, 8.0 * c2 * (c2 - 1.0) + 1.0);
 }
 
+/* `to_eye` leads to the viewer, and has a length. */
 sdfgi_rough_lobe sdfgi_rough_lobe_of(vec3 normal, vec3 to_eye, float roughness)
 {
     const vec3 view = normalize(to_eye), along = normal * dot(normal, view) - view;
     const vec3 forward =
         dot(along, along) > 1e-8 ? normalize(along) : normalize(cross(normal, vec3(0.36, 0.48, 0.8)));
     const vec3 side = cross(normal, forward);
-    const float alpha = roughness * roughness, n_v = clamp(dot(normal, view), SDFGI_LOBE_LEAST_COSINE, 1.0),
+    const float rough = max(roughness, SDFGI_LOBE_LEAST_ROUGHNESS), alpha = rough * rough,
+                n_v = clamp(dot(normal, view), SDFGI_LOBE_LEAST_COSINE, 1.0),
                 albedo = sdfgi_ggx_dielectric(sdfgi_ggx_mean_fresnel_weight(n_v, alpha)) *
                          (1.0 - sdfgi_ggx_lost(n_v, alpha)),
                 out_of_normal = sqrt(1.0 - SDFGI_LOBE_LOW_COSINE * SDFGI_LOBE_LOW_COSINE);

@@ -30,9 +30,9 @@ layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
 
 /* The lobe's answer times weight, and the weight, of the finest cascade around a point. It asks the light
  * cells at one place alone: pixels that find none there have their neighbours' answers. */
-vec2 answer_around(picture_surface s)
+vec2 answer_around(picture_surface s, vec3 to_eye)
 {
-    const vec3 first = sdfgi_lookup_position(s.pos), to_eye = sdfgi_lookup_to_eye(s.to_eye, s.normal);
+    const vec3 first = sdfgi_lookup_position(s.pos);
     for (uint c = 0u; c < sdfgi_frame.cascade_count; c++) {
         const vec3 pos = sdfgi_cascade_from_first(c, first);
         bool in_air = false;
@@ -53,8 +53,9 @@ uint answer_at(ivec2 pixel)
     const float roughness = picture_roughness(pixel);
     if (roughness <= sdfgi_frame.rays_blend)
         return 0u;
-    lobe = sdfgi_rough_lobe_of(s.normal, s.to_eye, roughness);
-    const vec2 answer = answer_around(s);
+    const vec3 to_eye = sdfgi_lookup_to_eye(s.to_eye, s.normal);
+    lobe = sdfgi_rough_lobe_of(s.normal, to_eye, roughness);
+    const vec2 answer = answer_around(s, to_eye);
     return answer.y > 0.0 ? picture_lobe_pack(answer.x / answer.y, s.normal) : 0u;
 }
 

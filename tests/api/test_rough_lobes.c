@@ -217,6 +217,29 @@ static void light_cells_keep_it_for_reflections_alone(void **state)
     close_stage(view);
 }
 
+/* What is new lies above the picture, behind the viewer. */
+static void cells_keep_it_where_the_list_is_written_anew(void **state)
+{
+    (void)state;
+    sdfgi_view *view = open_lit();
+    resolve(view, 0.8f, -1);
+    const double before = mean_answer();
+    struct test_mesh box =
+        test_mesh_box((double[]){ 3.2, 2, 3.2 }, (double[]){ 0.5, 0.5, 0.5 }, test_rotation_none);
+    gi_test_add(&stage.t, &box, gi_test_material(&stage.t, (float[]){ 0, 0, 0 }, (float[]){ 0, 0, 0 }));
+    test_mesh_destroy(&box);
+    bool listed = false;
+    for (int i = 0; i < 60 && !listed; i++) {
+        gi_test_update(&stage.t, 1);
+        listed = stage.t.gi->passes[PASS_LIGHT_LIST].tally.dispatches > 0;
+    }
+    REQUIRE_TRUE(listed);
+    resolve(view, 0.8f, -1);
+    printf("reflected over irradiance: %.3f, and %.3f in the frame of a change\n", before, mean_answer());
+    REQUIRE_CMP(fabs(mean_answer() / before - 1), <, 0.05);
+    close_stage(view);
+}
+
 static int finish(void **state)
 {
     (void)state;
@@ -232,6 +255,7 @@ TEST_GROUP(rough_lobes)
         cmocka_unit_test(a_floor_reflects_the_wall_beyond_and_not_the_one_behind),
         cmocka_unit_test(metal_of_roughness_1_reflects_irradiance),
         cmocka_unit_test(switched_off_surfaces_reflect_irradiance_and_cells_forget),
+        cmocka_unit_test(cells_keep_it_where_the_list_is_written_anew),
     };
     return cmocka_run_group_tests_name("rough_lobes", tests, NULL, finish);
 }

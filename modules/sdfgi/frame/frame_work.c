@@ -41,7 +41,7 @@ void sdfgi_frame_add_work(struct frame *frame, const struct frame_input *input,
     const struct plan_stage stage = { frame, input, needs };
     if (input->gaps.emitters)
         clear_emitters(&frame->work, &input->extent);
-    if (frame->situation.low_light_begins)
+    if (frame->situation.low_light_begins || input->gaps.seen)
         sdfgi_work_add_clear(&frame->work, RESOURCE_SEEN, 0,
                              sdfgi_resource_size(RESOURCE_SEEN, &input->extent));
     if (needs->holds[NEED_GENERATE])

@@ -193,9 +193,13 @@ bool sdfgi_volume_add_low_light(struct volume *volume)
     struct resources *r = volume->resources;
     if (!r->extent.gathers || volume->feedback.low_light_refused)
         return false;
-    if (sdfgi_pipelines_require(backend, PASS_CELL_GATHER, PASS_LOBES) == VK_SUCCESS &&
-        (r->extent.low_light || sdfgi_resources_add_low_light(backend, r)))
+    const bool made = sdfgi_pipelines_require(backend, PASS_CELL_GATHER, PASS_LOBES) == VK_SUCCESS;
+    if (made && r->extent.low_light)
         return true;
+    if (made && sdfgi_resources_add_low_light(backend, r)) {
+        volume->gaps.seen = true;
+        return true;
+    }
     volume->feedback.low_light_refused = true;
     sdfgi_message_log(&backend->hooks, SDFGI_MESSAGE_NO_ROUGH_LOBES,
                       "sdfgi_update: no memory for rough lobes: what is rough reflects its irradiance");

@@ -62,6 +62,7 @@ struct feedback {
 struct volume_gaps {
     bool lists;    /* the light lists are empty */
     bool emitters; /* the emitter lists hold anything */
+    bool seen;     /* so do the marks on light cells */
 };
 
 /* What the last frame began with, in case it never runs. */

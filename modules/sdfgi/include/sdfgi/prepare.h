@@ -17,7 +17,8 @@ enum sdfgi_prepare_part {
     SDFGI_PREPARE_TEXTURES = 1,    /* the pipeline for materials with textures */
     SDFGI_PREPARE_EMISSION = 2,    /* the memory for scenes in which something emits: not in the estimate */
     SDFGI_PREPARE_GATHER = 4,      /* pipelines of sdfgi_gather and of sdfgi_view_resolve */
-    SDFGI_PREPARE_REFLECTIONS = 8, /* those of reflections. For their pictures see sdfgi_view_desc */
+    SDFGI_PREPARE_REFLECTIONS = 8, /* those of reflections, and the memory of sdfgi_rough_lobes, which is not
+                                      in the estimate. For their pictures see sdfgi_view_desc */
     SDFGI_PREPARE_DEBUG = 16,      /* that of sdfgi_debug_draw */
 };
 
