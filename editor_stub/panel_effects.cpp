@@ -19,6 +19,7 @@ const effect effects[] = {
     { "Bounces", "sdfgi_bounce_feedback", "0", "1", { "light_bounce" } },
     { "Occlusion", "sdfgi_use_occlusion", "false", "true", { "cell_mask", "occlusion_trace" } },
     { "Surface rays", "sdfgi_surface_light", "probes", "cells", { "cell_gather", "cell_filter" } },
+    { "Lobes", "sdfgi_rough_lobes", "false", "true", { "reflect_lobes" } },
 };
 
 bool is_on(const effect &effect, const sdfgi_settings &settings)

@@ -41,16 +41,10 @@ vec3 brdf_evaluate(brdf_surface s, vec3 light)
         return s.diffuse * (n_l / BRDF_PI);
     const vec3 h = normalize(s.view + light);
     const float n_v = max(abs(dot(s.normal, s.view)), 1e-4);
-    const float n_h = clamp(dot(s.normal, h), 0.0, 1.0);
-    const float a2 = s.alpha * s.alpha;
-    /* 1 - n_h^2 as a cross product: the difference loses all digits near the peak of smooth surfaces. */
-    const vec3 nxh = cross(s.normal, h);
-    const float d = dot(nxh, nxh) + n_h * n_h * a2;
-    const float distribution = a2 / (BRDF_PI * d * d);
-    const float smith = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
     const vec3 fresnel = mix(s.f0, vec3(1.0), sdfgi_ggx_fresnel_weight(dot(s.view, h)));
     const vec3 diffuse = s.diffuse * (brdf_diffuse_transmission(s) / BRDF_PI);
-    return (diffuse + brdf_compensation(s) * fresnel * (distribution * 0.5 / max(smith, 1e-9))) * n_l;
+    const float facets = sdfgi_ggx_facets(s.normal, h, n_v, n_l, s.alpha);
+    return (diffuse + brdf_compensation(s) * fresnel * facets) * n_l;
 }
 
 /* Directional albedo of the specular lobe. White metal loses nothing. */

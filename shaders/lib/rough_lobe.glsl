@@ -29,10 +29,9 @@ struct sdfgi_rough_lobe {
 float sdfgi_lobe_towards(vec3 normal, vec3 view, vec3 light, float n_v, float alpha)
 {
     const vec3 half_way = normalize(view + light);
-    const float n_l = max(dot(normal, light), 1e-3), n_h = dot(normal, half_way), a2 = alpha * alpha,
-                d = n_h * n_h * (a2 - 1.0) + 1.0,
-                smith = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
-    return sdfgi_ggx_dielectric(sdfgi_ggx_fresnel_weight(dot(view, half_way))) * a2 * 0.5 / (d * d * smith);
+    const float fresnel = sdfgi_ggx_dielectric(sdfgi_ggx_fresnel_weight(dot(view, half_way)));
+    return 3.14159265 * fresnel *
+           sdfgi_ggx_facets(normal, half_way, n_v, max(dot(normal, light), 1e-3), alpha);
 }
 
 /* Cosines of three and of four times an angle, from its cosine. */

@@ -79,15 +79,15 @@ SDFGI_FUNCTION uint sdfgi_scratch_light_rows(uint bits)
     return 8u << (3u * bits - 6u);
 }
 
-/* Behind them, so many words for each entry that a list has room for: what the previous list held; */
-SDFGI_FUNCTION uint sdfgi_scratch_light_words(bool keeps_low_light)
-{
-    return SDFGI_LIGHT_KEPT_WORDS + (keeps_low_light ? 6u : 0u);
-}
-
+/* sdfgi_scratch_light_words times `room` words of what the previous list held, */
 SDFGI_FUNCTION uint sdfgi_scratch_light_before(uint bits)
 {
     return sdfgi_scratch_light_rows(bits) + (2u << (3u * bits - 6u)) / SDFGI_GROUP_LINEAR;
+}
+
+SDFGI_FUNCTION uint sdfgi_scratch_light_words(bool keeps_low_light)
+{
+    return SDFGI_LIGHT_KEPT_WORDS + (keeps_low_light ? 6u : 0u);
 }
 
 /* then two words per dirty light cell. `room` is the number of entries that a list has room for. */

@@ -198,7 +198,7 @@ static void switched_off_surfaces_reflect_irradiance_and_cells_forget(void **sta
     gi_test_update(&stage.t, FRAMES);
     REQUIRE_TRUE(!cleared());
     resolve(view, 0.8f, -1);
-    REQUIRE_CMP(mean_answer(), >, 1.3);
+    REQUIRE_CMP(mean_answer(), >, 2.0);
     close_stage(view);
 }
 
@@ -227,9 +227,10 @@ static void light_cells_keep_it_for_reflections_alone(void **state)
     for (; frames < 6000 && !sdfgi_volume_has_settled(volume); frames++)
         gi_test_update(&stage.t, 1);
     resolve(view, 0.8f, -1);
-    printf("settles again in %d frames, and reflects %.3f of irradiance\n", frames, mean_answer());
+    printf("settles again in %d frames, and reflects %.3f of irradiance; %u surfaces know it\n", frames,
+           mean_answer(), (unsigned)known_surfaces());
     REQUIRE_TRUE(sdfgi_volume_has_settled(volume));
-    REQUIRE_CMP(mean_answer(), >, 1.3);
+    REQUIRE_CMP(mean_answer(), >, 2.0);
     close_stage(view);
 }
 

@@ -34,9 +34,6 @@ static void take_seed(struct volume_state *next, uint32_t seed, bool first)
         sdfgi_cascade_outdate(&next->cascades.at[c]);
 }
 
-/* Change of light, as a part of it, by which cells lose nothing of what they know and are visited again. */
-#define LEAST_DRIFT 1e-6f
-
 /* Light cells keep from where they get their light, or do not. In the frame in which they begin they know
  * nothing of it: all are visited again. */
 static void take_low_light(struct frame *frame, bool low_light)
@@ -44,10 +41,8 @@ static void take_low_light(struct frame *frame, bool low_light)
     struct volume_state *next = &frame->next;
     frame->situation.low_light_begins = low_light && !next->low_light;
     next->low_light = low_light;
-    if (!frame->situation.low_light_begins || next->updates == 0)
-        return;
-    sdfgi_accumulation_invalidate(&next->accumulation);
-    sdfgi_gathering_drift(&next->gathering, LEAST_DRIFT);
+    if (frame->situation.low_light_begins)
+        sdfgi_accumulation_invalidate(&next->accumulation);
 }
 
 /* Takes over what the host says about the frame and what changed in the scene. */
