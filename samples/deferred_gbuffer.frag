@@ -15,6 +15,6 @@ void main()
 {
     color_metal = base_color;
     normal = vec4(normalize(normal_in), 0.0);
-    roughness = glow.a;
+    roughness = base_color.a > 0.5 ? -glow.a : glow.a; /* of metal below 0 */
     radiance = vec4(glow.rgb, 1.0);
 }

@@ -142,8 +142,8 @@ static void gather(sdfgi *gi, VkCommandBuffer cmd, const struct renderer *r)
 
 static void make_images(struct renderer *r, struct sample_gpu *gpu, uint32_t width, uint32_t height)
 {
-    const VkFormat formats[] = { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UNORM,
-                                 VK_FORMAT_R16G16B16A16_SFLOAT };
+    const VkFormat formats[] = { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                 VK_FORMAT_R16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT };
     for (int i = 0; i < 4; i++)
         r->colors[i] = sample_image_make(gpu, width, height, formats[i],
                                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |

@@ -171,9 +171,9 @@ enum gpu_placement { GPU_DEVICE_LOCAL, GPU_HOST_READ };
 VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buffer, uint64_t size,
                          VkBufferUsageFlags usage, enum gpu_placement placement, uint32_t category,
                          const char *name);
-/* Has shaders read a buffer as texels, too. `usage` must have said so. */
+/* Has shaders read a buffer's first bytes, or VK_WHOLE_SIZE, as texels, too. `usage` must have said so. */
 VkResult gpu_buffer_view(const struct gpu_device *device, struct gpu_buffer *buffer, VkFormat format,
-                         const char *name);
+                         VkDeviceSize bytes, const char *name);
 void gpu_buffer_finish(const struct gpu_device *device, struct gpu_buffer *buffer);
 
 /* Fills a host-visible buffer with zeros that the device sees in all work submitted later. */

@@ -139,14 +139,14 @@ VkResult gpu_buffer_init(const struct gpu_device *device, struct gpu_buffer *buf
 }
 
 VkResult gpu_buffer_view(const struct gpu_device *device, struct gpu_buffer *buffer, VkFormat format,
-                         const char *name)
+                         VkDeviceSize bytes, const char *name)
 {
     const VkResult result = device->fn.CreateBufferView(
         device->handle,
         &(VkBufferViewCreateInfo){ .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                    .buffer = buffer->handle,
                                    .format = format,
-                                   .range = VK_WHOLE_SIZE },
+                                   .range = bytes },
         device->callbacks, &buffer->texels);
     return gpu_named(device, result, VK_OBJECT_TYPE_BUFFER_VIEW, &buffer->texels, name);
 }

@@ -146,9 +146,10 @@ static const struct row rows[] = {
         "off, and views make no reflections then."),
     LIVE(rough_lobes, "sdfgi_rough_lobes", BOOL, 1, 0, 1, "", "",
         "sheen on rough floors and walls: light at small angles that dielectrics reflect most",
-        "a lookup for each square of 4 x 4 pixels, and 24 bytes per light cell, where a view has reflections",
+        "a lookup for each square of 4 x 4 pixels, and 24 bytes per light cell, where there are reflections",
         "Rough dielectrics reflect their light by where it comes from. Light cells keep that then, since a "
-        "view has asked for reflections. Off, rough surfaces reflect their irradiance."),
+        "view, or a frame with forward_reflections, has asked for it. Off, rough surfaces reflect their "
+        "irradiance."),
     RECREATE(sdf_method, "sdfgi_sdf_method", ENUM, SDFGI_SDF_EXACT, 0, 1, "", "exact,flood",
         "nothing: the two differ in kind",
         "flood oversteps by up to 0.14 cell, and its cost does not fall where a cascade is empty",

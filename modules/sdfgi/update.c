@@ -22,24 +22,28 @@ static uint32_t threads_per_ray(const struct gpu_device *device)
     return device->is_cpu ? 1 : SDFGI_GROUP_SURFACES;
 }
 
-/* True if rough surfaces of a view are to reflect light by where it comes from. */
-static bool wants_low_light(const struct sdfgi *gi)
+/* True if rough surfaces are to reflect light by where it comes from. */
+static bool wants_low_light(const struct sdfgi *gi, const struct sdfgi_frame_desc *desc)
 {
-    return gi->settings.rough_lobes && sdfgi_views_reflect(&gi->views);
+    const bool forward = desc->forward_reflections && gi->scene.smoothest > 0;
+    return gi->settings.rough_lobes && (forward || sdfgi_views_reflect(&gi->views));
 }
 
 static struct frame_input frame_input(struct sdfgi *gi, const struct sdfgi_frame_desc *desc, bool low_light)
 {
+    const struct extent *extent = &gi->volume.resources->extent;
+    const uint32_t most_texels = gi->backend.device.limits.maxTexelBufferElements;
     return (struct frame_input){ .state = &gi->volume.state,
                                  .desc = desc,
                                  .settings = &gi->settings,
                                  .scene = &gi->scene,
                                  .journal = &gi->volume.journal,
-                                 .extent = gi->volume.resources->extent,
+                                 .extent = *extent,
                                  .counters = gi->volume.feedback.counters,
                                  .lists = sdfgi_volume_light_lists(&gi->volume),
                                  .gaps = gi->volume.gaps,
                                  .low_light = low_light,
+                                 .low_light_begin = sdfgi_low_light_begin(extent, most_texels),
                                  .starts_in_parts = sdfgi_preparation_keeps(gi),
                                  .threads_per_ray = threads_per_ray(&gi->backend.device),
                                  .software = gi->backend.software };
@@ -121,7 +125,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
         return read;
     sdfgi_volume_make_room(&gi->volume);
     sdfgi_volume_add_emitters(&gi->volume, gi->scene.emissive > 0);
-    const bool low_light = wants_low_light(gi) && sdfgi_volume_add_low_light(&gi->volume);
+    const bool low_light = wants_low_light(gi, desc) && sdfgi_volume_add_low_light(&gi->volume);
     sdfgi_volume_add_instances(&gi->volume, &gi->scene);
 
     /* Decide what this frame does. */

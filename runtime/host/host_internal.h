@@ -220,10 +220,10 @@ struct host_pipelines {
                                                      for all but forward */
     VkPipelineLayout post_pipeline_layout;
     VkPipeline prepass[HOST_CULL_COUNT];
-    /* Those that the scene needs, once they are wanted; [whether it is blended][whether it sends rays]. */
+    /* Those that the scene needs, once they are wanted; [whether it is blended][whether it reflects]. */
     VkPipeline forward[HOST_FORWARD_COUNT][HOST_CULL_COUNT][2][2];
     bool forward_made[HOST_FORWARD_COUNT];
-    float rays_end; /* the roughness from which on no surface sends rays */
+    float rays_end, blended_end; /* the roughness from which on surfaces do not, and blended ones */
     VkPipeline shadow_solid, shadow_tested;
     VkPipeline sky, exposure, tonemap;
 };

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * Pipelines and their layouts. The forward shader exists four times: see enum host_forward, and with lookups
- * for materials that are rough everywhere once more, without rays. Rays take most of its time. Lookups have
- * shaders of their own for software drivers. */
+ * for materials that are rough everywhere once more, without reflections. Rays take most of its time. Lookups
+ * have shaders of their own for software drivers. */
 #include "host_internal.h"
+
+#include <math.h>
 
 #include "host_exposure_comp.h"
 #include "host_forward_frag.h"
@@ -323,11 +325,12 @@ enum host_forward host_forward_kind(const struct host_renderer *renderer, bool b
                                                                        : HOST_FORWARD_GATHERED;
 }
 
-/* Whether a material sends rays where its pixels look light up. */
-static bool sends_rays(const struct host_pipelines *pipelines, enum host_forward kind,
-                       const struct host_material *material)
+/* Whether a material reflects with sdfgi_lighting where its pixels look light up. */
+static bool reflects(const struct host_pipelines *pipelines, enum host_forward kind,
+                     const struct host_material *material)
 {
-    return kind == HOST_FORWARD_GI && 1 - material->gi.smoothness < pipelines->rays_end;
+    const float end = material->flags & HOST_MATERIAL_BLEND ? pipelines->blended_end : pipelines->rays_end;
+    return kind == HOST_FORWARD_GI && 1 - material->gi.smoothness < end;
 }
 
 VkPipeline host_forward_pipeline(const struct host_renderer *renderer, enum host_forward kind,
@@ -336,17 +339,32 @@ VkPipeline host_forward_pipeline(const struct host_renderer *renderer, enum host
     const struct host_material *material = host_instance_material(renderer->scene, instance);
     const bool blend = material->flags & HOST_MATERIAL_BLEND;
     return renderer->pipelines.forward[kind][host_instance_cull(renderer->scene, instance)][blend]
-                                      [sends_rays(&renderer->pipelines, kind, material)];
+                                      [reflects(&renderer->pipelines, kind, material)];
 }
 
-/* Which materials send rays is a setting, which may change from frame to frame. */
+/* What is blended reflects as opaque surfaces do, which have lobes where anything in the scene is smooth and
+ * their light comes from a view. */
+static float blended_end(const struct host_renderer *renderer, const struct sdfgi_settings *settings)
+{
+    const struct host_scene *scene = renderer->scene;
+    if (settings->rough_lobes && renderer->lookups.diffuse != HOST_LOOKUP_FORWARD)
+        for (uint32_t i = 0; i < scene->material_count; i++)
+            if (1 - scene->materials[i].gi.smoothness < settings->reflection_end)
+                return INFINITY;
+    return settings->reflection_end;
+}
+
+/* Which materials reflect is a setting, which may change from frame to frame. */
 static void follow_settings(struct host_renderer *renderer)
 {
+    struct host_pipelines *p = &renderer->pipelines;
     struct sdfgi_settings settings;
     host_gi_get_settings(renderer->gi, &settings);
-    if (settings.reflection_end != renderer->pipelines.rays_end)
-        memset(renderer->pipelines.forward_made, 0, sizeof renderer->pipelines.forward_made);
-    renderer->pipelines.rays_end = settings.reflection_end;
+    const float end = blended_end(renderer, &settings);
+    if (settings.reflection_end != p->rays_end || end != p->blended_end)
+        memset(p->forward_made, 0, sizeof p->forward_made);
+    p->rays_end = settings.reflection_end;
+    p->blended_end = end;
 }
 
 bool host_forward_prepare(struct host_renderer *renderer)
@@ -362,7 +380,7 @@ bool host_forward_prepare(struct host_renderer *renderer)
         const enum host_cull cull = host_instance_cull(scene, i);
         const bool blend = material->flags & HOST_MATERIAL_BLEND;
         const enum host_forward kind = host_forward_kind(renderer, blend);
-        const bool rays = sends_rays(p, kind, material);
+        const bool rays = reflects(p, kind, material);
         VkPipeline *pipeline = &p->forward[kind][cull][blend][rays];
         if (!*pipeline && !forward_create(renderer, kind, cull, blend, rays, pipeline))
             return false;

@@ -76,11 +76,11 @@ vec3 light_from_punctual(brdf_surface s, vec3 face)
     return sum;
 }
 
-brdf_surface surface_here(vec4 base_color, bool front_facing)
+brdf_surface surface_here(vec4 base_color, bool front_facing, out float metallic)
 {
     const vec2 metallic_roughness = material_surface(in_uv);
     const bool lambert = material_has(HOST_MATERIAL_LAMBERT);
-    const float metallic = lambert ? 0.0 : metallic_roughness.x;
+    metallic = lambert ? 0.0 : metallic_roughness.x;
     brdf_surface s;
     s.normal = material_normal(in_uv, in_normal, in_tangent, front_facing);
     s.view = -normalize(camera_offset(in_position));
@@ -98,12 +98,13 @@ float perceptual_roughness(brdf_surface s)
 }
 
 /* Light that comes round corners: irradiance, and what the specular lobe reflects of it. */
-void indirect_light(brdf_surface s, out vec3 irradiance, out vec3 reflection)
+void indirect_light(brdf_surface s, float metallic, out vec3 irradiance, out vec3 reflection)
 {
     irradiance = reflection = vec3(0.0);
 #if defined(HOST_RAYS)
     const vec3 to_eye = -camera_offset(in_position);
-    const sdfgi_surface_light light = sdfgi_lighting(in_position, s.normal, to_eye, perceptual_roughness(s));
+    const float roughness = material_signed_roughness(metallic, perceptual_roughness(s));
+    const sdfgi_surface_light light = sdfgi_lighting(in_position, s.normal, to_eye, roughness);
     irradiance = light.irradiance;
     reflection = light.reflection * s.specular * brdf_specular_albedo(s);
 #elif defined(HOST_GI)
@@ -148,7 +149,8 @@ void main()
 {
     const bool front_facing = gl_FrontFacing == (push.params.x > 0.0);
     const vec4 base_color = material_base_color(in_uv, in_color);
-    brdf_surface s = surface_here(base_color, front_facing);
+    float metallic;
+    brdf_surface s = surface_here(base_color, front_facing, metallic);
     const vec3 face = face_normal();
 
     vec3 direct = vec3(0.0), irradiance = vec3(0.0), reflection = vec3(0.0);
@@ -162,7 +164,7 @@ void main()
             direct = light_from_suns(s, face) + light_from_punctual(s, face);
         if (shown == HOST_SHOW_COLOR ||
             (shown >= HOST_SHOW_DIFFUSE_INDIRECT && shown <= HOST_SHOW_REFLECTION))
-            indirect_light(s, irradiance, reflection);
+            indirect_light(s, metallic, irradiance, reflection);
     }
     const float alpha = material_has(HOST_MATERIAL_BLEND) ? base_color.a : 1.0;
     out_radiance = vec4(shown_value(s, direct, irradiance, reflection, emission), alpha);

@@ -51,6 +51,12 @@ vec2 material_surface(vec4 uv_sets)
     return surface;
 }
 
+/* Roughness as the library has it: of metal below 0. */
+float material_signed_roughness(float metallic, float roughness)
+{
+    return metallic > 0.5 ? -roughness : roughness;
+}
+
 /* Unit normal on the side from which the surface is seen. */
 vec3 material_normal(vec4 uv_sets, vec3 vertex_normal, vec4 tangent, bool front_facing)
 {

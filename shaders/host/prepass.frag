@@ -25,6 +25,6 @@ void main()
         discard;
     const bool front_facing = gl_FrontFacing == (push.params.x > 0.0);
     const vec2 surface = material_has(HOST_MATERIAL_LAMBERT) ? vec2(0.0, 1.0) : material_surface(in_uv).xy;
-    const float roughness = surface.x > 0.5 ? -surface.y : surface.y; /* of metal below 0, as views want it */
+    const float roughness = material_signed_roughness(surface.x, surface.y);
     out_normal = vec4(material_normal(in_uv, in_normal, in_tangent, front_facing), roughness);
 }

@@ -79,17 +79,24 @@ uint sdfgi_surface_index(uint cascade, uint entry, uint axis)
     return (cascade * 6u + axis) * sdfgi_frame.light_cell_room + entry;
 }
 
-/* What lookups read of a surface: the irradiance that arrives at it, or the radiance that leaves it. */
+/* What lookups read of a surface: the irradiance that arrives at it, the radiance that leaves it, or what a
+ * lobe answers to what arrives: sdfgi_rough_lobes.glsl. */
 const uint SDFGI_CELLS_ARRIVING = 0u;
 const uint SDFGI_CELLS_LEAVING = 1u;
+const uint SDFGI_CELLS_ANSWER = 2u;
+
+#ifdef SDFGI_ROUGH_LOBES
+vec4 sdfgi_lobe_answer_of_surface(uint surface, uint arriving, uint axis, float weight);
+#endif
 
 /* The light of the surface of a light cell that faces an axis, times weight, in rgb; its weight in a, which
- * is 0 where there is none. A pass with SDFGI_ROUGH_LOBES gets what its lobe answers to that. */
+ * is 0 where there is none. */
 vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, float weight, uint what)
 {
     const uint index = sdfgi_surface_index(cascade, entry, axis), arriving = sdfgi_surfaces_at(index);
 #ifdef SDFGI_ROUGH_LOBES
-    return sdfgi_lobe_answer_of_surface(index, arriving, axis, weight);
+    if (what == SDFGI_CELLS_ANSWER)
+        return sdfgi_lobe_answer_of_surface(index, arriving, axis, weight);
 #endif
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING) {
@@ -348,12 +355,12 @@ sdfgi_cells_cage sdfgi_cells_cage_at(uint cascade, sdfgi_cells_place place, vec3
     return cage;
 }
 
-/* Light that arrives at the cells around a place, times weight, in rgb; its weight in a. The axes along which
+/* What arrives at the cells around a place, times weight, in rgb; its weight in a. The axes along which
  * surfaces face are weighed by the squares of the normal's components. `around`: the surface is smaller than
  * a cell, and faces along none of its cell's axes. Those around it stand for it, those that face away
  * excepted. One loop for both, with as many rounds as there are axes to read: its code takes time at every
  * pixel. */
-vec4 sdfgi_cells_interpolate(uint cascade, sdfgi_cells_place place, vec3 normal, bool around)
+vec4 sdfgi_cells_interpolate(uint cascade, sdfgi_cells_place place, vec3 normal, bool around, uint what)
 {
     const sdfgi_cells_cage cage = sdfgi_cells_cage_at(cascade, place, normal);
     const uint count = around ? 6u : 3u;
@@ -367,8 +374,7 @@ vec4 sdfgi_cells_interpolate(uint cascade, sdfgi_cells_place place, vec3 normal,
             continue;
         vec4 of_axis = vec4(0.0);
         for (uint i = 0u; i < 8u; i++)
-            of_axis +=
-                sdfgi_cell_surface(cascade, cage.entries[i], axis, cage.weights[i], SDFGI_CELLS_ARRIVING);
+            of_axis += sdfgi_cell_surface(cascade, cage.entries[i], axis, cage.weights[i], what);
         sum += share * of_axis;
     }
     return sum;
@@ -423,8 +429,7 @@ vec4 sdfgi_cells_leaving_around(uint cascade, vec3 at, vec3 normal)
 
 #endif
 
-/* What a lookup reads around a place: light that arrives, or light that leaves. `around`: from all surfaces
- * that do not face away. */
+/* What a lookup reads around a place. `around`: from all surfaces that do not face away. */
 vec4 sdfgi_cells_read(uint cascade, sdfgi_cells_place place, vec3 normal, bool around, uint what)
 {
 #ifdef SDFGI_REFLECTIONS
@@ -432,7 +437,7 @@ vec4 sdfgi_cells_read(uint cascade, sdfgi_cells_place place, vec3 normal, bool a
         return around ? sdfgi_cells_leaving_around(cascade, place.at, normal)
                       : sdfgi_cells_leaving(cascade, place.at, normal);
 #endif
-    return sdfgi_cells_interpolate(cascade, place, normal, around);
+    return sdfgi_cells_interpolate(cascade, place, normal, around, what);
 }
 
 /* A place near a surface point that sdfgi_cells_lookup reads around. `i`: SDFGI_CELLS_MOVING, or the number

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
-#include "../include/sdfgi_reflection.glsl"
+#include "../include/sdfgi_reflection_rays.glsl"
 #include "debug_colors.glsl"
 #include "picture_reflect.glsl"
 

@@ -11,14 +11,12 @@
 
 /* Pixels whose answers around them weigh less do without. */
 const float LOBE_LEAST_WEIGHT = 0.02;
-/* A lobe's answer, at most. */
-const float LOBE_MOST_ANSWER = 64.0;
 
 /* An answer, and the normal of the surface that it is for. 0: none. */
 uint picture_lobe_pack(float answer, vec3 normal)
 {
     const uvec2 map = uvec2((sdfgi_octahedral_encode(normal) * 0.5 + 0.5) * 255.0 + 0.5);
-    return packHalf2x16(vec2(clamp(answer, 1e-3, LOBE_MOST_ANSWER), 0.0)) | map.x << 16u | map.y << 24u;
+    return packHalf2x16(vec2(answer, 0.0)) | map.x << 16u | map.y << 24u;
 }
 
 /* The answer, times weight, of the square in a corner around a pixel; and the weight. It is 0 where the

@@ -7,7 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "../lib/on_cpu.glsl"
-#include "../include/sdfgi_reflection.glsl"
+#include "../include/sdfgi_reflection_rays.glsl"
 #include "picture_lobes.glsl"
 #include "picture_reflect.glsl"
 

@@ -5,44 +5,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
 #include "low_lights.glsl"
-#include "../lib/light_pack.glsl"
-#include "../lib/rough_lobe.glsl"
-
-/* Of the pixel. */
-sdfgi_rough_lobe lobe;
-
-/* What lookups read of a surface, by its number and what arrives there, instead of light: the lobe's answer
- * times luminance, and luminance, times weight; the weight in a. */
-vec4 sdfgi_lobe_answer_of_surface(uint surface, uint arriving, uint axis, float weight)
-{
-    const uint low = sdfgi_seen_at(low_light_word(surface));
-    const float known = arriving < SDFGI_SURFACE_UNKNOWN && low != 0u ? weight : 0.0,
-                luminance = sdfgi_light_luminance(sdfgi_rgbe_decode_weighted(arriving, known));
-    return vec4(sdfgi_rough_lobe_answer(lobe, sdfgi_low_unpack(low), axis) * luminance, luminance, 0.0,
-                known);
-}
-
 #define SDFGI_ROUGH_LOBES
-#include "../include/sdfgi_lookup.glsl"
+#define sdfgi_low_light_at(surface) sdfgi_seen_at(low_light_word(surface))
+#include "../include/sdfgi_rough_lobes.glsl"
 #include "picture_lobes.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;
-
-/* The lobe's answer times weight, and the weight, of the finest cascade around a point. It asks the light
- * cells at one place alone: pixels that find none there have their neighbours' answers. */
-vec2 answer_around(picture_surface s, vec3 to_eye)
-{
-    const vec3 first = sdfgi_lookup_position(s.pos);
-    for (uint c = 0u; c < sdfgi_frame.cascade_count; c++) {
-        const vec3 pos = sdfgi_cascade_from_first(c, first);
-        bool in_air = false;
-        if (sdfgi_lookup_cascade_weight(c, pos) > 0.0)
-            return sdfgi_cells_try(c, pos, s.normal, sdfgi_lookup_eye(c, to_eye), SDFGI_CELLS_ARRIVING,
-                                   SDFGI_CELLS_MOVING, in_air)
-                .xy;
-    }
-    return vec2(0.0);
-}
 
 /* The word of a pixel's answer. 0 where none is asked, or known. */
 uint answer_at(ivec2 pixel)
@@ -54,9 +22,8 @@ uint answer_at(ivec2 pixel)
     if (roughness <= sdfgi_frame.rays_blend)
         return 0u;
     const vec3 to_eye = sdfgi_lookup_to_eye(s.to_eye, s.normal);
-    lobe = sdfgi_rough_lobe_of(s.normal, to_eye, roughness);
-    const vec2 answer = answer_around(s, to_eye);
-    return answer.y > 0.0 ? picture_lobe_pack(answer.x / answer.y, s.normal) : 0u;
+    const float answer = sdfgi_lobe_answer(sdfgi_lookup_position(s.pos), s.normal, to_eye, roughness);
+    return answer > 0.0 ? picture_lobe_pack(answer, s.normal) : 0u;
 }
 
 void main()

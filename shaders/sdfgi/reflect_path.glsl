@@ -6,7 +6,7 @@
 
 #include "emitter_shapes.glsl"
 #include "metal.glsl"
-#include "../include/sdfgi_reflection.glsl"
+#include "../include/sdfgi_reflection_rays.glsl"
 
 /* Albedo in the upper bits of a word: ten a channel, but nine of blue. */
 const vec3 ALBEDO_STEPS = vec3(1023.0, 1023.0, 511.0);

@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
-#include "../include/sdfgi_reflection.glsl"
+#include "../include/sdfgi_reflection_rays.glsl"
 #include "picture_reflect.glsl"
 
 layout(local_size_x = SDFGI_GROUP_PIXELS, local_size_y = SDFGI_GROUP_PIXELS) in;

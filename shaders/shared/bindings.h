@@ -23,6 +23,7 @@
 #define SDFGI_BINDING_LIGHT_BLOCKS 6
 #define SDFGI_BINDING_SURFACES     7
 #define SDFGI_BINDING_EMISSION     8
+#define SDFGI_BINDING_LOW_LIGHT    9 /* texels of SEEN, for hosts: they may bind no more storage buffers */
 
 /* WORK: what only passes bind. */
 #define SDFGI_BINDING_LIGHTS      0

@@ -96,8 +96,8 @@ struct sdfgi_frame_params {
     uint epoch_of_local;   /* the last one in which more than lamps that flicker had changed */
     float flicker;         /* by which part the mean of these lamps' light has changed of late */
     uint edited_emitter_count; /* boxes in `edited_emitters` */
-    uint keeps_low_light; /* 1: light cells keep from where they get their light */
-    uint padding_1;
+    uint keeps_low_light;  /* 1: light cells keep from where they get their light */
+    uint low_light_begin;  /* where in SEEN that begins, for shaders of hosts; 0: they cannot read it */
     vec4 sky_harmonics[9]; /* factors of 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2; w unused */
     /* Around geometry that has changed in the last epochs, of cascade 0. They may lie beyond it. */
     SDFGI_STRUCT(sdfgi_dirty_box) edited[SDFGI_EDITED_BOXES];

@@ -4,6 +4,7 @@
 #include "require.h"
 #include "test_group.h"
 #include "view_stage.h"
+#include "wild_lookup.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,6 +45,26 @@ static void resolve(sdfgi_view *view, float roughness, float side)
     view_stage_read(&stage, &view->reflection, reflection);
 }
 
+/* Looks the floor of the same picture up with sdfgi_lighting. */
+static void look_up(float roughness, float side, struct wild_lookup *lookups)
+{
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++) {
+        const float u = ((float)(i % VIEW_STAGE_SIDE) + 0.5f) / VIEW_STAGE_SIDE * 2 - 1,
+                    v = ((float)(i / VIEW_STAGE_SIDE) + 0.5f) / VIEW_STAGE_SIDE * 2 - 1;
+        lookups[i] = (struct wild_lookup){ .position = { 3 * u, -2, 3 * v },
+                                           .roughness = roughness,
+                                           .normal = { 0, 1, 0 },
+                                           .to_eye = { -0.94f * side, 0.342f, 0 } };
+    }
+    wild_lookup_run(&stage.t, lookups, VIEW_STAGE_PIXELS);
+}
+
+static bool on_floor(int pixel)
+{
+    const int column = pixel % VIEW_STAGE_SIDE, row = pixel / VIEW_STAGE_SIDE;
+    return column >= 8 && column <= 19 && row >= 6 && row <= 17;
+}
+
 static double luminance(const float *pixel)
 {
     return 0.2126 * (double)pixel[0] + 0.7152 * (double)pixel[1] + 0.0722 * (double)pixel[2];
@@ -55,8 +76,7 @@ static double mean_answer(void)
 {
     double reflected = 0, arrives = 0;
     for (int i = 0; i < VIEW_STAGE_PIXELS; i++) {
-        const int column = i % VIEW_STAGE_SIDE, row = i / VIEW_STAGE_SIDE;
-        if (column < 8 || column > 19 || row < 6 || row > 17)
+        if (!on_floor(i))
             continue;
         reflected += luminance(reflection[i]);
         arrives += luminance(diffuse[i]) / 3.14159265;
@@ -257,6 +277,96 @@ static void cells_keep_it_where_the_list_is_written_anew(void **state)
     close_stage(view);
 }
 
+/* Of a shader of the host's own over a view's picture: reflections on the floor, in the mean, and how far one
+ * is off at most where the picture has asked the lobe and does not interpolate. */
+struct agreement {
+    double mean, worst;
+};
+
+static bool asks_lobe(int pixel)
+{
+    return pixel % VIEW_STAGE_SIDE % SDFGI_LOBE_STEP == 0 && pixel / VIEW_STAGE_SIDE % SDFGI_LOBE_STEP == 0;
+}
+
+static struct agreement forward_over_picture(sdfgi_view *view, float roughness, float side)
+{
+    static struct wild_lookup lookups[VIEW_STAGE_PIXELS];
+    resolve(view, roughness, side);
+    look_up(roughness, side, lookups);
+    double forward = 0, picture = 0, worst = 0;
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++) {
+        if (!on_floor(i))
+            continue;
+        const double a = luminance(lookups[i].answers[2]), b = luminance(reflection[i]);
+        forward += a;
+        picture += b;
+        if (asks_lobe(i))
+            worst = fmax(worst, fabs(a / b - 1));
+    }
+    printf("roughness %.2f from side %.0f: forward over picture %.4f, off by %.4f at most\n",
+           (double)roughness, (double)side, forward / picture, worst);
+    return (struct agreement){ forward / picture, worst };
+}
+
+static void shaders_of_hosts_answer_as_pictures_do(void **state)
+{
+    (void)state;
+    sdfgi_view *view = open_lit();
+    const float roughness[] = { 0.8f, 1, -1 };
+    for (int i = 0; i < 6; i++) {
+        const struct agreement a = forward_over_picture(view, roughness[i / 2], i % 2 ? 1 : -1);
+        REQUIRE_CMP(fabs(a.mean - 1), <=, 0.01);
+        REQUIRE_CMP(a.worst, <=, 0.005);
+    }
+    close_stage(view);
+}
+
+/* Of sdfgi_lighting alone, beyond the viewer. */
+static double forward_answer(void)
+{
+    static struct wild_lookup lookups[VIEW_STAGE_PIXELS];
+    look_up(0.8f, -1, lookups);
+    double reflected = 0, arrives = 0;
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+        if (on_floor(i)) {
+            reflected += luminance(lookups[i].answers[2]);
+            arrives += luminance(lookups[i].answers[1]) / 3.14159265;
+        }
+    return reflected / arrives;
+}
+
+/* A host without views says that its shaders reflect. */
+static void forward_hosts_ask_for_it(void **state)
+{
+    (void)state;
+    open_stage(0);
+    stage.t.frame.forward_reflections = true;
+    gi_test_update(&stage.t, 2);
+    REQUIRE_TRUE(!keeps_low_light());
+    const struct sdfgi_material_desc smooth = { .smoothness = 0.1f };
+    sdfgi_material material;
+    REQUIRE_CMP((int)sdfgi_material_create(stage.t.gi, &smooth, &material), ==, (int)SDFGI_OK);
+    gi_test_update(&stage.t, FRAMES);
+    const double asked = forward_answer();
+    /* As on a device whose texel buffers are too short. */
+    uint32_t *limit = &stage.t.gi->backend.device.limits.maxTexelBufferElements;
+    const uint32_t of_device = *limit;
+    *limit = (uint32_t)(stage.t.gi->volume.resources->buffers[RESOURCE_SEEN].size / 4) - 1;
+    gi_test_update(&stage.t, 2);
+    const double on_small_device = forward_answer();
+    *limit = of_device;
+    stage.t.frame.forward_reflections = false;
+    gi_test_update(&stage.t, 2);
+    const double not_asked = forward_answer();
+    view_stage_close(&stage);
+    printf("forward: reflected over irradiance %.3f; where texel buffers are short %.3f; not asked %.3f\n",
+           asked, on_small_device, not_asked);
+    REQUIRE_CMP(asked, >, 2.0);
+    REQUIRE_CMP(fabs(on_small_device - 1), <=, 0.002);
+    REQUIRE_CMP(fabs(not_asked - 1), <=, 0.002);
+    REQUIRE_TRUE(!keeps_low_light());
+}
+
 static int finish(void **state)
 {
     (void)state;
@@ -273,6 +383,8 @@ TEST_GROUP(rough_lobes)
         cmocka_unit_test(metal_of_roughness_1_reflects_irradiance),
         cmocka_unit_test(switched_off_surfaces_reflect_irradiance_and_cells_forget),
         cmocka_unit_test(cells_keep_it_where_the_list_is_written_anew),
+        cmocka_unit_test(shaders_of_hosts_answer_as_pictures_do),
+        cmocka_unit_test(forward_hosts_ask_for_it),
     };
     return cmocka_run_group_tests_name("rough_lobes", tests, NULL, finish);
 }

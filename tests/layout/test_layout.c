@@ -60,7 +60,7 @@
     X(sdfgi_frame_params, flicker)                                                                           \
     X(sdfgi_frame_params, edited_emitter_count)                                                              \
     X(sdfgi_frame_params, keeps_low_light)                                                                   \
-    X(sdfgi_frame_params, padding_1)                                                                         \
+    X(sdfgi_frame_params, low_light_begin)                                                                   \
     X(sdfgi_frame_params, edited)                                                                            \
     X(sdfgi_frame_params, edited_emitters)                                                                   \
     X(sdfgi_frame_params, y_scale)                                                                           \

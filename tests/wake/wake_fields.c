@@ -94,7 +94,8 @@
     X(double,   origin,          MANY, UNSEEN, 0, 0.7, -120, 5000)                                           \
     X(uint32_t, seed,            ONE,  UNSEEN, 0, 1, 77)                                                     \
     X(float,    exposure,        ONE,  UNSEEN, 0, 1, 0.02, 1e-4, 300)                                        \
-    X(bool,     cut,             ONE,  UNSEEN, 0, 1)
+    X(bool,     cut,             ONE,  UNSEEN, 0, 1)                                                         \
+    X(bool,     forward_reflections, ONE, UNSEEN, 0, 1)
 /* clang-format on */
 
 #define TABLES(TABLE)                                                                                        \

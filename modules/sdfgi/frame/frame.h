@@ -21,6 +21,7 @@ struct frame_input {
     struct light_lists lists;
     struct volume_gaps gaps;
     bool low_light;           /* light cells are to keep from where they get their light */
+    uint32_t low_light_begin; /* sdfgi_low_light_begin */
     bool starts_in_parts;     /* a start from nothing keeps to the budget, too */
     uint32_t threads_per_ray; /* of light_direct: few threads at once should not idle */
     bool software;            /* shaders are those for software drivers */

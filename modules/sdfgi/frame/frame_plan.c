@@ -199,7 +199,8 @@ static void plan_methods(struct situation *s, const struct sdfgi_settings *setti
 static void plan_uploads(struct frame *frame, const struct frame_input *input,
                          const struct situation_needs *needs)
 {
-    const struct params_input params_input = { input->settings, input->scene, &input->extent };
+    const struct params_input params_input = { input->settings, input->scene, &input->extent,
+                                               input->low_light_begin };
     struct sdfgi_frame_params params;
     sdfgi_params_fill(&params, &frame->next, &params_input);
     if (memcmp(&params, &frame->next.params, sizeof params) != 0)

@@ -82,8 +82,10 @@ bool sdfgi_pipelines_read_texels(const struct backend *backend, enum resource re
 
 static VkResult resource_set_layout(struct backend *backend, enum resource_set set)
 {
-    VkDescriptorSetLayoutBinding bindings[2 * RESOURCE_COUNT];
+    VkDescriptorSetLayoutBinding bindings[2 * RESOURCE_COUNT + 1];
     uint32_t count = 0;
+    if (set == RESOURCE_SET_LOOKUP)
+        bindings[count++] = binding(SDFGI_BINDING_LOW_LIGHT, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, NULL);
     for (int i = 0; i < RESOURCE_COUNT; i++) {
         const struct resource_row *row = sdfgi_resource_row((enum resource)i);
         if (row->set != set)

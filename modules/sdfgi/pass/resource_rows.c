@@ -59,6 +59,13 @@ uint64_t sdfgi_gather_counters_offset(const struct extent *e)
     return sizeof(uint32_t) * SDFGI_GATHERED_WORDS * ENTRY_COUNT(e);
 }
 
+uint32_t sdfgi_low_light_begin(const struct extent *e, uint32_t most_texels)
+{
+    return e->low_light && SEEN_COUNT(e) <= most_texels
+               ? sdfgi_seen_low_light((uint32_t)e->light_cells, (uint32_t)e->cascades)
+               : 0;
+}
+
 VkDescriptorType sdfgi_resource_descriptor(enum resource resource)
 {
     return rows[resource].kind == RESOURCE_KIND_UNIFORM ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER

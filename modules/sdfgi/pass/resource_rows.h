@@ -29,6 +29,9 @@ const struct resource_row *sdfgi_resource_row(enum resource resource);
 uint64_t sdfgi_resource_size(enum resource resource, const struct extent *extent);
 /* Bytes of GATHERED before the counters from SDFGI_COUNTER_GATHER on. Only where light cells gather. */
 uint64_t sdfgi_gather_counters_offset(const struct extent *extent);
+/* The word of SEEN at which it begins from where surfaces get their light. 0: it is not kept, or a texel
+ * buffer of `most_texels` does not reach its end. */
+uint32_t sdfgi_low_light_begin(const struct extent *extent, uint32_t most_texels);
 VkDescriptorType sdfgi_resource_descriptor(enum resource resource);
 /* "sdfgi LOOKUP" */
 const char *sdfgi_resource_set_name(enum resource_set set);

@@ -11,18 +11,31 @@
      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                                   \
      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT)
 
+/* How much of a buffer shaders may read as texels: all on software drivers. Elsewhere hosts read SEEN alone,
+ * and a binding needs a word where low light is not in it. */
+static uint64_t texel_bytes(const struct backend *backend, enum resource resource,
+                            const struct extent *extent)
+{
+    if (sdfgi_pipelines_read_texels(backend, resource))
+        return VK_WHOLE_SIZE;
+    if (resource != RESOURCE_SEEN)
+        return 0;
+    const uint32_t most = backend->device.limits.maxTexelBufferElements;
+    return sdfgi_low_light_begin(extent, most) > 0 ? sdfgi_resource_size(resource, extent) : sizeof(uint32_t);
+}
+
 static VkResult create_buffer(struct backend *backend, struct gpu_buffer *buffer, enum resource resource,
                               const struct extent *extent)
 {
     const struct resource_row *row = sdfgi_resource_row(resource);
-    const bool texels = sdfgi_pipelines_read_texels(backend, resource);
+    const uint64_t texels = texel_bytes(backend, resource, extent);
     const VkResult result =
         sdfgi_backend_buffer_init(backend, buffer, sdfgi_resource_size(resource, extent),
                                   BUFFER_USAGE | (texels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0),
                                   GPU_DEVICE_LOCAL, row->category, row->name);
     if (result != VK_SUCCESS || !texels)
         return result;
-    const VkResult viewed = gpu_buffer_view(&backend->device, buffer, row->texels, row->name);
+    const VkResult viewed = gpu_buffer_view(&backend->device, buffer, row->texels, texels, row->name);
     if (viewed != VK_SUCCESS)
         sdfgi_backend_buffer_finish(backend, buffer, row->category);
     return viewed;
@@ -47,9 +60,9 @@ static VkResult create_pool(const struct backend *backend, const char *name, uin
     const VkDescriptorPoolSize sizes[] = {
         { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count },
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1 },
-        { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count },
+        { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, (backend->software ? count : 0) + 1 },
     };
-    return sdfgi_backend_pool_create(backend, name, sets, sizes, backend->software ? 3 : 2, 0, pool);
+    return sdfgi_backend_pool_create(backend, name, sets, sizes, 3, 0, pool);
 }
 
 static VkResult create_sets(const struct backend *backend, VkDescriptorPool *pool,
@@ -62,26 +75,35 @@ static VkResult create_sets(const struct backend *backend, VkDescriptorPool *poo
     return result;
 }
 
+static void write_texels(const struct backend *backend, VkDescriptorSet set, uint32_t binding,
+                         VkBufferView texels)
+{
+    backend->device.fn.UpdateDescriptorSets(
+        backend->device.handle, 1,
+        &(VkWriteDescriptorSet){ .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                 .dstSet = set,
+                                 .dstBinding = binding,
+                                 .descriptorCount = 1,
+                                 .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
+                                 .pTexelBufferView = &texels },
+        0, NULL);
+}
+
 static void write_binding(const struct backend *backend, VkDescriptorSet set, enum resource resource,
                           const struct gpu_buffer *buffer)
 {
+    const uint32_t binding = sdfgi_resource_row(resource)->binding;
     /* Not the whole: a buffer of texels may be a little longer than its elements, and than storage may be. */
     const VkDescriptorBufferInfo info = { buffer->handle, 0, buffer->size };
-    const VkWriteDescriptorSet writes[] = {
-        { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = set,
-          .dstBinding = sdfgi_resource_row(resource)->binding,
-          .descriptorCount = 1,
-          .descriptorType = sdfgi_resource_descriptor(resource),
-          .pBufferInfo = &info },
-        { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-          .dstSet = set,
-          .dstBinding = SDFGI_BINDING_TEXELS + sdfgi_resource_row(resource)->binding,
-          .descriptorCount = 1,
-          .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-          .pTexelBufferView = &buffer->texels },
-    };
-    backend->device.fn.UpdateDescriptorSets(backend->device.handle, buffer->texels ? 2 : 1, writes, 0, NULL);
+    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                         .dstSet = set,
+                                         .dstBinding = binding,
+                                         .descriptorCount = 1,
+                                         .descriptorType = sdfgi_resource_descriptor(resource),
+                                         .pBufferInfo = &info };
+    backend->device.fn.UpdateDescriptorSets(backend->device.handle, 1, &write, 0, NULL);
+    if (sdfgi_pipelines_read_texels(backend, resource))
+        write_texels(backend, set, SDFGI_BINDING_TEXELS + binding, buffer->texels);
 }
 
 static void write_sets(const struct backend *backend, const struct resources *r)
@@ -89,6 +111,8 @@ static void write_sets(const struct backend *backend, const struct resources *r)
     for (int i = 0; i < RESOURCE_COUNT; i++)
         write_binding(backend, r->sets[sdfgi_resource_row((enum resource)i)->set], (enum resource)i,
                       &r->buffers[i]);
+    write_texels(backend, r->sets[RESOURCE_SET_LOOKUP], SDFGI_BINDING_LOW_LIGHT,
+                 r->buffers[RESOURCE_SEEN].texels);
 }
 
 /* ---- The raster voxeliser's target */
@@ -391,16 +415,31 @@ bool sdfgi_resources_grow_instances(struct backend *backend, struct resources *r
 /* ---- The blank set */
 
 /* Its texels have the format that they have when there is light: drivers compile a shader for formats. */
+static VkResult view_blank(const struct backend *backend, struct blank_set *blank, enum resource resource)
+{
+    struct gpu_buffer shown = blank->buffer;
+    const VkResult result = gpu_buffer_view(&backend->device, &shown, sdfgi_resource_row(resource)->texels,
+                                            VK_WHOLE_SIZE, "sdfgi blank");
+    blank->views[resource] = shown.texels;
+    return result;
+}
+
 static VkResult fill_blank(const struct backend *backend, struct blank_set *blank, enum resource resource)
 {
-    const struct resource_row *row = sdfgi_resource_row(resource);
+    const VkResult result =
+        sdfgi_pipelines_read_texels(backend, resource) ? view_blank(backend, blank, resource) : VK_SUCCESS;
     struct gpu_buffer shown = blank->buffer;
-    VkResult result = VK_SUCCESS;
-    if (sdfgi_pipelines_read_texels(backend, resource))
-        result = gpu_buffer_view(&backend->device, &shown, row->texels, "sdfgi blank");
-    blank->views[resource] = shown.texels;
+    shown.texels = blank->views[resource];
     if (result == VK_SUCCESS)
         write_binding(backend, blank->set, resource, &shown);
+    return result;
+}
+
+static VkResult fill_blank_low_light(const struct backend *backend, struct blank_set *blank)
+{
+    const VkResult result = view_blank(backend, blank, RESOURCE_SEEN);
+    if (result == VK_SUCCESS)
+        write_texels(backend, blank->set, SDFGI_BINDING_LOW_LIGHT, blank->views[RESOURCE_SEEN]);
     return result;
 }
 
@@ -408,8 +447,7 @@ VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
 {
     const struct extent none = { 0 };
     const uint64_t bytes = sdfgi_resource_size(RESOURCE_FRAME, &none);
-    const VkBufferUsageFlags usage =
-        BUFFER_USAGE | (backend->software ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0);
+    const VkBufferUsageFlags usage = BUFFER_USAGE | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     VkResult result = gpu_buffer_init(&backend->device, &blank->buffer, bytes, usage, GPU_HOST_READ,
                                       SDFGI_MEMORY_CATEGORY_COUNT, "sdfgi blank");
     if (result == VK_SUCCESS)
@@ -423,7 +461,7 @@ VkResult sdfgi_blank_set_init(struct backend *backend, struct blank_set *blank)
     for (int i = 0; i < RESOURCE_COUNT && result == VK_SUCCESS; i++)
         if (sdfgi_resource_row((enum resource)i)->set == RESOURCE_SET_LOOKUP)
             result = fill_blank(backend, blank, (enum resource)i);
-    return result;
+    return result == VK_SUCCESS ? fill_blank_low_light(backend, blank) : result;
 }
 
 void sdfgi_blank_set_finish(struct backend *backend, struct blank_set *blank)

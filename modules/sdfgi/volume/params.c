@@ -248,6 +248,7 @@ void sdfgi_params_fill(struct sdfgi_frame_params *p, const struct volume_state *
     p->has_metal = input->scene->metals > 0;
     p->seed = state->seed;
     p->keeps_low_light = state->low_light;
+    p->low_light_begin = state->low_light ? input->low_light_begin : 0;
     fill_epoch(p, state);
     fill_cycle(p, state, input->settings);
 }

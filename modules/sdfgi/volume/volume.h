@@ -127,6 +127,7 @@ struct params_input {
     const struct sdfgi_settings *settings;
     const struct scene *scene;
     const struct extent *extent;
+    uint32_t low_light_begin;
 };
 void sdfgi_params_fill(struct sdfgi_frame_params *params, const struct volume_state *state,
                        const struct params_input *input);

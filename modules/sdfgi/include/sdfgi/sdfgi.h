@@ -392,6 +392,9 @@ struct sdfgi_frame_desc {
                  take what is made at the new place as soon as it is there, within the same budget, and not at
                  a pace that nobody sees; the way that the camera came says nothing of where it goes. Unlike
                  with sdfgi_reset, light that is known there stays */
+    bool forward_reflections; /* Shaders of the host's own call sdfgi_lighting, and their rough surfaces are
+                                 to reflect light by where it comes from: see sdfgi_rough_lobes. Costs nothing
+                                 where all materials are matt, and is needless where a view has reflections */
 };
 
 /* Records one frame of GI work into `cmd`, which must be recording outside a render pass instance. It waits
