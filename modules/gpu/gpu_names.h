@@ -21,7 +21,7 @@
 #define gpu_functions_load_instance sdfgi_gpu_functions_load_instance
 #define gpu_image_finish            sdfgi_gpu_image_finish
 #define gpu_image_init              sdfgi_gpu_image_init
-#define gpu_image_to_general        sdfgi_gpu_image_to_general
+#define gpu_images_to_general       sdfgi_gpu_images_to_general
 #define gpu_label_begin             sdfgi_gpu_label_begin
 #define gpu_label_end               sdfgi_gpu_label_end
 #define gpu_named                   sdfgi_gpu_named

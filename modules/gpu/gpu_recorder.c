@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "gpu.h"
 
+#include <assert.h>
+
 #define SHADER_ACCESS   (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT)
 #define TRANSFER_ACCESS (VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT)
 #define GRAPHICS_STAGES (VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT)
@@ -128,20 +130,25 @@ void gpu_copy(struct gpu_recorder *rec, const struct gpu_buffer *from, uint64_t 
     rec->command_count++;
 }
 
-void gpu_image_to_general(struct gpu_recorder *rec, const struct gpu_image *image, uint32_t layers)
+void gpu_images_to_general(struct gpu_recorder *rec, const struct gpu_image *const images[], uint32_t count)
 {
+    VkImageMemoryBarrier barriers[GPU_MOST_IMAGES];
+    assert(count <= GPU_MOST_IMAGES);
+    for (uint32_t i = 0; i < count; i++)
+        barriers[i] = (VkImageMemoryBarrier){
+            .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+            .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
+            .dstAccessMask = SHADER_ACCESS,
+            .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+            .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = images[i]->handle,
+            .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 },
+        };
     rec->device->fn.CmdPipelineBarrier(rec->cmd, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0, NULL, 0, NULL, 1,
-                                       &(VkImageMemoryBarrier){
-                                           .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-                                           .dstAccessMask = SHADER_ACCESS,
-                                           .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                           .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-                                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                           .image = image->handle,
-                                           .subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers },
-                                       });
+                                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0, NULL, 0, NULL, count,
+                                       barriers);
     rec->command_count++;
 }
 

@@ -144,6 +144,14 @@ static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct 
     return result == VK_SUCCESS ? sdfgi_view_add_reflection(&gi->backend, view) : result;
 }
 
+/* Each resolve makes all of its pictures anew, and brings them into their layout itself: nothing tells
+ * whether command buffers with resolves before it have run. */
+static void begin_pictures(struct sdfgi *gi, const struct sdfgi_view *view)
+{
+    const struct gpu_image *const images[] = { &view->diffuse, &view->reflection, &view->filtered };
+    gpu_images_to_general(&gi->recorder.gpu, images, view->reflects ? 3 : 1);
+}
+
 static void clear_tiles(struct sdfgi *gi, const struct sdfgi_view *view)
 {
     struct gpu_recorder *rec = &gi->recorder.gpu;
@@ -169,11 +177,6 @@ static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, s
     filter[0].args.gather.filter_step = 1;
     filter[1].args.gather.filter_step = SDFGI_RAYS_SIDE;
     clear_tiles(gi, view);
-    if (!view->reflection_ready) {
-        gpu_image_to_general(&rec->gpu, &view->reflection, 1);
-        gpu_image_to_general(&rec->gpu, &view->filtered, 1);
-    }
-    view->reflection_ready = true;
     sdfgi_pass_begin_beside(rec, first, lobes ? 2 : 1);
     for (int i = 0; i < (lobes ? 2 : 1); i++)
         sdfgi_pass_record(rec, &first[i]);
@@ -207,9 +210,7 @@ enum sdfgi_result sdfgi_view_resolve(sdfgi *gi, sdfgi_view *view, VkCommandBuffe
     view->reflects = wants_reflections(gi, desc);
     sdfgi_view_write_set(&gi->backend, holder, view, &pictures);
     begin(gi, cmd, holder, STAMPS_REFLECTIONS);
-    if (!view->diffuse_ready)
-        gpu_image_to_general(&gi->recorder.gpu, &view->diffuse, 1);
-    view->diffuse_ready = true;
+    begin_pictures(gi, view);
     if (view->reflects)
         record_with_reflections(gi, view, work);
     else

@@ -149,7 +149,7 @@ static VKAPI_ATTR void VKAPI_CALL dispatch_indirect(VkCommandBuffer cmd, VkBuffe
     recorded.below.CmdDispatchIndirect(cmd, buffer, offset);
 }
 
-/* Tiles; rays, and the gather without a barrier between them; both runs of the filter. */
+/* Layouts; tiles; rays, and the gather without a barrier between them; both runs of the filter. */
 static void rays_do_not_wait_for_the_gather(void **state)
 {
     (void)state;
@@ -163,7 +163,7 @@ static void rays_do_not_wait_for_the_gather(void **state)
     fn->CmdDispatchIndirect = dispatch_indirect;
     view_stage_resolve(&stage, view, 0.2f);
     *fn = recorded.below;
-    REQUIRE_CMP(strcmp(recorded.commands, "bbdbidbibib"), ==, 0);
+    REQUIRE_CMP(strcmp(recorded.commands, "bbbdbidbibib"), ==, 0);
     view_stage_close(&stage);
 }
 

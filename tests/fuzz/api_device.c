@@ -7,6 +7,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -120,6 +121,7 @@ void api_device_open(struct api_device *device, struct gi_test *t)
     static const double center[3], half[3] = { 0.9, 0.35, 0.6 }, u[3] = { 0, 0, 1.5 }, v[3] = { 1.5, 0, 0 };
     static float halves[4 * API_PICTURE * API_PICTURE];
     static uint8_t texels[4 * TEXELS * TEXELS];
+    static float roughness[API_PICTURE * API_PICTURE];
     make_shape(device, t, 0, test_mesh_box(center, half, test_rotation_none));
     make_shape(device, t, 1, test_mesh_sphere(center, 0.8, 1));
     make_shape(device, t, 2, test_mesh_torus(center, 0.9, 0.3, test_rotation_none, 8, 4));
@@ -127,11 +129,15 @@ void api_device_open(struct api_device *device, struct gi_test *t)
     device->copy = gpu_test_buffer_host(&t->gpu, COPY_BYTES, 0, NULL);
     for (int i = 0; i < 4 * API_PICTURE * API_PICTURE; i++)
         halves[i] = 0.5f;
+    /* Metal is below 0; some of it is no roughness. */
+    for (int i = 0; i < API_PICTURE * API_PICTURE; i++)
+        roughness[i] = i % 97 == 0 ? NAN : (float)(i % 25) / 10 - 1.2f;
     for (int i = 0; i < 4 * TEXELS * TEXELS; i++)
         texels[i] = (uint8_t)(37 * i);
     device->depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, API_PICTURE, API_PICTURE, halves);
     device->normal =
         gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, API_PICTURE, API_PICTURE, halves);
+    device->roughness = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, API_PICTURE, API_PICTURE, roughness);
     device->output =
         gi_test_gather_image(t, VK_FORMAT_R16G16B16A16_SFLOAT, 8, API_PICTURE, API_PICTURE, NULL);
     device->texture = gi_test_gather_image(t, VK_FORMAT_R8G8B8A8_UNORM, 4, TEXELS, TEXELS, texels);
@@ -146,6 +152,7 @@ void api_device_close(struct api_device *device, struct gi_test *t)
     gpu_test_buffer_destroy(&t->gpu, &device->copy);
     gpu_test_image_destroy(&t->gpu, &device->depth);
     gpu_test_image_destroy(&t->gpu, &device->normal);
+    gpu_test_image_destroy(&t->gpu, &device->roughness);
     gpu_test_image_destroy(&t->gpu, &device->output);
     gpu_test_image_destroy(&t->gpu, &device->texture);
 }

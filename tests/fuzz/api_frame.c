@@ -63,6 +63,7 @@ static void record(VkCommandBuffer cmd, uint32_t index, void *user)
         const struct sdfgi_gather_desc desc = gather_desc(w);
         REQUIRE_CMP((int)sdfgi_gather(w->t->gi, cmd, &desc), ==, (int)SDFGI_OK);
     }
+    api_record_views(w, cmd);
     if (api_below(w, 8) == 0)
         record_copy(w, cmd);
     if (api_below(w, 8) == 0)
@@ -98,6 +99,7 @@ void api_frame(struct api_world *w)
     const uint32_t fate = api_below(w, 40);
     choose_exposure(w);
     w->t->frame.cut = api_below(w, 16) == 0;
+    w->t->frame.forward_reflections = api_below(w, 4) == 0;
     if (fate < 4) { /* the swapchain was out of date */
         gpu_test_record_and_drop(&w->t->gpu, record, w);
         sdfgi_cancel_update(w->t->gi);
@@ -366,7 +368,7 @@ void api_break_rule(struct api_world *w)
 {
     static enum sdfgi_result (*const rules[])(struct api_world *) = {
         wrong_material, wrong_mesh,      wrong_light,       wrong_transform, stale_handle,
-        wrong_settings, wrong_instances, wrong_destruction, wrong_numbers,
+        wrong_settings, wrong_instances, wrong_destruction, wrong_numbers,   api_wrong_view,
     };
     const enum sdfgi_result result = rules[api_below(w, sizeof rules / sizeof *rules)](w);
     REQUIRE_CMP((int)result, ==, (int)SDFGI_ERROR_INVALID_ARGUMENT);

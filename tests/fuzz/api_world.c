@@ -298,7 +298,7 @@ static void prepare(struct api_world *w)
 static void change_settings(struct api_world *w)
 {
     struct sdfgi_settings *const s = &w->scene.settings;
-    switch (api_below(w, 6)) {
+    switch (api_below(w, 8)) {
     case 0:
         s->enabled = !s->enabled;
         break;
@@ -313,6 +313,12 @@ static void change_settings(struct api_world *w)
         break;
     case 4:
         s->bounce_feedback = (float)test_random_real(&w->random, 0, 1);
+        break;
+    case 5:
+        s->rough_lobes = !s->rough_lobes;
+        break;
+    case 6:
+        s->reflection_end = (float)test_random_real(&w->random, 0, 1);
         break;
     default:
         s->frames_to_update_lights = 1 + api_below(w, 4);
@@ -368,6 +374,7 @@ static const struct {
     { "camera", 10, move_camera },
     { "invalidate", 3, invalidate },
     { "reset", 1, begin_anew },
+    { "view", 4, api_change_view },
     { "wrong call", 30, api_break_rule },
     { "frame", 30, api_frame },
 };

@@ -7,6 +7,8 @@
 #include "gi_test.h"
 #include "test_memory.h"
 
+#include <sdfgi/view.h>
+
 enum {
     API_SHAPES = 4,
     API_MESHES = 5,
@@ -14,6 +16,7 @@ enum {
     API_LIGHTS = 5,
     API_INSTANCES = 14,
     API_STALE = 16,
+    API_VIEWS = 2,
     API_PICTURE = 24 /* pixels along a side of what is gathered and drawn */
 };
 
@@ -52,7 +55,7 @@ struct api_stale {
 struct api_device {
     struct gpu_test_buffer positions[API_SHAPES], indices[API_SHAPES], copy;
     struct sdfgi_mesh_desc shapes[API_SHAPES];
-    struct gpu_test_image depth, normal, output, texture;
+    struct gpu_test_image depth, normal, roughness, output, texture;
 };
 
 struct api_world {
@@ -61,6 +64,7 @@ struct api_world {
     struct test_random random;
     struct api_scene scene;
     struct api_stale meshes, materials, lights, instances; /* handles that are no longer valid */
+    sdfgi_view *views[API_VIEWS];                          /* NULL: there is none */
     uint32_t refused;                                      /* calls that broke a rule */
     uint32_t calm; /* frames from now on that may be the first of all, and ask for an exposure of 1 */
 };
@@ -85,6 +89,12 @@ enum { API_CHANGES = 5 };
 const char *api_change(struct api_world *world, uint32_t change);
 /* What a host does in a frame: runs it, or drops it. */
 void api_frame(struct api_world *world);
+/* Views come and go, and resolve pictures. */
+void api_change_view(struct api_world *world);
+void api_record_views(struct api_world *world, VkCommandBuffer cmd);
+void api_views_close(struct api_world *world);
+/* The rules of views: whoever breaks one is refused. */
+enum sdfgi_result api_wrong_view(struct api_world *world);
 /* Calls that must be refused and change nothing. */
 void api_break_rule(struct api_world *world);
 

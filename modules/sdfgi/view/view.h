@@ -26,8 +26,7 @@ struct sdfgi_view {
     struct gpu_image diffuse;
     struct gpu_image reflection, filtered; /* these, and the tiles, once a resolve has asked for them */
     struct gpu_buffer tiles;
-    bool diffuse_ready, reflection_ready; /* in their layout */
-    bool reflects;                        /* the last resolve made reflections */
+    bool reflects;         /* the last resolve made reflections */
     struct views resolves; /* these have the sets: a picture may be resolved again without an update */
     uint64_t frame;        /* of the last resolve */
     struct sdfgi_view *next;

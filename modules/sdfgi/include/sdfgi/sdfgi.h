@@ -408,7 +408,7 @@ SDFGI_API enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const s
 /* Undoes the last sdfgi_update, whose command buffer has not run and will not: the swapchain was out of date,
  * say. Everything is as if that update had not been recorded; what changed in the scene since then is kept.
  * Call it before the next sdfgi_update, which it replaces as a frame in flight. Without an update to undo it
- * does nothing.
+ * does nothing. Gathers and resolves of that command buffer need no undoing.
  *
  * An update that did not run and that nobody cancelled is noticed frames_in_flight updates later: the library
  * logs UPDATE_LOST and begins anew, as sdfgi_reset does. Until then lookups may give anything. */
