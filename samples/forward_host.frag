@@ -19,6 +19,7 @@ void main()
     const float metal = base_color.a, roughness = glow.a;
     vec3 irradiance = lamp_irradiance(position, normal), reflection = vec3(0.0);
     /* GI begins */
+    /* Metal alone reflects here: its roughness is given below 0. */
     const sdfgi_surface_light light = sdfgi_lighting(position, normal, eye.xyz - position, -roughness);
     irradiance += light.irradiance;
     reflection += light.reflection;
