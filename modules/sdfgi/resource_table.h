@@ -25,7 +25,7 @@
  * EMITTERS                  where emitters are in their blocks, and lists of them; none where nothing emits
  * SEEN                      which light cells gathers of pictures have read of late, and which light these;
  *                           then which of them the frame visits; and from where light cells get their
- *                           light: see shared/seen.h
+ *                           light, which hosts read as texels in the LOOKUP set: see shared/seen.h
  * SEARCH                    where the distance search finds set bits, and which blocks it makes again
  * GATHERED                  what light cells gathered with rays of their own, in the order of the list
  * RAYS                      where rays end: valid until a cascade that the ray may reach changes; behind the

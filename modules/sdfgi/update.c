@@ -125,7 +125,7 @@ enum sdfgi_result sdfgi_update(sdfgi *gi, VkCommandBuffer cmd, const struct sdfg
         return read;
     sdfgi_volume_make_room(&gi->volume);
     sdfgi_volume_add_emitters(&gi->volume, gi->scene.emissive > 0);
-    const bool low_light = wants_low_light(gi, desc) && sdfgi_volume_add_low_light(&gi->volume);
+    const bool low_light = sdfgi_volume_add_low_light(&gi->volume, wants_low_light(gi, desc));
     sdfgi_volume_add_instances(&gi->volume, &gi->scene);
 
     /* Decide what this frame does. */

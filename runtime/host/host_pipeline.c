@@ -4,8 +4,6 @@
  * have shaders of their own for software drivers. */
 #include "host_internal.h"
 
-#include <math.h>
-
 #include "host_exposure_comp.h"
 #include "host_forward_frag.h"
 #include "host_forward_fog_frag.h"
@@ -30,6 +28,7 @@
 #include "host_surface_vert.h"
 #include "host_tonemap_frag.h"
 
+#include <math.h>
 #include <string.h>
 
 static const VkCullModeFlags cull_modes[HOST_CULL_COUNT] = { [HOST_CULL_NONE] = VK_CULL_MODE_NONE,

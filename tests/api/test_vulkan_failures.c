@@ -266,23 +266,29 @@ static void a_material_that_cannot_change_stays_as_it_was(void **state)
     sdfgi_destroy(gi);
 }
 
-/* A warning says what it costs; frames go on. */
+/* A warning says what it costs; frames go on. What emits later asks for memory again. */
 static void lists_of_emitters_can_be_done_without(void **state)
 {
     (void)state;
+    const struct sdfgi_material_desc glows = { .emission = { 5, 5, 5 } };
     sdfgi *gi = create(SDFGI_VOXELIZER_COMPUTE, true);
-    add_a_triangle(gi, 5);
+    add_a_triangle(gi, 0);
     uint32_t k = 1;
     for (;; k++) {
+        sdfgi_material material;
         warnings = 0;
-        gi->volume.feedback.emitters_refused = false;
+        REQUIRE_CMP((int)sdfgi_material_create(gi, &glows, &material), ==, (int)SDFGI_OK);
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         update(gi, 1);
         if (failing_vulkan_calls() < k)
             break;
+        failing_vulkan_reset(0, VK_SUCCESS);
+        update(gi, 1);
         REQUIRE_CMP(warnings, ==, 1u);
         REQUIRE_CMP((int)last_warning, ==, (int)SDFGI_MESSAGE_NO_EMITTER_LISTS);
         REQUIRE_TRUE(!gi->volume.resources->extent.emits);
+        REQUIRE_CMP((int)sdfgi_material_destroy(gi, material), ==, (int)SDFGI_OK);
+        update(gi, 1);
     }
     printf("%u Vulkan calls of making lists of emitters can fail\n", k - 1);
     REQUIRE_CMP(k, >, 3u);
@@ -292,7 +298,14 @@ static void lists_of_emitters_can_be_done_without(void **state)
     sdfgi_destroy(gi);
 }
 
-/* Likewise. */
+/* To the settings of a context, which stay as they are but for this. */
+static void set_rough_lobes(sdfgi *gi, struct sdfgi_settings *settings, bool on)
+{
+    settings->rough_lobes = on;
+    REQUIRE_CMP((int)sdfgi_set_settings(gi, settings), ==, (int)SDFGI_OK);
+}
+
+/* Likewise, until they are switched off and on. */
 static void rough_lobes_can_be_done_without(void **state)
 {
     (void)state;
@@ -306,14 +319,18 @@ static void rough_lobes_can_be_done_without(void **state)
     uint32_t k = 1;
     for (;; k++) {
         warnings = 0;
-        gi->volume.feedback.low_light_refused = false;
+        set_rough_lobes(gi, &settings, true);
         failing_vulkan_reset(k, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         update(gi, 1);
         if (failing_vulkan_calls() < k)
             break;
+        failing_vulkan_reset(0, VK_SUCCESS);
+        update(gi, 1);
         REQUIRE_CMP(warnings, ==, 1u);
         REQUIRE_CMP((int)last_warning, ==, (int)SDFGI_MESSAGE_NO_ROUGH_LOBES);
         REQUIRE_TRUE(!gi->volume.state.low_light && !gi->volume.resources->extent.low_light);
+        set_rough_lobes(gi, &settings, false);
+        update(gi, 1);
     }
     printf("%u Vulkan calls of what rough lobes need can fail\n", k - 1);
     REQUIRE_CMP(k, >, 3u);

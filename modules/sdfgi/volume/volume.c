@@ -176,6 +176,7 @@ void sdfgi_volume_make_room(struct volume *volume)
 
 void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
 {
+    volume->feedback.emitters_refused = scene_emits && volume->feedback.emitters_refused;
     if (!scene_emits || volume->resources->extent.emits || volume->feedback.emitters_refused)
         return;
     if (sdfgi_resources_add_emitters(volume->backend, volume->resources)) {
@@ -187,11 +188,12 @@ void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits)
                       "sdfgi_update: no memory for emission: what emits stays dark");
 }
 
-bool sdfgi_volume_add_low_light(struct volume *volume)
+bool sdfgi_volume_add_low_light(struct volume *volume, bool wanted)
 {
     struct backend *backend = volume->backend;
     struct resources *r = volume->resources;
-    if (!r->extent.gathers || volume->feedback.low_light_refused)
+    volume->feedback.low_light_refused = wanted && volume->feedback.low_light_refused;
+    if (!wanted || !r->extent.gathers || volume->feedback.low_light_refused)
         return false;
     const bool made = sdfgi_pipelines_require(backend, PASS_CELL_GATHER, PASS_LOBES) == VK_SUCCESS;
     if (made && r->extent.low_light)

@@ -113,10 +113,12 @@ bool sdfgi_volume_has_settled(const struct volume *volume);
 VkResult sdfgi_volume_read_back(struct volume *volume, uint32_t slot, bool *has_run);
 /* Makes the light lists longer where the newest counters say that they were too short. */
 void sdfgi_volume_make_room(struct volume *volume);
-/* Makes room for emission and for emitters as soon as something emits. */
+/* Makes room for emission and for emitters as soon as something emits. Where there is no memory, it is asked
+ * for again once nothing has emitted meanwhile. */
 void sdfgi_volume_add_emitters(struct volume *volume, bool scene_emits);
-/* Sees to it that light cells can keep from where they get their light. False if they cannot. */
-bool sdfgi_volume_add_low_light(struct volume *volume);
+/* Sees to it that light cells can keep from where they get their light, if that is wanted. False if they
+ * cannot, or need not. Where there is no memory, it is asked for again once it was not wanted meanwhile. */
+bool sdfgi_volume_add_low_light(struct volume *volume, bool wanted);
 /* Makes room for all instances of the scene. */
 void sdfgi_volume_add_instances(struct volume *volume, const struct scene *scene);
 /* The lists as far as counters know them. */
