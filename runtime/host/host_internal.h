@@ -223,7 +223,7 @@ struct host_pipelines {
     /* Those that the scene needs, once they are wanted; [whether it is blended][whether it reflects]. */
     VkPipeline forward[HOST_FORWARD_COUNT][HOST_CULL_COUNT][2][2];
     bool forward_made[HOST_FORWARD_COUNT];
-    float rays_end, blended_end; /* the roughness from which on surfaces do not, and blended ones */
+    float rays_end, blended_end; /* roughness from which on opaque materials do not, and blended ones */
     VkPipeline shadow_solid, shadow_tested;
     VkPipeline sky, exposure, tonemap;
 };

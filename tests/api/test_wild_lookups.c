@@ -5,12 +5,12 @@
 #include "require.h"
 #include "test_group.h"
 #include "test_memory.h"
-#include "wild_lookup.h"
+#include "host_lookup.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { OUTPUTS = WILD_LOOKUP_ANSWERS, CELLS = 32, PLACES = 3 };
+enum { OUTPUTS = HOST_LOOKUP_ANSWERS, CELLS = 32, PLACES = 3 };
 
 static const double CELL = 0.25; /* m */
 static const float SKY = 2, PI = 3.14159265f, SKY_M = 65504;
@@ -45,13 +45,13 @@ static void add_scene(struct gi_test *t)
 
 /* Usual inputs at a sheet within the pile, at the ball and in the air, of which one is replaced by a wild
  * one, or all three. */
-static void fill(struct wild_lookup *lookup, uint32_t index)
+static void fill(struct host_lookup *lookup, uint32_t index)
 {
     static const float positions[PLACES][3] = { { 0.1f, -2.1f, 0.2f }, { 0.1f, 2.3f, 0.2f }, { -2, 1, 2 } };
     static const float normal[3] = { 0, 1, 0 }, to_eye[3] = { 0.5f, 1, 0.3f };
     const uint32_t vector = index % WILD_VECTORS, which = index / WILD_VECTORS % 4,
                    place = index / WILD_VECTORS / 4 % PLACES;
-    *lookup = (struct wild_lookup){ .roughness = index & 1 ? 0 : wild_values[index / 2 % WILD] };
+    *lookup = (struct host_lookup){ .roughness = index & 1 ? 0 : wild_values[index / 2 % WILD] };
     memcpy(lookup->position, positions[place], sizeof lookup->position);
     memcpy(lookup->normal, normal, sizeof normal);
     memcpy(lookup->to_eye, to_eye, sizeof to_eye);
@@ -66,7 +66,7 @@ static void fill(struct wild_lookup *lookup, uint32_t index)
         lookup->answers[i][0] = NAN;
 }
 
-static bool is_light(const struct wild_lookup *lookup)
+static bool is_light(const struct host_lookup *lookup)
 {
     bool good = lookup->answers[2][3] >= 0 && lookup->answers[2][3] <= SKY_M;
     for (int i = 0; i < OUTPUTS; i++)
@@ -76,7 +76,7 @@ static bool is_light(const struct wild_lookup *lookup)
     return good;
 }
 
-static void show(const struct wild_lookup *l)
+static void show(const struct host_lookup *l)
 {
     print_message("position %g %g %g, roughness %g, normal %g %g %g, to_eye %g %g %g\n",
                   (double)l->position[0], (double)l->position[1], (double)l->position[2],
@@ -99,10 +99,10 @@ static void lookups_of_anything_give_finite_light(void **state)
     gi_test_open(&t, &settings);
     add_scene(&t);
     gi_test_converge(&t, 400);
-    struct wild_lookup *lookups = test_array_alloc(LOOKUPS, sizeof *lookups);
+    struct host_lookup *lookups = test_array_alloc(LOOKUPS, sizeof *lookups);
     for (uint32_t i = 0; i < LOOKUPS; i++)
         fill(&lookups[i], i);
-    wild_lookup_run(&t, lookups, LOOKUPS);
+    host_lookup_run(&t, lookups, LOOKUPS);
     uint32_t bad = 0;
     for (uint32_t i = 0; i < LOOKUPS; i++)
         if (!is_light(&lookups[i]) && bad++ < 8)
