@@ -49,7 +49,7 @@ static void draw(float smoothness, bool metal, float alpha, float *rgba)
     fog_scene_draw(device, &scene, rgba);
 }
 
-static double mean_of_pane(const float *rgba)
+static double light_of_pane(const float *rgba)
 {
     double sum = 0;
     for (int y = FOG_HEIGHT / 2; y < FOG_HEIGHT * 9 / 10; y++)
@@ -62,7 +62,7 @@ static void require_alike(const char *name, float smoothness, bool metal)
 {
     draw(smoothness, metal, 1, pictures[0]);
     draw(smoothness, metal, 0.999f, pictures[1]);
-    const double opaque = mean_of_pane(pictures[0]), blended = mean_of_pane(pictures[1]);
+    const double opaque = light_of_pane(pictures[0]), blended = light_of_pane(pictures[1]);
     printf("%s of roughness %.1f: blended %.4f of opaque\n", name, 1 - (double)smoothness, blended / opaque);
     REQUIRE_CMP(opaque, >, 0.0);
     REQUIRE_CMP(fabs(blended / opaque - 1), <=, 0.01);
