@@ -22,8 +22,8 @@ struct sdfgi_trace_hit {
     float distance; /* cell widths of the cascade in which the ray began; the range if nothing was hit */
 };
 
-/* A cell with a greater stored distance has no sub-voxel of its own: sqrt(3) 3 / 8, and the flood's 0.1. */
-#define SDFGI_TRACE_OCCUPIED_DISTANCE 0.75
+/* A cell with a greater stored distance has no sub-voxel of its own: sqrt(3) 3 / 8, rounded up. */
+#define SDFGI_TRACE_OCCUPIED_DISTANCE 0.65
 /* Walking through a cell is cheaper than a step of the distance field that is shorter than this. */
 #define SDFGI_TRACE_MIN_STEP 0.5
 
@@ -176,12 +176,15 @@ void sdfgi_trace_enter_coarser(sdfgi_trace_query query, inout sdfgi_trace_state 
         sdfgi_trace_skip_empty(query.last_cascade, ray);
 }
 
-/* How far a ray may go on, whatever its direction, before it can meet a sub-voxel: `distance` is stored for
- * its cell's centre, and the ray may be elsewhere in the cell. */
+/* How far a ray may go on: to where it leaves the ball around its cell's centre that holds no sub-voxel, as
+ * `distance` tells for that centre. 0 if the ray is outside of the ball. */
 float sdfgi_trace_free_length(sdfgi_trace_state ray, float distance)
 {
-    const vec3 here = ray.origin + ray.dir * ray.t;
-    return distance - length(sdfgi_metric_from_cells(here - vec3(ray.cell) - 0.5)) - SDFGI_TRACE_MARGIN;
+    const vec3 from_centre = sdfgi_metric_from_cells(ray.origin + ray.dir * ray.t - vec3(ray.cell) - 0.5);
+    const float radius = max(distance - SDFGI_TRACE_MARGIN, 0.0),
+                room = radius * radius - dot(from_centre, from_centre),
+                along = dot(from_centre, sdfgi_metric_from_cells(ray.dir));
+    return room > 0.0 ? sqrt(along * along + room) - along : 0.0;
 }
 
 /* Walks through a cell, which is stored at `index`. Returns true at a set sub-voxel; otherwise the ray stands
@@ -220,45 +223,55 @@ const uint SDFGI_TRACE_CAPPED = 2u; /* it ran out of steps */
 
 #ifdef SDFGI_SOFTWARE
 
-/* One step within a cascade: a leap, or a walk through a cell. True if that ends at a set sub-voxel. */
-bool sdfgi_trace_step(sdfgi_trace_query query, ivec3 signs, inout sdfgi_trace_state ray)
+/* Goes on to where the ray leaves its cell. */
+void sdfgi_trace_leave_cell(ivec3 signs, inout sdfgi_trace_state ray)
 {
-    const uint index = sdfgi_trace_cell_index(ray.volume, ray.cell);
-    const float distance = sdfgi_stored_distance(index);
-    const float step_length = min(sdfgi_trace_free_length(ray, distance), query.longest_step);
-    bool hit = false;
-    if (step_length > SDFGI_TRACE_MIN_STEP) {
-        sdfgi_trace_leap(step_length, ray);
-    } else {
-        hit = sdfgi_trace_cross_cell(index, distance, ray);
-        if (!hit)
-            ray.cell += sdfgi_trace_offset(signs, ray.axis);
-    }
-    return hit;
+    float t_exit;
+    ray.axis = sdfgi_trace_box_exit(ray.origin, ray.inv_dir, vec3(ray.cell), 1.0, t_exit);
+    ray.t = max(ray.t, t_exit);
+    ray.cell += sdfgi_trace_offset(signs, ray.axis);
 }
 
-/* Software drivers run what is under a condition for every thread, and the way into the next cascade would be
- * a third of each step. Threads wait for one another here, and take that way together. Steps and results are
- * those of the loop for GPUs: these take 3 % longer in this form, and where they call the step above. */
+/* Software drivers run what is under a condition for every thread. The walk through a cell and the way into
+ * the next cascade, which few steps take, have loops of their own around that over steps: threads wait for
+ * one another, and take them together. Steps and results are those of the loop for GPUs, which take longer in
+ * this form. */
 uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
     const ivec3 signs = sdfgi_trace_signs(ray.dir);
     uint end = SDFGI_TRACE_CAPPED;
-    bool goes_on;
+    bool goes_on, walks;
     do {
-        goes_on = false;
-        while (ray.steps < SDFGI_TRACE_STEP_CAP) {
-            ray.steps++;
-            if (sdfgi_trace_is_at_border(ray)) {
-                goes_on = sdfgi_trace_goes_on(query, ray);
-                end = goes_on ? end : SDFGI_TRACE_MISS;
-                break;
+        do {
+            uint index = 0u;
+            float distance = 0.0;
+            goes_on = walks = false;
+            while (ray.steps < SDFGI_TRACE_STEP_CAP) {
+                ray.steps++;
+                if (sdfgi_trace_is_at_border(ray)) {
+                    goes_on = sdfgi_trace_goes_on(query, ray);
+                    end = goes_on ? end : SDFGI_TRACE_MISS;
+                    break;
+                }
+                index = sdfgi_trace_cell_index(ray.volume, ray.cell);
+                distance = sdfgi_stored_distance(index);
+                const float step_length = min(sdfgi_trace_free_length(ray, distance), query.longest_step);
+                const bool leaps = step_length > SDFGI_TRACE_MIN_STEP;
+                walks = !leaps && distance < SDFGI_TRACE_OCCUPIED_DISTANCE;
+                if (walks)
+                    break;
+                if (leaps)
+                    sdfgi_trace_leap(step_length, ray);
+                else
+                    sdfgi_trace_leave_cell(signs, ray);
             }
-            if (sdfgi_trace_step(query, signs, ray)) {
+            if (walks && sdfgi_trace_cross_cell(index, distance, ray)) {
                 end = sdfgi_trace_length(ray) >= query.range ? SDFGI_TRACE_MISS : SDFGI_TRACE_HIT;
-                break;
+                walks = false;
             }
-        }
+            if (walks)
+                ray.cell += sdfgi_trace_offset(signs, ray.axis);
+        } while (walks);
         if (goes_on)
             sdfgi_trace_enter_coarser(query, ray);
     } while (goes_on);
