@@ -16,6 +16,9 @@ const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
 /* Roughness from which on every second pixel along each axis sends a ray, and every fourth. */
 const vec2 PICTURE_SPARSE_RAYS = vec2(0.55, 0.64);
 
+/* In the place of a ray: pixels around it send rays as at full resolution. */
+const uint PICTURE_DENSE = 0x8000u;
+
 uint picture_pack(ivec2 place)
 {
     return uint(place.x) | uint(place.y) << 16u;
@@ -23,7 +26,7 @@ uint picture_pack(ivec2 place)
 
 ivec2 picture_unpack(uint place)
 {
-    return ivec2(place & 0xffffu, place >> 16u);
+    return ivec2(place & 0x7fffu, place >> 16u);
 }
 
 /* The pixel of this thread in the tile of a number of the list. */
@@ -45,10 +48,21 @@ bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
 
 /* Pixels from ray to ray, along each axis. Wide lobes do with fewer rays: the filter's second run takes the
  * mean of squares all around. */
+int picture_dense_step(float roughness)
+{
+    return roughness < PICTURE_SPARSE_RAYS.x ? 1 : (roughness < PICTURE_SPARSE_RAYS.y ? 2 : 4);
+}
+
+/* The same at the resolution of reflections. */
 int picture_ray_step(float roughness)
 {
-    const int sparse = roughness < PICTURE_SPARSE_RAYS.x ? 1 : (roughness < PICTURE_SPARSE_RAYS.y ? 2 : 4);
-    return int(args.ray_step) * sparse;
+    return int(args.ray_step) * picture_dense_step(roughness);
+}
+
+/* True for a pixel of the grid whose pixels all send rays. */
+bool picture_is_on_grid(ivec2 pixel, int ray_step)
+{
+    return (pixel & (ray_step - 1)) == ivec2(0);
 }
 
 /* Metres from the plane of a surface to what lies at a depth of a pixel. */

@@ -57,11 +57,21 @@ float spread_of(picture_surface s, float roughness, float distance_m, float reac
     return max(by_roughness, smoothstep(LOBE.x, LOBE.y, lobe_pixels(s, roughness, distance_m) / reach));
 }
 
+/* Pixels from ray to ray around a pixel. One between those of the grid that sends a ray has others beside it
+ * that do. */
+int ray_step_at(ivec2 pixel, float roughness)
+{
+    const int ray_step = picture_ray_step(roughness);
+    const bool dense = args.ray_step > 1u && !picture_is_on_grid(pixel, ray_step) &&
+                       imageLoad(reflection_image, pixel).a >= 0.0;
+    return dense ? picture_dense_step(roughness) : ray_step;
+}
+
 /* The mean of what the rays around have found; PICTURE_NO_RAY in a where none tells of the pixel's surface.
  * The first run interpolates between rays, which may lie apart; the second begins with pixels. */
 vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
 {
-    const int ray_step = picture_ray_step(roughness), step = ray_step * int(args.filter_step);
+    const int ray_step = ray_step_at(pixel, roughness), step = ray_step * int(args.filter_step);
     const float reach = float(SDFGI_RAYS_SIDE * step);
     const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
     const bool interpolates = is_first() && ray_step > 1;

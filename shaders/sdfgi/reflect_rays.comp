@@ -123,14 +123,18 @@ float open_share(vec3 dir, vec3 face)
     return clamp(1.0 + dot(dir, face) / DEEPEST, 0.0, 1.0);
 }
 
-void reflect_pixel(ivec2 pixel)
+/* `word` is that of the list. */
+void reflect_pixel(uint word)
 {
+    const ivec2 pixel = picture_unpack(word);
     picture_surface s;
     float roughness;
     if (!picture_reflects(pixel, s, roughness))
         return;
     const float scale = sdfgi_frame.exposure_inverse * sdfgi_frame.energy * args.scale;
-    const vec2 point = pattern_point(pixel / picture_ray_step(roughness));
+    const int ray_step = picture_ray_step(roughness);
+    const bool is_dense = (word & PICTURE_DENSE) != 0u || !picture_is_on_grid(pixel, ray_step);
+    const vec2 point = pattern_point(pixel / (is_dense ? picture_dense_step(roughness) : ray_step));
     bool even;
     const vec3 face = face_normal(pixel, s, even), of_facet = facet_direction(point, s, roughness),
                of_lobe = sdfgi_ggx_above(of_facet, s.normal), dir = off_face(of_lobe, face);
@@ -146,5 +150,5 @@ void main()
 {
     const uint threads = gl_NumWorkGroups.x * uint(SDFGI_GROUP_LINEAR);
     for (uint i = gl_GlobalInvocationID.x; i < sdfgi_tiles[RAYS_COUNT]; i += threads)
-        reflect_pixel(picture_unpack(sdfgi_tiles[picture_ray_word(i)]));
+        reflect_pixel(sdfgi_tiles[picture_ray_word(i)]);
 }

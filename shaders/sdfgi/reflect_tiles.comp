@@ -19,14 +19,15 @@ const uint TILES = uint(SIDE * SIDE);
 
 shared uint rays, first_ray;       /* of these tiles; their first place in the list */
 shared uint is_smooth, first_tile; /* a bit for each tile that shows something smooth; place of the first */
+shared uint senders[2u * TILES];   /* a bit for each pixel that sends a ray, two words a tile */
 
 /* True if a pixel sends a ray of its own. */
 bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
 {
     const int step = picture_ray_step(roughness);
-    const ivec2 at = pixel & (step - 1);
-    if (at == ivec2(0))
+    if (picture_is_on_grid(pixel, step))
         return true;
+    const ivec2 at = pixel & (step - 1);
     const vec2 t = vec2(at) / float(step);
     float like = 0.0;
     for (int i = 0; i < 4; i++) {
@@ -66,6 +67,24 @@ bool look_at(uint tile)
     return false;
 }
 
+/* Notes that this thread's pixel of a tile sends a ray. */
+void note_sender(uint tile)
+{
+    const uint i = gl_LocalInvocationIndex;
+    atomicOr(senders[2u * tile + (i >> 5u)], 1u << (i & 31u));
+}
+
+/* PICTURE_DENSE if half of the pixels between those of the grid send rays, in the square of this thread's
+ * pixel. Squares have two or four pixels a side, and tiles rows of eight. */
+uint density(uint tile)
+{
+    const uvec2 corner = gl_LocalInvocationID.xy & ~(args.ray_step - 1u);
+    const uint row = (1u << args.ray_step) - 1u, square = row * (args.ray_step == 2u ? 0x101u : 0x1010101u),
+               sending = senders[2u * tile + (corner.y >> 2u)] >> (corner.x + 8u * (corner.y & 3u)) & square;
+    const bool dense = 2 * (bitCount(sending) - 1) >= bitCount(square) - 1;
+    return args.ray_step > 1u && dense ? PICTURE_DENSE : 0u;
+}
+
 /* Makes room for the tiles and their rays. */
 void make_room()
 {
@@ -93,12 +112,15 @@ void main()
 {
     if (gl_LocalInvocationIndex == 0u)
         rays = is_smooth = 0u;
+    if (gl_LocalInvocationIndex < 2u * TILES)
+        senders[gl_LocalInvocationIndex] = 0u;
     barrier();
     uint ray[TILES], sends = 0u; /* a bit per tile */
     for (uint tile = 0u; tile < TILES; tile++)
         if (look_at(tile)) {
             ray[tile] = atomicAdd(rays, 1u);
             sends |= 1u << tile;
+            note_sender(tile);
         }
     barrier();
     if (gl_LocalInvocationIndex == 0u)
@@ -108,5 +130,6 @@ void main()
         list_tile(gl_LocalInvocationIndex);
     for (uint tile = 0u; tile < TILES; tile++)
         if ((sends >> tile & 1u) != 0u)
-            sdfgi_tiles[picture_ray_word(first_ray + ray[tile])] = picture_pack(pixel_of(tile));
+            sdfgi_tiles[picture_ray_word(first_ray + ray[tile])] =
+                picture_pack(pixel_of(tile)) | density(tile);
 }

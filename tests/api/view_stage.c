@@ -8,6 +8,12 @@
 
 const float view_stage_zenith[3] = { 1, 1.5f, 2 };
 
+/* The slope of the detail at a pixel: another one for each of the next eight. */
+static float slope(int pixel)
+{
+    return 0.05f * (float)(pixel % 9 - 4);
+}
+
 static void fill_picture(struct view_stage *s)
 {
     for (int i = 0; i < VIEW_STAGE_PIXELS; i++) {
@@ -15,7 +21,9 @@ static void fill_picture(struct view_stage *s)
         const bool in_wall = fabsf(3 * u + 2) < 0.6f;
         s->depths[i] = in_wall ? 1.0f : 0.5f;
         const bool leans = s->ridge && i % VIEW_STAGE_SIDE == s->ridge;
-        memcpy(s->normals[i], (float[]){ leans ? 1 : s->lean, 1, 0, 0 }, sizeof s->normals[i]);
+        const float x = s->detail == VIEW_STAGE_EVEN ? 0 : slope(i % VIEW_STAGE_SIDE),
+                    z = s->detail == VIEW_STAGE_COBBLES ? slope(i / VIEW_STAGE_SIDE) : 0;
+        memcpy(s->normals[i], (float[]){ leans ? 1 : s->lean + x, 1, z, 0 }, sizeof s->normals[i]);
     }
 }
 
@@ -111,6 +119,14 @@ void view_stage_read(struct view_stage *s, const struct gpu_image *image, float 
     for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
         for (int k = 0; k < 4; k++)
             out[i][k] = gi_test_half(texels[i][k]);
+}
+
+double view_stage_luminance(float (*pixels)[4])
+{
+    double sum = 0;
+    for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+        sum += 0.2126 * (double)pixels[i][0] + 0.7152 * (double)pixels[i][1] + 0.0722 * (double)pixels[i][2];
+    return sum / VIEW_STAGE_PIXELS;
 }
 
 uint32_t view_stage_dispatches(struct view_stage *s, enum pass pass)

@@ -23,6 +23,8 @@ struct view_stage {
     float depths[VIEW_STAGE_PIXELS], normals[VIEW_STAGE_PIXELS][4];
     int ridge;  /* this column leans towards +x; 0: none does */
     float lean; /* of all other normals: tangent of the angle */
+    /* Normals change from pixel to pixel along x, or along both axes. */
+    enum { VIEW_STAGE_EVEN, VIEW_STAGE_GROOVES, VIEW_STAGE_COBBLES } detail;
 };
 
 /* `smoothness`: of a material that is registered, though nothing is of it. */
@@ -41,6 +43,7 @@ struct sdfgi_resolve_desc view_stage_desc(const struct view_stage *s, VkImageVie
 void view_stage_resolve_halves(struct view_stage *s, sdfgi_view *view, float left, float right);
 void view_stage_resolve(struct view_stage *s, sdfgi_view *view, float roughness);
 void view_stage_read(struct view_stage *s, const struct gpu_image *image, float (*out)[4]);
+double view_stage_luminance(float (*pixels)[4]); /* in the mean */
 
 /* Of the last report. */
 uint32_t view_stage_dispatches(struct view_stage *s, enum pass pass);

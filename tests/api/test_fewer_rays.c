@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT
+ * Views that send fewer rays than pixels: how many they send, and that pictures show the same. */
+#include "require.h"
+#include "test_group.h"
+#include "view_stage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static struct view_stage stage;
+
+static uint32_t rays_sent(struct view_stage *s, const sdfgi_view *view)
+{
+    uint32_t header[SDFGI_TILES_HEADER];
+    gpu_test_buffer_read(&s->t.gpu, view->tiles.handle, 0, sizeof header, header);
+    return header[SDFGI_TILES_RAYS + 3];
+}
+
+/* A quarter and a sixteenth of the rays, and those of pixels that lie fewer than a step beside the wall,
+ * which is background, and of a ridge that lies between rays. So do rough surfaces at full resolution. Rays
+ * of sixteen places hold all parts of the lobe, however far apart they are, so that the mean is little off.
+ */
+static void fewer_rays_show_the_same(void **state)
+{
+    (void)state;
+    static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
+    static const struct {
+        enum sdfgi_gather_resolution resolution;
+        float roughness, beside; /* of the picture that it is compared with */
+        uint32_t step;
+        double off; /* of the mean luminance, at most */
+    } rows[] = {
+        { SDFGI_GATHER_HALF, 0, 0, 2, 1e-5 },          { SDFGI_GATHER_QUARTER, 0, 0, 4, 1e-5 },
+        { SDFGI_GATHER_HALF, 0.2f, 0.2f, 2, 0.006 },   { SDFGI_GATHER_QUARTER, 0.2f, 0.2f, 4, 0.012 },
+        { SDFGI_GATHER_HALF, 0.3f, 0.3f, 2, 0.006 },   { SDFGI_GATHER_QUARTER, 0.3f, 0.3f, 4, 0.012 },
+        { SDFGI_GATHER_FULL, 0.56f, 0.54f, 2, 0.012 }, { SDFGI_GATHER_FULL, 0.65f, 0.63f, 4, 0.012 }
+    };
+    stage.ridge = 13;
+    view_stage_open(&stage, 1);
+    stage.ridge = 0;
+    sdfgi_view *whole = view_stage_view(&stage);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const float roughness = rows[k].roughness;
+        sdfgi_view *view = view_stage_view_at(&stage, rows[k].resolution);
+        view_stage_resolve(&stage, whole, rows[k].beside);
+        const uint32_t all = rays_sent(&stage, whole);
+        REQUIRE_TRUE(all == VIEW_STAGE_SURFACES || rows[k].beside > 0.55f);
+        view_stage_read(&stage, &whole->reflection, full);
+        view_stage_resolve(&stage, view, roughness);
+        view_stage_read(&stage, &view->reflection, other);
+        const uint32_t sent = rays_sent(&stage, view), step = rows[k].step;
+        const double off = fabs(view_stage_luminance(other) / view_stage_luminance(full) - 1);
+        for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+            REQUIRE_TRUE(other[i][3] >= 0 && (other[i][3] > 0) == (stage.depths[i] < 1));
+        for (int i = 13; i < VIEW_STAGE_PIXELS && roughness == 0; i += VIEW_STAGE_SIDE)
+            REQUIRE_TRUE(fabsf(other[i][0] / full[i][0] - 1) < 1e-3f && full[i][2] < view_stage_zenith[2]);
+        printf("roughness %.2f: %u rays instead of %u, mean off by %.4f\n", (double)roughness, sent, all,
+               off);
+        REQUIRE_CMP(sent, >=, VIEW_STAGE_SURFACES / (step * step));
+        REQUIRE_CMP(sent, <, VIEW_STAGE_SURFACES / (step * step) + (2 * step + 1) * VIEW_STAGE_SIDE);
+        REQUIRE_CMP(off, <=, rows[k].off);
+        sdfgi_view_destroy(stage.t.gi, view);
+    }
+    view_stage_close(&stage);
+}
+
+/* Resolves a picture at full resolution and at another one. Returns how many rays the latter sends. */
+static uint32_t resolve_both(float roughness, enum sdfgi_gather_resolution resolution, float (*full)[4],
+                             float (*other)[4])
+{
+    sdfgi_view *whole = view_stage_view(&stage), *view = view_stage_view_at(&stage, resolution);
+    view_stage_resolve(&stage, whole, roughness);
+    view_stage_read(&stage, &whole->reflection, full);
+    view_stage_resolve(&stage, view, roughness);
+    view_stage_read(&stage, &view->reflection, other);
+    const uint32_t sent = rays_sent(&stage, view);
+    sdfgi_view_destroy(stage.t.gi, whole);
+    sdfgi_view_destroy(stage.t.gi, view);
+    return sent;
+}
+
+/* Where all pixels send rays, these are those of full resolution: each shows its own part of the lobe.
+ * Squares of four pixels beside the wall have too few. */
+static void detail_of_each_pixel_is_as_at_full_resolution(void **state)
+{
+    (void)state;
+    static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
+    stage.detail = VIEW_STAGE_COBBLES;
+    view_stage_open(&stage, 1);
+    for (int quarter = 0; quarter < 2; quarter++) {
+        const uint32_t sent =
+            resolve_both(0.1f, quarter ? SDFGI_GATHER_QUARTER : SDFGI_GATHER_HALF, full, other);
+        REQUIRE_CMP(sent, ==, (uint32_t)VIEW_STAGE_SURFACES);
+        for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
+            if (!quarter || i % VIEW_STAGE_SIDE >= 4)
+                REQUIRE_TRUE(memcmp(full[i], other[i], sizeof full[i]) == 0);
+    }
+    view_stage_close(&stage);
+    stage.detail = VIEW_STAGE_EVEN;
+}
+
+/* Columns between those of the grid send all of their rays, and take the mean of as many as at full
+ * resolution. The others send half of theirs. */
+static void grooves_are_as_at_full_resolution_where_they_send_rays(void **state)
+{
+    (void)state;
+    static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
+    stage.detail = VIEW_STAGE_GROOVES;
+    view_stage_open(&stage, 1);
+    const uint32_t sent = resolve_both(0.1f, SDFGI_GATHER_HALF, full, other);
+    REQUIRE_CMP(sent, ==, VIEW_STAGE_SURFACES * 3 / 4u);
+    for (int i = 1; i < VIEW_STAGE_PIXELS; i += 2)
+        REQUIRE_TRUE(memcmp(full[i], other[i], sizeof full[i]) == 0);
+    REQUIRE_CMP(memcmp(full, other, sizeof full), !=, 0);
+    view_stage_close(&stage);
+    stage.detail = VIEW_STAGE_EVEN;
+}
+
+static int finish(void **state)
+{
+    (void)state;
+    gi_test_close(&stage.t);
+    return 0;
+}
+
+TEST_GROUP(fewer_rays)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fewer_rays_show_the_same),
+        cmocka_unit_test(detail_of_each_pixel_is_as_at_full_resolution),
+        cmocka_unit_test(grooves_are_as_at_full_resolution_where_they_send_rays),
+    };
+    return cmocka_run_group_tests_name("fewer_rays", tests, NULL, finish);
+}
