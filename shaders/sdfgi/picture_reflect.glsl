@@ -46,8 +46,8 @@ bool picture_reflects(ivec2 pixel, out picture_surface s, out float roughness)
     return picture_is_smooth(roughness);
 }
 
-/* Pixels from ray to ray, along each axis. Wide lobes do with fewer rays: the filter's second run takes the
- * mean of squares all around. */
+/* Pixels from ray to ray at full resolution, along each axis. Wide lobes do with fewer rays: the filter's
+ * second run takes the mean of squares all around. */
 int picture_dense_step(float roughness)
 {
     return roughness < PICTURE_SPARSE_RAYS.x ? 1 : (roughness < PICTURE_SPARSE_RAYS.y ? 2 : 4);

@@ -19,8 +19,7 @@ static uint32_t rays_sent(struct view_stage *s, const sdfgi_view *view)
 
 /* A quarter and a sixteenth of the rays, and those of pixels that lie fewer than a step beside the wall,
  * which is background, and of a ridge that lies between rays. So do rough surfaces at full resolution. Rays
- * of sixteen places hold all parts of the lobe, however far apart they are, so that the mean is little off.
- */
+ * of sixteen places hold all parts of the lobe, however far apart they are: the mean is little off. */
 static void fewer_rays_show_the_same(void **state)
 {
     (void)state;
@@ -80,8 +79,8 @@ static uint32_t resolve_both(float roughness, enum sdfgi_gather_resolution resol
     return sent;
 }
 
-/* Where all pixels send rays, these are those of full resolution: each shows its own part of the lobe.
- * Squares of four pixels beside the wall have too few. */
+/* Where all pixels send rays, these are those of full resolution: each shows its own part of the lobe. At a
+ * quarter, squares in which the wall begins send too few for that. */
 static void detail_of_each_pixel_is_as_at_full_resolution(void **state)
 {
     (void)state;
