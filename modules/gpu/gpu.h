@@ -251,8 +251,7 @@ void gpu_update(struct gpu_recorder *rec, const struct gpu_buffer *buffer, uint6
 void gpu_copy(struct gpu_recorder *rec, const struct gpu_buffer *from, uint64_t from_offset,
               const struct gpu_buffer *to, uint64_t to_offset, uint64_t size);
 enum { GPU_MOST_IMAGES = 3 };
-/* Brings up to GPU_MOST_IMAGES images into the layout GENERAL, whichever they are in. What they hold is lost.
- */
+/* Brings up to GPU_MOST_IMAGES images into the layout GENERAL, from any other. What they hold is lost. */
 void gpu_images_to_general(struct gpu_recorder *rec, const struct gpu_image *const images[], uint32_t count);
 void gpu_bind_pipeline(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipeline pipeline);
 void gpu_bind_set(struct gpu_recorder *rec, VkPipelineBindPoint point, VkPipelineLayout layout,

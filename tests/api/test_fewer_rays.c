@@ -10,10 +10,15 @@
 
 static struct view_stage stage;
 
-static uint32_t rays_sent(struct view_stage *s, const sdfgi_view *view)
+/* Resolves a picture in a view of its own. Returns how many rays that sends. */
+static uint32_t resolve(enum sdfgi_gather_resolution resolution, float roughness, float (*pixels)[4])
 {
+    sdfgi_view *view = view_stage_view_at(&stage, resolution);
+    view_stage_resolve(&stage, view, roughness);
+    view_stage_read(&stage, &view->reflection, pixels);
     uint32_t header[SDFGI_TILES_HEADER];
-    gpu_test_buffer_read(&s->t.gpu, view->tiles.handle, 0, sizeof header, header);
+    gpu_test_buffer_read(&stage.t.gpu, view->tiles.handle, 0, sizeof header, header);
+    sdfgi_view_destroy(stage.t.gi, view);
     return header[SDFGI_TILES_RAYS + 3];
 }
 
@@ -38,17 +43,11 @@ static void fewer_rays_show_the_same(void **state)
     stage.ridge = 13;
     view_stage_open(&stage, 1);
     stage.ridge = 0;
-    sdfgi_view *whole = view_stage_view(&stage);
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const float roughness = rows[k].roughness;
-        sdfgi_view *view = view_stage_view_at(&stage, rows[k].resolution);
-        view_stage_resolve(&stage, whole, rows[k].beside);
-        const uint32_t all = rays_sent(&stage, whole);
+        const uint32_t all = resolve(SDFGI_GATHER_FULL, rows[k].beside, full),
+                       sent = resolve(rows[k].resolution, roughness, other), step = rows[k].step;
         REQUIRE_TRUE(all == VIEW_STAGE_SURFACES || rows[k].beside > 0.55f);
-        view_stage_read(&stage, &whole->reflection, full);
-        view_stage_resolve(&stage, view, roughness);
-        view_stage_read(&stage, &view->reflection, other);
-        const uint32_t sent = rays_sent(&stage, view), step = rows[k].step;
         const double off = fabs(view_stage_luminance(other) / view_stage_luminance(full) - 1);
         for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
             REQUIRE_TRUE(other[i][3] >= 0 && (other[i][3] > 0) == (stage.depths[i] < 1));
@@ -59,24 +58,8 @@ static void fewer_rays_show_the_same(void **state)
         REQUIRE_CMP(sent, >=, VIEW_STAGE_SURFACES / (step * step));
         REQUIRE_CMP(sent, <, VIEW_STAGE_SURFACES / (step * step) + (2 * step + 1) * VIEW_STAGE_SIDE);
         REQUIRE_CMP(off, <=, rows[k].off);
-        sdfgi_view_destroy(stage.t.gi, view);
     }
     view_stage_close(&stage);
-}
-
-/* Resolves a picture at full resolution and at another one. Returns how many rays the latter sends. */
-static uint32_t resolve_both(float roughness, enum sdfgi_gather_resolution resolution, float (*full)[4],
-                             float (*other)[4])
-{
-    sdfgi_view *whole = view_stage_view(&stage), *view = view_stage_view_at(&stage, resolution);
-    view_stage_resolve(&stage, whole, roughness);
-    view_stage_read(&stage, &whole->reflection, full);
-    view_stage_resolve(&stage, view, roughness);
-    view_stage_read(&stage, &view->reflection, other);
-    const uint32_t sent = rays_sent(&stage, view);
-    sdfgi_view_destroy(stage.t.gi, whole);
-    sdfgi_view_destroy(stage.t.gi, view);
-    return sent;
 }
 
 /* Where all pixels send rays, these are those of full resolution: each shows its own part of the lobe. At a
@@ -87,16 +70,16 @@ static void detail_of_each_pixel_is_as_at_full_resolution(void **state)
     static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
     stage.detail = VIEW_STAGE_COBBLES;
     view_stage_open(&stage, 1);
+    stage.detail = VIEW_STAGE_EVEN;
+    resolve(SDFGI_GATHER_FULL, 0.1f, full);
     for (int quarter = 0; quarter < 2; quarter++) {
-        const uint32_t sent =
-            resolve_both(0.1f, quarter ? SDFGI_GATHER_QUARTER : SDFGI_GATHER_HALF, full, other);
+        const uint32_t sent = resolve(quarter ? SDFGI_GATHER_QUARTER : SDFGI_GATHER_HALF, 0.1f, other);
         REQUIRE_CMP(sent, ==, (uint32_t)VIEW_STAGE_SURFACES);
         for (int i = 0; i < VIEW_STAGE_PIXELS; i++)
             if (!quarter || i % VIEW_STAGE_SIDE >= 4)
                 REQUIRE_TRUE(memcmp(full[i], other[i], sizeof full[i]) == 0);
     }
     view_stage_close(&stage);
-    stage.detail = VIEW_STAGE_EVEN;
 }
 
 /* Columns between those of the grid send all of their rays, and take the mean of as many as at full
@@ -107,13 +90,14 @@ static void grooves_are_as_at_full_resolution_where_they_send_rays(void **state)
     static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
     stage.detail = VIEW_STAGE_GROOVES;
     view_stage_open(&stage, 1);
-    const uint32_t sent = resolve_both(0.1f, SDFGI_GATHER_HALF, full, other);
+    stage.detail = VIEW_STAGE_EVEN;
+    resolve(SDFGI_GATHER_FULL, 0.1f, full);
+    const uint32_t sent = resolve(SDFGI_GATHER_HALF, 0.1f, other);
     REQUIRE_CMP(sent, ==, VIEW_STAGE_SURFACES * 3 / 4u);
     for (int i = 1; i < VIEW_STAGE_PIXELS; i += 2)
         REQUIRE_TRUE(memcmp(full[i], other[i], sizeof full[i]) == 0);
     REQUIRE_CMP(memcmp(full, other, sizeof full), !=, 0);
     view_stage_close(&stage);
-    stage.detail = VIEW_STAGE_EVEN;
 }
 
 static int finish(void **state)
