@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * A thread tests rays of a probe alone, for software drivers: where threads wait for one another, these
  * drivers keep all variables in memory, and they run what is under a condition in any case. Few hits ask
- * where their ray went: a thread goes on to the next one that does. Included by ray_invalidate. */
+ * where their ray went: a thread goes on to the next one that does. A workgroup has as many probes as it has
+ * threads for, since threads without rays take as long. Included by ray_invalidate. */
+#include "../shared/threads.h"
 
 layout(local_size_x = SDFGI_GROUP_LINEAR) in;
-
-/* Rays for a thread, at least: it looks at all boxes first. If there are very many, all threads have some,
- * because these drivers end a shader whose loops go round too often. */
-const uint LEAST_RAYS = 32u;
 
 bounds_box loaded_box(uint cascade, uint i)
 {
@@ -53,16 +51,25 @@ void test_hits(uint cascade, changed_probe own, uint first, uint last)
             forget_hit(own, s - 1u);
 }
 
+/* The next cascade with a change, from one on. */
+uint next_changed(uint cascade)
+{
+    while (cascade < sdfgi_frame.cascade_count && dirty_count(cascade) == 0)
+        cascade++;
+    return cascade;
+}
+
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, threads = uint(SDFGI_GROUP_LINEAR);
-    const uint rays = max((sdfgi_frame.cycle_samples + threads - 1u) / threads, LEAST_RAYS);
-    const uint last = min((lane + 1u) * rays, sdfgi_frame.cycle_samples);
+    const uint samples = sdfgi_frame.cycle_samples, threads = sdfgi_invalidate_threads(samples),
+               probes = uint(SDFGI_GROUP_LINEAR) / threads, rays = (samples + threads - 1u) / threads;
+    const uint in_group = gl_LocalInvocationIndex / threads, lane = gl_LocalInvocationIndex % threads,
+               linear = gl_WorkGroupID.x * probes + in_group, side = sdfgi_frame.probes_per_side;
+    const uint first = lane * rays, last = min(first + rays, samples);
     changed_probe own;
-    if (lane * rays >= last || !find_probe(gl_WorkGroupID.x, own))
+    if (in_group >= probes || linear >= side * side * side || first >= last || !find_probe(linear, own))
         return;
-    for (uint c = own_cascade(); c < sdfgi_frame.cascade_count; c++)
-        if (dirty_count(c) > 0)
-            test_hits(c, own, lane * rays, last);
-    forget_emitters(own.slot, lane, (sdfgi_frame.cycle_samples + rays - 1u) / rays);
+    for (uint c = next_changed(own_cascade()); c < sdfgi_frame.cascade_count; c = next_changed(c + 1u))
+        test_hits(c, own, first, last);
+    forget_emitters(own.slot, lane, threads);
 }
