@@ -232,6 +232,7 @@ static void light_cells_keep_it_for_reflections_alone(void **state)
 {
     (void)state;
     open_stage(0.05f);
+    set_property("sdfgi_cell_rays", "128"); /* light settles sooner */
     sdfgi_view *view = view_stage_view(&stage);
     view_stage_resolve(&stage, view, 1);
     gi_test_update(&stage.t, 2);
