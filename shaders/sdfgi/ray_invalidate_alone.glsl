@@ -62,12 +62,12 @@ uint next_changed(uint cascade)
 void main()
 {
     const uint samples = sdfgi_frame.cycle_samples, threads = sdfgi_invalidate_threads(samples),
-               probes = uint(SDFGI_GROUP_LINEAR) / threads, rays = (samples + threads - 1u) / threads;
+               probes = uint(SDFGI_GROUP_LINEAR) / threads, rays = sdfgi_invalidate_rays(samples);
     const uint in_group = gl_LocalInvocationIndex / threads, lane = gl_LocalInvocationIndex % threads,
                linear = gl_WorkGroupID.x * probes + in_group, side = sdfgi_frame.probes_per_side;
     const uint first = lane * rays, last = min(first + rays, samples);
     changed_probe own;
-    if (in_group >= probes || linear >= side * side * side || first >= last || !find_probe(linear, own))
+    if (in_group >= probes || linear >= side * side * side || !find_probe(linear, own))
         return;
     for (uint c = next_changed(own_cascade()); c < sdfgi_frame.cascade_count; c = next_changed(c + 1u))
         test_hits(c, own, first, last);

@@ -5,6 +5,7 @@
 #include "pass/work.h"
 #include "require.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/threads.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -396,6 +397,19 @@ static void rows_of_a_set_stand_in_the_order_of_their_bindings(void **state)
         REQUIRE_CMP(sdfgi_resource_set_size((enum resource_set)i), ==, count[i]);
 }
 
+/* ---- Threads */
+
+/* Threads without rays would leave what they have to forget. */
+static void every_thread_of_a_probe_has_rays(void **state)
+{
+    (void)state;
+    for (uint32_t samples = 1; samples <= 1 << 16; samples++) {
+        const uint32_t rays = sdfgi_invalidate_rays(samples), threads = sdfgi_invalidate_threads(samples);
+        REQUIRE_TRUE(threads >= 1 && threads <= SDFGI_GROUP_LINEAR);
+        REQUIRE_TRUE((threads - 1) * rays < samples && threads * rays >= samples);
+    }
+}
+
 /* ---- Push constants */
 
 _Static_assert(sizeof(struct sdfgi_voxelize_args) <= 128, "Vulkan promises 128 bytes");
@@ -410,6 +424,7 @@ int main(void)
         cmocka_unit_test(shaders_lay_out_every_shared_struct_as_c_does),
         cmocka_unit_test(shaders_bind_every_resource_where_the_table_says),
         cmocka_unit_test(rows_of_a_set_stand_in_the_order_of_their_bindings),
+        cmocka_unit_test(every_thread_of_a_probe_has_rays),
     };
     return cmocka_run_group_tests_name("layout", tests, modules_open, modules_close);
 }
