@@ -42,7 +42,6 @@ static void fewer_rays_show_the_same(void **state)
     };
     stage.ridge = 13;
     view_stage_open(&stage, 1);
-    stage.ridge = 0;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const float roughness = rows[k].roughness;
         const uint32_t all = resolve(SDFGI_GATHER_FULL, rows[k].beside, full),
@@ -70,7 +69,6 @@ static void detail_of_each_pixel_is_as_at_full_resolution(void **state)
     static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
     stage.detail = VIEW_STAGE_COBBLES;
     view_stage_open(&stage, 1);
-    stage.detail = VIEW_STAGE_EVEN;
     resolve(SDFGI_GATHER_FULL, 0.1f, full);
     for (int quarter = 0; quarter < 2; quarter++) {
         const uint32_t sent = resolve(quarter ? SDFGI_GATHER_QUARTER : SDFGI_GATHER_HALF, 0.1f, other);
@@ -90,7 +88,6 @@ static void grooves_are_as_at_full_resolution_where_they_send_rays(void **state)
     static float full[VIEW_STAGE_PIXELS][4], other[VIEW_STAGE_PIXELS][4];
     stage.detail = VIEW_STAGE_GROOVES;
     view_stage_open(&stage, 1);
-    stage.detail = VIEW_STAGE_EVEN;
     resolve(SDFGI_GATHER_FULL, 0.1f, full);
     const uint32_t sent = resolve(SDFGI_GATHER_HALF, 0.1f, other);
     REQUIRE_CMP(sent, ==, VIEW_STAGE_SURFACES * 3 / 4u);

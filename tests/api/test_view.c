@@ -175,7 +175,6 @@ static void normals_that_lean_reflect_no_surface_of_their_own(void **state)
     static float reflection[VIEW_STAGE_PIXELS][4];
     stage.lean = 1.732f;
     view_stage_open(&stage, 1);
-    stage.lean = 0;
     sdfgi_view *view = view_stage_view(&stage);
     view_stage_resolve(&stage, view, 0);
     view_stage_read(&stage, &view->reflection, reflection);

@@ -48,6 +48,9 @@ void view_stage_open(struct view_stage *s, float smoothness)
     REQUIRE_CMP((int)sdfgi_set_sky(s->t.gi, &sky), ==, (int)SDFGI_OK);
     gi_test_update(&s->t, 8);
     fill_picture(s);
+    s->ridge = 0;
+    s->lean = 0;
+    s->detail = VIEW_STAGE_EVEN;
     s->depth =
         gi_test_gather_image(&s->t, VK_FORMAT_R32_SFLOAT, 4, VIEW_STAGE_SIDE, VIEW_STAGE_SIDE, s->depths);
     s->normal = gi_test_gather_image(&s->t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, VIEW_STAGE_SIDE,

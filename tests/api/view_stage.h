@@ -21,6 +21,7 @@ struct view_stage {
     sdfgi_material smooth; /* of nothing that is there: it calls for reflections */
     struct gpu_test_image depth, normal;
     float depths[VIEW_STAGE_PIXELS], normals[VIEW_STAGE_PIXELS][4];
+    /* Of the next picture that is opened; view_stage_open sets them to 0 again. */
     int ridge;  /* this column leans towards +x; 0: none does */
     float lean; /* of all other normals: tangent of the angle */
     /* Normals change from pixel to pixel along x, or along both axes. */

@@ -179,7 +179,7 @@ static void list_visits(const struct plan_stage *stage)
         return;
     struct sdfgi_visit_list_args *args = &work->args.visit_list;
     for (uint32_t i = 0; i < SDFGI_VISITS_RECORDS; i++)
-        args->groups[i] = sdfgi_work_group_size(passes[i], stage->input->software);
+        args->groups[i] = sdfgi_work_group_size(passes[i], &stage->input->extent, stage->input->software);
     if (!stage->input->software) /* a workgroup has shared memory for so many rays */
         args->groups[SDFGI_VISITS_GATHER] /= sdfgi_gathering_new_rays(&frame->next.gathering);
     for (uint32_t i = 0; i < frame->gather_count; i++) {

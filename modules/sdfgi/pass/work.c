@@ -84,22 +84,16 @@ static const uint32_t software_groups[PASS_COUNT] = {
     [PASS_PROBE_BLEND] = SDFGI_GROUP_PROBE,
 };
 
-uint32_t sdfgi_work_group_size(enum pass pass, bool software)
+uint32_t sdfgi_work_group_size(enum pass pass, const struct extent *e, bool software)
 {
-    return software && software_groups[pass] ? software_groups[pass] : sdfgi_pass_row(pass)->group;
-}
-
-/* Probes of all cascades that a workgroup takes. */
-static uint32_t probes_of_group(enum pass pass, const struct extent *e, bool software)
-{
-    if (software && pass == PASS_RAY_INVALIDATE)
+    if (software && pass == PASS_RAY_INVALIDATE) /* several threads share the rays of a probe */
         return SDFGI_GROUP_LINEAR / sdfgi_invalidate_threads((uint32_t)e->cycle_samples);
-    return sdfgi_work_group_size(pass, software);
+    return software && software_groups[pass] ? software_groups[pass] : sdfgi_pass_row(pass)->group;
 }
 
 struct work_groups sdfgi_work_groups(const struct work *work, const struct extent *e, bool software)
 {
-    const uint32_t group = sdfgi_work_group_size(work->pass, software), probes = (uint32_t)e->probes,
+    const uint32_t group = sdfgi_work_group_size(work->pass, e, software), probes = (uint32_t)e->probes,
                    cascades = (uint32_t)e->cascades, n = 8 * ((uint32_t)e->probes_per_side - 1);
     switch (sdfgi_pass_row(work->pass)->domain) {
     case DOMAIN_INSTANCES:
@@ -122,8 +116,7 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
     case DOMAIN_PROBES:
         return (struct work_groups){ groups_for(probes, group), 1, 1 };
     case DOMAIN_ALL_PROBES:
-        return (struct work_groups){ groups_for(probes, probes_of_group(work->pass, e, software)),
-                                     work->count, 1 };
+        return (struct work_groups){ groups_for(probes, group), work->count, 1 };
     case DOMAIN_ALL_RAYS:
     case DOMAIN_SEEN_WORDS:
         return (struct work_groups){ groups_for(work->count, group), cascades, 1 };

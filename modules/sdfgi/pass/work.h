@@ -104,7 +104,7 @@ void sdfgi_work_add_clear(struct work_list *list, enum resource resource, uint64
 bool sdfgi_work_has(const struct work_list *list, enum pass pass);
 
 /* Elements of its domain that a workgroup of a pass takes. */
-uint32_t sdfgi_work_group_size(enum pass pass, bool software);
+uint32_t sdfgi_work_group_size(enum pass pass, const struct extent *e, bool software);
 
 struct work_groups {
     uint32_t x, y, z;
