@@ -40,17 +40,17 @@
 #define SDFGI_RESOURCE_TABLE_H
 
 /* X(id, bytes, texels): what shaders read if they read texels, UNDEFINED if they never do. */
-#define RESOURCE_FORMATS(X)                                        \
-    X(U8, 1, R32_UINT)                                             \
-    X(U16, 2, R32_UINT)                                            \
-    X(U32, 4, R32_UINT)                                            \
-    X(U32X2, 8, R32G32_UINT)                                       \
-    X(U32X4, 16, R32G32B32A32_UINT)                                \
-    X(F16X4, 8, R32G32_UINT)                                       \
-    X(F32X4, 16, R32G32B32A32_SFLOAT)                              \
-    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params), UNDEFINED)  \
-    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params), UNDEFINED)  \
-    X(MATERIAL_PARAMS, sizeof(struct sdfgi_material_params), UNDEFINED)
+#define RESOURCE_FORMATS(X)                                                      \
+    X(U8, 1, R32_UINT)                                                           \
+    X(U16, 2, R32_UINT)                                                          \
+    X(U32, 4, R32_UINT)                                                          \
+    X(U32X2, 8, R32G32_UINT)                                                     \
+    X(U32X4, 16, R32G32B32A32_UINT)                                              \
+    X(F16X4, 8, R32G32_UINT)                                                     \
+    X(F32X4, 16, R32G32B32A32_SFLOAT)                                            \
+    X(FRAME_PARAMS, sizeof(struct sdfgi_frame_params), UNDEFINED)                \
+    X(LIGHT_PARAMS, sizeof(struct sdfgi_light_params), R32G32B32A32_UINT)        \
+    X(MATERIAL_PARAMS, sizeof(struct sdfgi_material_params), R32G32B32A32_UINT)
 
 /* clang-format off */
 #define SDFGI_RESOURCES(X)                                                                                   \
