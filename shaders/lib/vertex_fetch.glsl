@@ -50,15 +50,17 @@ vec4 sdfgi_fetch_completed(vec4 v, uint fetch)
     return vec4(v.xy, components > 2u ? v.z : 0.0, components > 3u ? v.w : 1.0);
 }
 
-/* Defines `vec4 name(uint fetch, uint byte)`: the element at a byte of an array of words. Reads no word
- * beyond the element. GLSL passes no buffer to a function. What floats of 32 bits do not need is a loop of
- * one round, because software drivers run what is under a condition in any case. */
-#define SDFGI_FETCH_FUNCTION(name, words)                                                                    \
+/* Defines `vec4 name(uint fetch, uint byte)`: the element at a byte of an array of words, of which the first
+ * `most` components are wanted: 2 to 4. Reads no word beyond the element. GLSL passes no buffer to a
+ * function. What floats of 32 bits do not need is a loop of one round, because software drivers run what is
+ * under a condition in any case. */
+#define SDFGI_FETCH_FUNCTION(name, words, most)                                                              \
     vec4 name(uint fetch, uint byte)                                                                         \
     {                                                                                                        \
         const uint at = byte >> 2u, last = sdfgi_fetch_last_word(fetch, byte);                               \
-        const uvec4 read = uvec4(words[at], words[min(at + 1u, last)], words[min(at + 2u, last)],            \
-                                 words[min(at + 3u, last)]);                                                 \
+        const uvec4 read =                                                                                   \
+            uvec4(words[at], words[min(at + 1u, last)], most > 2 ? words[min(at + 2u, last)] : 0u,           \
+                  most > 3 ? words[min(at + 3u, last)] : 0u);                                                \
         const uint times = SDFGI_FETCH_GET_BITS(fetch) < 32u ? 1u : 0u;                                      \
         vec4 v = uintBitsToFloat(read);                                                                      \
         for (uint i = 0u; i < times; i++)                                                                    \

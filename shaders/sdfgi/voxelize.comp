@@ -87,7 +87,8 @@ void store_columns(uint group, uint owner, uint first, uint last)
     triangle_take(triangle_of(group, owner), v, t.index);
     t.axis = range.w;
     triangle_setup(t, v);
-    ivec2 at = ivec2(int(first - begin) % range.z, int(first - begin) / range.z);
+    const int row = int((float(first - begin) + 0.5) / float(range.z)); /* exact up to 2^20 columns */
+    ivec2 at = ivec2(int(first - begin) - row * range.z, row);
     uint i = first;
     do {
         triangle_store_column(t, range.xy + at);

@@ -12,7 +12,10 @@
  * 2010, "Fast parallel surface and solid voxelization"; Huang et al. 1998). A path between the centres of two
  * face neighbours that crosses a closed mesh crosses it on one of these segments, so no 6-connected path
  * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. Emitters set
- * more: every column that they cover in part. */
+ * more: every column that they cover in part.
+ *
+ * Loops test at their end, and stand under a condition where they may have no round: software drivers go
+ * through a loop that tests at its beginning once more than is needed. */
 #include "voxelize_material.glsl"
 #include "accumulators.glsl" /* what voxelize_material.glsl includes says what is written */
 #include "surface_front.glsl"
@@ -275,18 +278,26 @@ void accumulate_surface(triangle t, ivec3 sub, uint block, surface_sample s)
     const vec3 color = sdfgi_finite_color(s.albedo.rgb, 1.0);
     const uvec3 albedo = uvec3(color * SDFGI_ALBEDO_STEPS + 0.5);
     accumulate_front(t, sub, block, facing, color);
-    for (uint i = SDFGI_ZERO; i < 3u; i++)
-        accumulate(plane + i, block, albedo[i]);
+    uint channel = SDFGI_ZERO;
+    do
+        accumulate(plane + channel, block, albedo[channel]);
+    while (++channel < 3u);
     accumulate(plane + 3u, block, 1u);
     const float side = negative ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
     const uint metal = s.flags >> SDFGI_MATERIAL_METAL_SHIFT & 3u;
-    accumulate(SDFGI_ACCUM_METAL, block, min(metal, 1u));
-    accumulate(SDFGI_ACCUM_METAL + 1u, block, metal);
-    for (uint i = 1u + SDFGI_ZERO; i <= 2u; i++) {
-        const float slope = sdfgi_finite_clamp(t.normal[(major + i) % 3u] * side / height[major], -1.0, 1.0);
-        accumulate(SDFGI_ACCUM_NORMAL + 3u * major + i, block, uint(int(round(slope * SDFGI_SLOPE_STEPS))));
-    }
+    uint kind = SDFGI_ZERO;
+    if (metal != 0u)
+        do
+            accumulate(SDFGI_ACCUM_METAL + kind, block, kind == 0u ? 1u : metal);
+        while (++kind < 2u);
+    uint next = 1u + SDFGI_ZERO;
+    do {
+        const float slope =
+            sdfgi_finite_clamp(t.normal[(major + next) % 3u] * side / height[major], -1.0, 1.0);
+        accumulate(SDFGI_ACCUM_NORMAL + 3u * major + next, block,
+                   uint(int(round(slope * SDFGI_SLOPE_STEPS))));
+    } while (++next <= 2u);
 }
 
 /* The part of a column that a triangle covers. */
@@ -322,20 +333,23 @@ vec3 edge_integrals(vec2 a, vec2 b)
            line_integrals(vec2(inside.y, cut.y), vec2(x.y, cut.y));
 }
 
-covered_part triangle_covers(triangle t, ivec2 column)
+covered_part triangle_covers(triangle t, ivec2 column, bool emits)
 {
     const vec2 middle = vec2(column) + 0.5;
+    if (!emits)
+        return covered_part(0.0, middle);
     if (t.tiny)
         return covered_part(all(equal(column, tiny_column(t))) ? 0.5 * t.area2 : 0.0, middle);
     vec2 from = t.v[0].xy - vec2(column), to = t.v[1].xy - vec2(column), next = t.v[2].xy - vec2(column);
     vec3 sums = vec3(0.0);
-    for (uint i = SDFGI_ZERO; i < 3u; i++) {
+    uint edge = SDFGI_ZERO;
+    do {
         sums += edge_integrals(from, to);
         const vec2 last = from;
         from = to;
         to = next;
         next = last;
-    }
+    } while (++edge < 3u);
     const bool aside = sums.x != 0.0 && !triangle_contains(t, middle);
     return covered_part(min(abs(sums.x), 1.0),
                         aside ? vec2(column) + clamp(sums.yz / sums.x, 0.0, 1.0) : middle);
@@ -363,42 +377,52 @@ void accumulate_emission(triangle t, float covered, uint block, surface_sample s
     if (all(lessThan(emission, vec3(SDFGI_EMISSION_STEP))) ||
         !has_room(SDFGI_ACCUM_EMISSION_AREA, block, SDFGI_ACCUM_MOST_AREA))
         return;
-    for (uint i = SDFGI_ZERO; i < 3u; i++)
-        accumulate_wide(SDFGI_ACCUM_EMISSION + 2u * i, block, emission[i]);
+    uint channel = SDFGI_ZERO;
+    do
+        accumulate_wide(SDFGI_ACCUM_EMISSION + 2u * channel, block, emission[channel]);
+    while (++channel < 3u);
     const float area = sides * covered * column / max(abs(t.normal[t.axis]), 0.1);
     accumulate(SDFGI_ACCUM_EMISSION_AREA, block, uint(area * SDFGI_AREA_STEPS + 0.5));
-    for (int n = int(SDFGI_ZERO); n < 3; n++) {
+    int n = int(SDFGI_ZERO);
+    do {
         const int axis = (t.axis + n) % 3;
         const uint front = 2u * uint(axis) + (t.normal[axis] < 0.0 ? 1u : 0u),
                    steps = uint(seen[n] * SDFGI_AREA_STEPS + 0.5);
         accumulate(SDFGI_ACCUM_EMISSION_SIDES + front, block, steps);
         if (both)
             accumulate(SDFGI_ACCUM_EMISSION_SIDES + (front ^ 1u), block, steps);
-    }
+    } while (++n < 3);
 }
 
-/* Notes that a sub-voxel emits, and along which axes. */
-void store_emitter(triangle t, ivec3 cell, uint bit)
+/* Notes along which axes a sub-voxel emits, if it does. */
+void store_emitter(triangle t, ivec3 cell, uint bit, bool emits)
 {
-    for (int n = int(SDFGI_ZERO); n < 3; n++) {
+    int n = int(SDFGI_ZERO);
+    if (!emits)
+        return;
+    do {
         const int axis = (t.axis + n) % 3;
         const uint word = emissive_word(drawn_part(), axis, cell) + (bit >> 5u);
         if (n == 0 || abs(t.slope[max(n, 1) - 1]) > LEAST_SLOPE)
             atomicOr(sdfgi_scratch[word], 1u << (bit & 31u));
-    }
+    } while (++n < 3);
 }
 
-/* The test spares an atomic, because many triangles may share a sub-voxel and their atomics would wait for
- * one another (HARD_CASES row 17). */
+/* On a GPU a test spares the atomic, because many triangles may share a sub-voxel and their atomics would
+ * wait for one another (HARD_CASES row 17). On a CPU each test and each branch takes as long as an atomic. */
 void store_bit(uint cell, uint bit)
 {
     const uint word_bit = 1u << (bit & 31u);
+#ifdef SDFGI_SOFTWARE
+    atomicOr(sdfgi_bits[cell][bit >> 5u], word_bit);
+#else
     if (bit < 32u) {
         if ((sdfgi_bits_at(cell).x & word_bit) == 0u)
             atomicOr(sdfgi_bits[cell].x, word_bit);
     } else if ((sdfgi_bits_at(cell).y & word_bit) == 0u) {
         atomicOr(sdfgi_bits[cell].y, word_bit);
     }
+#endif
 }
 
 /* Sets the sub-voxel at `from_anchor`. */
@@ -409,8 +433,7 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
     accumulate_surface(t, sub, block, s);
-    if (emission_is_kept() && s.emission != vec3(0.0))
-        store_emitter(t, cell, bit);
+    store_emitter(t, cell, bit, emission_is_kept() && s.emission != vec3(0.0));
 }
 
 /* Tests one column of those that lie in the box, and stores the sample that the triangle has there. Emitters
@@ -421,9 +444,7 @@ void triangle_store_column(triangle t, ivec2 column)
     const bool emits = emission_is_kept() && t.material.params.emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
-    covered_part part = covered_part(0.0, vec2(column) + 0.5);
-    if (emits)
-        part = triangle_covers(t, column);
+    const covered_part part = triangle_covers(t, column, emits);
     const int level = inset_level(t, part.centre);
     const bool emits_here = part.area > 0.0 && level >= low && level < high;
     const column_levels levels = triangle_levels(t, column);
@@ -438,6 +459,10 @@ void triangle_store_column(triangle t, ivec2 column)
         accumulate_emission(t, part.area, part_block(drawn_part(), (emitting + drawn.anchor) >> 2), s);
     const bool apart = emits_here && part.area > LEAST_COVERED && (level < first || level > last);
     const int count = first > last ? 0 : last - first + 1;
-    for (int i = apart ? -1 : 0; i < count; i++)
+    if (!apart && count == 0)
+        return;
+    int i = apart ? -1 : 0;
+    do
         store_sub_voxel(t, unpermute(ivec3(column, i < 0 ? level : first + i), t.axis), s);
+    while (++i < count);
 }

@@ -44,9 +44,9 @@ ivec3 box_corner(uint packed)
     return unpacked_corner(packed) * SDFGI_SUBVOXELS - drawn.anchor;
 }
 
-SDFGI_FETCH_FUNCTION(fetch_position, positions)
-SDFGI_FETCH_FUNCTION(fetch_uv, uvs)
-SDFGI_FETCH_FUNCTION(fetch_color, colors)
+SDFGI_FETCH_FUNCTION(fetch_position, positions, 3)
+SDFGI_FETCH_FUNCTION(fetch_uv, uvs, 2)
+SDFGI_FETCH_FUNCTION(fetch_color, colors, 4)
 SDFGI_FETCH_INDEX_FUNCTION(fetch_index, indices)
 
 /* Where a vertex has an attribute. */

@@ -17,7 +17,7 @@ layout(push_constant) uniform push
 
 const uint WORDS = 12u;
 
-SDFGI_FETCH_FUNCTION(fetch_data, data)
+SDFGI_FETCH_FUNCTION(fetch_data, data, 4)
 SDFGI_FETCH_INDEX_FUNCTION(fetch_index, data)
 
 void main()
