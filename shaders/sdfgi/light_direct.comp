@@ -16,32 +16,10 @@
 
 layout(local_size_x = SDFGI_GROUP_SURFACES) in;
 SDFGI_PUSH(sdfgi_light_direct_args);
-#ifdef SDFGI_SOFTWARE /* texels: see texels.glsl */
-layout(set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_LIGHTS) uniform usamplerBuffer sdfgi_lights_view;
-
-sdfgi_light_params light_at(uint i)
-{
-    const uvec4 position = texelFetch(sdfgi_lights_view, int(4u * i)),
-                direction = texelFetch(sdfgi_lights_view, int(4u * i + 1u)),
-                intensity = texelFetch(sdfgi_lights_view, int(4u * i + 2u)),
-                kind = texelFetch(sdfgi_lights_view, int(4u * i + 3u));
-    return sdfgi_light_params(uintBitsToFloat(position.xyz), uintBitsToFloat(position.w),
-                              uintBitsToFloat(direction.xyz), uintBitsToFloat(direction.w),
-                              uintBitsToFloat(intensity.xyz), uintBitsToFloat(intensity.w), kind.x, kind.y,
-                              0u, 0u);
-}
-#else
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_LIGHTS) readonly buffer sdfgi_lights_buffer
 {
     sdfgi_light_params sdfgi_lights[];
 };
-
-sdfgi_light_params light_at(uint i)
-{
-    return sdfgi_lights[i];
-}
-#endif
 
 const float PI = 3.14159265;
 const uint CELLS = uint(SDFGI_CELLS_OF_SURFACES);
@@ -131,7 +109,7 @@ vec3 light_on_surface(uint light, surface s)
 {
     vec3 to_light;
     float range;
-    const vec3 facing_light = light_arriving(light_at(light), s.position, to_light, range);
+    const vec3 facing_light = light_arriving(sdfgi_lights_at(light), s.position, to_light, range);
     return facing_light * max(dot(s.normal, to_light), 0.0);
 }
 
@@ -139,7 +117,8 @@ bool is_unshadowed(vec3 pos, uint light)
 {
     vec3 to_light;
     float range_m;
-    light_arriving(light_at(light), sdfgi_position_from_cascade(lit_cascade(), pos), to_light, range_m);
+    light_arriving(sdfgi_lights_at(light), sdfgi_position_from_cascade(lit_cascade(), pos), to_light,
+                   range_m);
     const float cell_m = sdfgi_frame.cascades[lit_cascade()].cell_m;
     const sdfgi_trace_hit hit =
         sdfgi_trace_solid(lit_cascade(), sdfgi_frame.cascade_count - 1u, pos, to_light, range_m / cell_m);
@@ -151,7 +130,8 @@ bool is_unshadowed(vec3 pos, uint light)
 /* True for a light of `bits` that would light a surface if nothing stood between them. */
 bool is_candidate(uint light, uint bits, surface s)
 {
-    return (light_at(light).bit & bits) != 0u && any(greaterThan(light_on_surface(light, s), vec3(0.0)));
+    return (sdfgi_lights_at(light).bit & bits) != 0u &&
+           any(greaterThan(light_on_surface(light, s), vec3(0.0)));
 }
 
 /* A bit per light from `first` on that is a candidate. */
@@ -180,7 +160,7 @@ uint list_rays(uint first, uint candidates)
     uint shadowless = 0u;
     for (uint rest = candidates; rest != 0u; rest &= rest - 1u) {
         const uint i = uint(findLSB(rest));
-        if ((light_at(first + i).kind & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
+        if ((sdfgi_lights_at(first + i).kind & SDFGI_LIGHT_CASTS_SHADOW) != 0u)
             rays[atomicAdd(ray_count, 1u)] = gl_LocalInvocationIndex * BATCH + i;
         else
             shadowless |= 1u << i;
@@ -217,7 +197,7 @@ vec3 light_from_batch(uint first, uint bits, bool faces, surface s, inout uint f
     for (uint rest = unshadowed[own]; rest != 0u; rest &= rest - 1u) {
         const uint light = first + uint(findLSB(rest));
         sum += light_on_surface(light, s);
-        from |= light_at(light).bit;
+        from |= sdfgi_lights_at(light).bit;
     }
     return sum;
 }

@@ -6,6 +6,8 @@
 #ifndef SDFGI_WORK_TEXELS_GLSL
 #define SDFGI_WORK_TEXELS_GLSL
 
+#include "../shared/instances.h"
+
 #if defined(SDFGI_SOFTWARE) && !defined(SDFGI_WRITES_SCRATCH)
 layout(set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_SCRATCH) uniform usamplerBuffer sdfgi_scratch_view;
@@ -117,6 +119,63 @@ layout(set = SDFGI_SET_WORK,
 #define sdfgi_search_at(i) texelFetch(sdfgi_search_view, int(i)).x
 #else
 #define sdfgi_search_at(i) sdfgi_search[i]
+#endif
+
+/* ---- What the host writes */
+
+#ifdef SDFGI_SOFTWARE
+layout(set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_LIGHTS) uniform usamplerBuffer sdfgi_lights_view;
+
+sdfgi_light_params sdfgi_lights_at(uint i)
+{
+    uvec4 t[4];
+    for (int k = 0; k < 4; k++)
+        t[k] = texelFetch(sdfgi_lights_view, int(4u * i) + k);
+    return sdfgi_light_params(uintBitsToFloat(t[0].xyz), uintBitsToFloat(t[0].w), uintBitsToFloat(t[1].xyz),
+                              uintBitsToFloat(t[1].w), uintBitsToFloat(t[2].xyz), uintBitsToFloat(t[2].w),
+                              t[3].x, t[3].y, t[3].z, t[3].w);
+}
+#else
+#define sdfgi_lights_at(i) sdfgi_lights[i]
+#endif
+
+#ifdef SDFGI_SOFTWARE
+layout(set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_MATERIALS) uniform usamplerBuffer sdfgi_materials_view;
+
+sdfgi_material_params sdfgi_materials_at(uint i)
+{
+    uvec4 t[7];
+    for (int k = 0; k < 7; k++)
+        t[k] = texelFetch(sdfgi_materials_view, int(7u * i) + k);
+    return sdfgi_material_params(uintBitsToFloat(t[0].xyz), uintBitsToFloat(t[0].w),
+                                 uintBitsToFloat(t[1].xyz), uintBitsToFloat(t[1].w),
+                                 vec4[2](uintBitsToFloat(t[2]), uintBitsToFloat(t[3])),
+                                 vec4[2](uintBitsToFloat(t[4]), uintBitsToFloat(t[5])), t[6].x,
+                                 uintBitsToFloat(t[6].y), t[6].z, t[6].w);
+}
+#else
+#define sdfgi_materials_at(i) sdfgi_materials[i]
+#endif
+
+/* Behind the list of slots are the instances, 16 words each. */
+#ifdef SDFGI_SOFTWARE
+layout(set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_INSTANCES) uniform usamplerBuffer sdfgi_instances_view;
+#define sdfgi_draws_at(i) texelFetch(sdfgi_instances_view, int(i)).x
+
+sdfgi_instance_params sdfgi_instances_at(uint i)
+{
+    uvec4 t[4];
+    for (int k = 0; k < 16; k++)
+        t[k >> 2][k & 3] = sdfgi_draws_at(uint(SDFGI_MAX_DRAWS) + 16u * i + uint(k));
+    return sdfgi_instance_params(uintBitsToFloat(t[0].xyz), t[0].w, uintBitsToFloat(t[1].xyz), t[1].w,
+                                 uintBitsToFloat(t[2].xyz), t[2].w, ivec3(t[3].xyz), t[3].w);
+}
+#else
+#define sdfgi_draws_at(i)     sdfgi_draws[i]
+#define sdfgi_instances_at(i) sdfgi_instances[i]
 #endif
 
 #endif

@@ -14,8 +14,8 @@
  * leads through the mesh. A column is a line of sub-voxels along the triangle's dominant axis. Emitters set
  * more: every column that they cover in part.
  *
- * Loops test at their end, and stand under a condition where they may have no round: software drivers go
- * through a loop that tests at its beginning once more than is needed. */
+ * Loops test at their end: software drivers go through a loop that tests at its beginning once more than is
+ * needed. */
 #include "voxelize_material.glsl"
 #include "accumulators.glsl" /* what voxelize_material.glsl includes says what is written */
 #include "surface_front.glsl"
@@ -286,11 +286,8 @@ void accumulate_surface(triangle t, ivec3 sub, uint block, surface_sample s)
     const float side = negative ? -1.0 : 1.0;
     accumulate(SDFGI_ACCUM_NORMAL + 3u * major, block, 1u);
     const uint metal = s.flags >> SDFGI_MATERIAL_METAL_SHIFT & 3u;
-    uint kind = SDFGI_ZERO;
-    if (metal != 0u)
-        do
-            accumulate(SDFGI_ACCUM_METAL + kind, block, kind == 0u ? 1u : metal);
-        while (++kind < 2u);
+    accumulate(SDFGI_ACCUM_METAL, block, min(metal, 1u));
+    accumulate(SDFGI_ACCUM_METAL + 1u, block, metal);
     uint next = 1u + SDFGI_ZERO;
     do {
         const float slope =
@@ -333,11 +330,9 @@ vec3 edge_integrals(vec2 a, vec2 b)
            line_integrals(vec2(inside.y, cut.y), vec2(x.y, cut.y));
 }
 
-covered_part triangle_covers(triangle t, ivec2 column, bool emits)
+covered_part triangle_covers(triangle t, ivec2 column)
 {
     const vec2 middle = vec2(column) + 0.5;
-    if (!emits)
-        return covered_part(0.0, middle);
     if (t.tiny)
         return covered_part(all(equal(column, tiny_column(t))) ? 0.5 * t.area2 : 0.0, middle);
     vec2 from = t.v[0].xy - vec2(column), to = t.v[1].xy - vec2(column), next = t.v[2].xy - vec2(column);
@@ -394,12 +389,10 @@ void accumulate_emission(triangle t, float covered, uint block, surface_sample s
     } while (++n < 3);
 }
 
-/* Notes along which axes a sub-voxel emits, if it does. */
-void store_emitter(triangle t, ivec3 cell, uint bit, bool emits)
+/* Notes that a sub-voxel emits, and along which axes. */
+void store_emitter(triangle t, ivec3 cell, uint bit)
 {
     int n = int(SDFGI_ZERO);
-    if (!emits)
-        return;
     do {
         const int axis = (t.axis + n) % 3;
         const uint word = emissive_word(drawn_part(), axis, cell) + (bit >> 5u);
@@ -433,7 +426,8 @@ void store_sub_voxel(triangle t, ivec3 from_anchor, surface_sample s)
     const uint bit = uint(inner.x + 4 * inner.y + 16 * inner.z);
     store_bit(sdfgi_cell_index(args.cascade, cell), bit);
     accumulate_surface(t, sub, block, s);
-    store_emitter(t, cell, bit, emission_is_kept() && s.emission != vec3(0.0));
+    if (emission_is_kept() && s.emission != vec3(0.0))
+        store_emitter(t, cell, bit);
 }
 
 /* Tests one column of those that lie in the box, and stores the sample that the triangle has there. Emitters
@@ -444,7 +438,9 @@ void triangle_store_column(triangle t, ivec2 column)
     const bool emits = emission_is_kept() && t.material.params.emission != vec3(0.0);
     const int low = permute(box_corner(args.box_low), t.axis).z,
               high = permute(box_corner(args.box_high), t.axis).z;
-    const covered_part part = triangle_covers(t, column, emits);
+    covered_part part = covered_part(0.0, vec2(column) + 0.5);
+    if (emits)
+        part = triangle_covers(t, column);
     const int level = inset_level(t, part.centre);
     const bool emits_here = part.area > 0.0 && level >= low && level < high;
     const column_levels levels = triangle_levels(t, column);

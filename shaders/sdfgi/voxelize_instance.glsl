@@ -4,49 +4,14 @@
 #define SDFGI_VOXELIZE_INSTANCE_GLSL
 
 #include "pass.glsl"
-#include "../shared/instances.h"
 
 SDFGI_PUSH(sdfgi_voxelize_args);
 
-#ifdef SDFGI_SOFTWARE /* texels: see texels.glsl */
-layout(set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_INSTANCES) uniform usamplerBuffer sdfgi_instances_view;
-
-uint draw_at(uint i)
-{
-    return texelFetch(sdfgi_instances_view, int(i)).x;
-}
-
-uvec4 instance_words(uint first)
-{
-    return uvec4(draw_at(first), draw_at(first + 1u), draw_at(first + 2u), draw_at(first + 3u));
-}
-
-sdfgi_instance_params instance_at(uint slot)
-{
-    const uint first = uint(SDFGI_MAX_DRAWS) + 16u * slot;
-    const uvec4 x = instance_words(first), y = instance_words(first + 4u), z = instance_words(first + 8u),
-                last = instance_words(first + 12u);
-    return sdfgi_instance_params(uintBitsToFloat(x.xyz), x.w, uintBitsToFloat(y.xyz), y.w,
-                                 uintBitsToFloat(z.xyz), z.w, ivec3(last.xyz), last.w);
-}
-#else
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_INSTANCES) readonly buffer sdfgi_instances_buffer
 {
     uint sdfgi_draws[SDFGI_MAX_DRAWS];
     sdfgi_instance_params sdfgi_instances[];
 };
-
-uint draw_at(uint i)
-{
-    return sdfgi_draws[i];
-}
-
-sdfgi_instance_params instance_at(uint slot)
-{
-    return sdfgi_instances[slot];
-}
-#endif
 
 struct drawn_instance {
     vec4 rows[3]; /* object space to sub-voxels from the anchor: row-major 3x4 */
@@ -80,8 +45,8 @@ ivec3 anchor_of(uvec3 place_low, ivec3 place_high, out vec3 rest)
 /* Takes the instance that stands at `index` in this dispatch. */
 void instance_load(uint index)
 {
-    const uint draw = draw_at(args.first_draw + index);
-    const sdfgi_instance_params p = instance_at(draw & ~SDFGI_DRAW_CHECKED);
+    const uint draw = sdfgi_draws_at(args.first_draw + index);
+    const sdfgi_instance_params p = sdfgi_instances_at(draw & ~SDFGI_DRAW_CHECKED);
     const float scale = 1.0 / float(1u << args.cascade);
     vec3 rest;
     drawn.anchor = anchor_of(uvec3(p.place_low_x, p.place_low_y, p.place_low_z), p.place_high, rest);

@@ -5,39 +5,10 @@
 
 #include "voxelize_mesh.glsl"
 
-#ifdef SDFGI_SOFTWARE /* texels: see texels.glsl */
-layout(set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_MATERIALS) uniform usamplerBuffer sdfgi_materials_view;
-
-uvec4 material_words(uint first)
-{
-    return texelFetch(sdfgi_materials_view, int(first));
-}
-
-sdfgi_material_params material_at(uint index)
-{
-    const uint first = 7u * index;
-    const uvec4 albedo = material_words(first), emission = material_words(first + 1u),
-                rest = material_words(first + 6u);
-    vec4 uvs[4];
-    for (int i = 0; i < 4; i++)
-        uvs[i] = uintBitsToFloat(material_words(first + 2u + uint(i)));
-    return sdfgi_material_params(uintBitsToFloat(albedo.xyz), uintBitsToFloat(albedo.w),
-                                 uintBitsToFloat(emission.xyz), uintBitsToFloat(emission.w),
-                                 vec4[2](uvs[0], uvs[1]), vec4[2](uvs[2], uvs[3]), rest.x,
-                                 uintBitsToFloat(rest.y), 0u, 0u);
-}
-#else
 layout(std430, set = SDFGI_SET_WORK, binding = SDFGI_BINDING_MATERIALS) readonly buffer sdfgi_materials_buffer
 {
     sdfgi_material_params sdfgi_materials[];
 };
-
-sdfgi_material_params material_at(uint index)
-{
-    return sdfgi_materials[index];
-}
-#endif
 #ifdef SDFGI_VOXELIZE_TEXTURED
 layout(set = SDFGI_SET_MATERIAL, binding = SDFGI_BINDING_MATERIAL_ALBEDO) uniform sampler2D albedo_texture;
 layout(set = SDFGI_SET_MATERIAL,
@@ -91,7 +62,7 @@ struct triangle_material {
 triangle_material material_load(uint index[3], float area2)
 {
     triangle_material m;
-    m.params = material_at(drawn.material);
+    m.params = sdfgi_materials_at(drawn.material);
     m.colors = corner_colors(index);
 #ifdef SDFGI_VOXELIZE_TEXTURED
     m.uvs = corner_uvs(index);
