@@ -57,25 +57,36 @@ float spread_of(picture_surface s, float roughness, float distance_m, float reac
     return max(by_roughness, smoothstep(LOBE.x, LOBE.y, lobe_pixels(s, roughness, distance_m) / reach));
 }
 
+/* What the runs before have made of a pixel. */
+struct pixel_before {
+    vec4 own;
+    bool sends_ray; /* asked for only where rays lie apart */
+};
+
+pixel_before before_of(ivec2 pixel)
+{
+    return pixel_before(before_at(pixel), args.ray_step == 1u || imageLoad(reflection_image, pixel).a >= 0.0);
+}
+
 /* Pixels from ray to ray around a pixel. One between those of the grid that sends a ray has others beside it
  * that do. */
-int ray_step_at(ivec2 pixel, float roughness)
+int ray_step_at(ivec2 pixel, float roughness, bool sends_ray)
 {
     const int ray_step = picture_ray_step(roughness);
-    const bool dense = args.ray_step > 1u && !picture_is_on_grid(pixel, ray_step) &&
-                       imageLoad(reflection_image, pixel).a >= 0.0;
+    const bool dense = args.ray_step > 1u && !picture_is_on_grid(pixel, ray_step) && sends_ray;
     return dense ? picture_dense_step(roughness) : ray_step;
 }
 
 /* The mean of what the rays around have found; PICTURE_NO_RAY in a where none tells of the pixel's surface.
  * The first run interpolates between rays, which may lie apart; the second begins with pixels. */
-vec4 filtered(ivec2 pixel, picture_surface s, float roughness)
+vec4 filtered(ivec2 pixel, picture_surface s, float roughness, pixel_before before)
 {
-    const int ray_step = ray_step_at(pixel, roughness), step = ray_step * int(args.filter_step);
+    const int ray_step = ray_step_at(pixel, roughness, before.sends_ray),
+              step = ray_step * int(args.filter_step);
     const float reach = float(SDFGI_RAYS_SIDE * step);
     const ivec2 center = is_first() ? pixel - (pixel & (ray_step - 1)) : pixel;
     const bool interpolates = is_first() && ray_step > 1;
-    const vec4 own = before_at(pixel);
+    const vec4 own = before.own;
     const float spread = spread_of(s, roughness, own.a, reach);
     float weights = own.a < 0.0 ? 0.0 : 1.0;
     vec4 sum = weights * own;
@@ -102,13 +113,17 @@ vec4 blended(vec3 rough, vec4 mean, float roughness)
     return vec4(mix(rough, mean.rgb, sdfgi_reflection_ray_share(roughness)), mean.a);
 }
 
+/* Loads of a pixel do not wait for each other. */
 void filter_pixel(ivec2 pixel)
 {
-    picture_surface s;
-    float roughness;
-    if (!picture_reflects(pixel, s, roughness))
+    if (!picture_contains(pixel))
         return;
-    const vec4 mean = filtered(pixel, s, roughness);
+    picture_surface s;
+    const pixel_before before = before_of(pixel);
+    const float roughness = picture_roughness(pixel);
+    if (!picture_surface_at(pixel, s) || !picture_is_smooth(roughness))
+        return;
+    const vec4 mean = filtered(pixel, s, roughness, before);
     if (is_first()) {
         imageStore(filtered_image, pixel, mean);
         return;
@@ -120,6 +135,9 @@ void filter_pixel(ivec2 pixel)
 
 void main()
 {
-    for (uint i = gl_WorkGroupID.x; i < sdfgi_tiles[TILES_COUNT]; i += gl_NumWorkGroups.x)
-        filter_pixel(picture_listed(i));
+    /* The first is loaded beside the count: there are as many groups as tiles, or fewer. */
+    const ivec2 first = picture_listed(gl_WorkGroupID.x);
+    const uint count = sdfgi_tiles[TILES_COUNT];
+    for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x)
+        filter_pixel(i == gl_WorkGroupID.x ? first : picture_listed(i));
 }
