@@ -130,6 +130,12 @@ static bool wants_reflections(const struct sdfgi *gi, const struct sdfgi_resolve
     return desc->roughness && 1 - gi->scene.smoothest < gi->volume.state.params.rays_end;
 }
 
+/* Rays go on from metal where the scene has some. */
+static enum pass_variant rays_variant(const struct sdfgi *gi)
+{
+    return gi->scene.metals > 0 ? PASS_METAL : PASS_PLAIN;
+}
+
 /* Pipelines and memory. */
 static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct sdfgi_resolve_desc *desc,
                         enum pass gather)
@@ -140,7 +146,8 @@ static VkResult prepare(struct sdfgi *gi, struct sdfgi_view *view, const struct 
         return result;
     for (int i = lobes ? PASS_REFLECT_LOBES : PASS_REFLECT_TILES; i <= PASS_REFLECT_FILTER; i++)
         if (result == VK_SUCCESS)
-            result = sdfgi_pipelines_require(&gi->backend, (enum pass)i, PASS_PLAIN);
+            result = sdfgi_pipelines_require(&gi->backend, (enum pass)i,
+                                             i == PASS_REFLECT_RAYS ? rays_variant(gi) : PASS_PLAIN);
     return result == VK_SUCCESS ? sdfgi_view_add_reflection(&gi->backend, view) : result;
 }
 
@@ -171,6 +178,7 @@ static void record_with_reflections(struct sdfgi *gi, struct sdfgi_view *view, s
     first[1].pass = PASS_REFLECT_TILES;
     first[0].group = first[1].group = 2;
     beside[0].pass = PASS_REFLECT_RAYS;
+    beside[0].variant = rays_variant(gi);
     beside[0].group = beside[1].group = 1;
     beside[1].variant = lobes ? PASS_LOBES : PASS_PLAIN;
     filter[0].pass = filter[1].pass = PASS_REFLECT_FILTER;

@@ -5,7 +5,8 @@
  *
  * X(id, kind, shader, unit, need, phase, made, domain, args, group, set, reads, writes)
  *   kind    COMPUTE: <shader>.comp; RASTER: <shader>.vert and .frag. _TEXTURED: a second variant for
- *           materials with textures; _LOBES: for light cells that keep from where they get their light
+ *           materials with textures; _LOBES: for light cells that keep from where they get their light;
+ *           _METAL: for scenes with metal that reflects what it sees
  *   unit    what its work counter counts: enum pass_unit in pass/pass_rows.h
  *   need    the condition of the scene that calls for it: frame/frame_needs.c
  *   phase   where in a frame it runs, in the order of the rows: enum pass_phase in pass/pass_rows.h. A row is
@@ -117,7 +118,7 @@
       V(TILES))                                                                                              \
     X(REFLECT_TILES, COMPUTE, reflect_tiles, PIXELS, REFLECTIONS, OWN, DEMAND,                               \
       PIXELS, gather, SDFGI_GROUP_TILES, VIEW, 0, V(REFLECTION) | V(TILES))                                  \
-    X(REFLECT_RAYS, COMPUTE, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                                 \
+    X(REFLECT_RAYS, COMPUTE_METAL, reflect_rays, PIXELS, REFLECTIONS, OWN, DEMAND,                           \
       TILE_LIST, gather, 1, VIEW, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE) | R(LIGHT) |             \
       R(LIGHT_BLOCKS) | R(SURFACES) | R(EMISSION) | R(EMITTERS) | R(ALBEDO) | R(NORMALS) | V(TILES),         \
       V(REFLECTION))                                                                                         \

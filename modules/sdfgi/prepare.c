@@ -39,14 +39,19 @@ static bool wants_low_light(const struct job *job)
            sdfgi_settings_cycle_visits(&job->settings) > 0;
 }
 
+/* Materials that call for one may come later. */
+static bool wants_second_variant(const struct job *job, enum pass_kind kind)
+{
+    return (kind == PASS_KIND_COMPUTE_TEXTURED && (job->parts & SDFGI_PREPARE_TEXTURES)) ||
+           (kind == PASS_KIND_COMPUTE_LOBES && wants_low_light(job)) || kind == PASS_KIND_COMPUTE_METAL;
+}
+
 static bool wants_pipeline(const struct job *job, enum pass pass, uint32_t variant)
 {
     const struct pass_row *row = sdfgi_pass_row(pass);
     if (row->made == PASS_MADE_RASTER) /* made with its target */
         return false;
-    if (variant != PASS_PLAIN && row->kind != PASS_KIND_COMPUTE_LOBES)
-        return row->kind == PASS_KIND_COMPUTE_TEXTURED && (job->parts & SDFGI_PREPARE_TEXTURES);
-    if (variant != PASS_PLAIN && !wants_low_light(job))
+    if (variant != PASS_PLAIN && !wants_second_variant(job, row->kind))
         return false;
     return row->made == PASS_MADE_CREATED ? sdfgi_pass_fits(pass, &job->settings)
                                           : (job->parts & part_of(row->need)) != 0;

@@ -21,6 +21,20 @@ const float METAL_LEAST_RISE = 0.02;
 /* Alpha of the kinds of metal: of roughness up to 0.2, which is a mirror, up to 0.4, and beyond. */
 const vec3 METAL_ALPHA = vec3(0.0, 0.09, 0.23);
 
+/* Whether rays of reflections go on from metal. Where the scene has none, they would take longer for nothing.
+ */
+#ifdef SDFGI_METAL
+const bool METAL = true;
+#else
+const bool METAL = false;
+#endif
+
+/* True for metal from which they go on. */
+bool is_metal(uint block)
+{
+    return METAL && surface_metal(block) != 0u;
+}
+
 /* Where a ray goes on that has come along `dir` for `range` cell widths and has hit the face `axis` of a
  * block at `at`: on the way that it came. That is on its own side of all walls. */
 vec3 metal_start(uint block, uint axis, vec3 at, vec3 dir, float range)

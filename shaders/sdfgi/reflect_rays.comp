@@ -46,7 +46,7 @@ vec3 facet_direction(vec2 point, picture_surface s, float roughness)
 }
 
 /* True if the surface of a pixel is metal: the host says so, or the voxels do. */
-bool is_metal(ivec2 pixel, picture_surface s)
+bool shows_metal(ivec2 pixel, picture_surface s)
 {
     if (picture_is_metal(pixel))
         return true;
@@ -54,7 +54,7 @@ bool is_metal(ivec2 pixel, picture_surface s)
     for (uint c = 0u; c < sdfgi_frame.cascade_count; c++) {
         const ivec3 cell = ivec3(floor(sdfgi_cascade_from_first(c, first) - BEHIND * s.normal));
         if (sdfgi_cell_is_valid(c, cell))
-            return surface_metal(sdfgi_block_index(c, cell)) != 0u;
+            return is_metal(sdfgi_block_index(c, cell));
     }
     return false;
 }
@@ -65,7 +65,7 @@ bool is_metal(ivec2 pixel, picture_surface s)
  * depends little on the angle. */
 float facet_share(ivec2 pixel, picture_surface s, float roughness, vec3 dir, bool is_hidden)
 {
-    if (is_metal(pixel, s))
+    if (shows_metal(pixel, s))
         return 1.0;
     const vec3 eye = normalize(s.to_eye);
     const float alpha = roughness * roughness, n_v = clamp(dot(s.normal, eye), 0.01, 1.0),

@@ -12,6 +12,8 @@
     MODULES_COMPUTE(id, file) MODULE(id, file##_textured_comp) MODULE(id, file##_textured_software_comp)
 #define MODULES_COMPUTE_LOBES(id, file)                                                                      \
     MODULES_COMPUTE(id, file) MODULE(id, file##_lobes_comp) MODULE(id, file##_lobes_software_comp)
+#define MODULES_COMPUTE_METAL(id, file)                                                                      \
+    MODULES_COMPUTE(id, file) MODULE(id, file##_metal_comp) MODULE(id, file##_metal_software_comp)
 #define MODULES_RASTER_TEXTURED(id, file)                                                                    \
     MODULE(id, file##_vert) MODULE(id, file##_frag) MODULE(id, file##_textured_frag)
 

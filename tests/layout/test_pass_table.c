@@ -110,14 +110,15 @@ static int compare(const struct module *module, const struct touches *touches)
 }
 
 /* A compute shader is a pipeline, and so is a fragment shader with its pass's vertex shader. A row names what
- * its shaders for rough lobes touch, too. */
+ * its shaders for rough lobes and for metal touch, too. */
 static int compare_pipeline(const struct module *module)
 {
-    const bool has_lobes = sdfgi_pass_row(module->pass)->kind == PASS_KIND_COMPUTE_LOBES;
+    const enum pass_kind kind = sdfgi_pass_row(module->pass)->kind;
+    const bool is_union = kind == PASS_KIND_COMPUTE_LOBES || kind == PASS_KIND_COMPUTE_METAL;
     struct touches touches = { { 0 } };
     add_touches(&touches, module);
     for (size_t i = 0; i < module_count; i++)
-        if (modules[i].pass == module->pass && (has_lobes || is_vertex(&modules[i])))
+        if (modules[i].pass == module->pass && (is_union || is_vertex(&modules[i])))
             add_touches(&touches, &modules[i]);
     return compare(module, &touches);
 }

@@ -9,6 +9,7 @@ enum pass_kind {
     PASS_KIND_COMPUTE,
     PASS_KIND_COMPUTE_TEXTURED, /* with a second variant for materials with textures */
     PASS_KIND_COMPUTE_LOBES,    /* with one for light cells that keep from where they get their light */
+    PASS_KIND_COMPUTE_METAL,    /* with one for scenes with metal that reflects what it sees */
     PASS_KIND_RASTER_TEXTURED,
 };
 

@@ -42,6 +42,13 @@ struct pass_shaders {
             SHADER(sdfgi_##file##_lobes_software_comp)                                                       \
         }                                                                                                    \
     }
+#define SHADERS_COMPUTE_METAL(file)                                                                          \
+    {                                                                                                        \
+        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_metal_comp) }, .software = {         \
+            SHADER(sdfgi_##file##_software_comp),                                                            \
+            SHADER(sdfgi_##file##_metal_software_comp)                                                       \
+        }                                                                                                    \
+    }
 #define SHADERS_RASTER_TEXTURED(file)                                                                        \
     {                                                                                                        \
         .vertex = SHADER(sdfgi_##file##_vert), .fragment = {                                                 \

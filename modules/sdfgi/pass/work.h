@@ -71,8 +71,14 @@ enum work_kind {
 
 #define WORK_DIRECT UINT32_MAX /* `indirect`: the size follows from the domain */
 
-/* Shaders of a pass: as they are, and for materials with textures or for rough lobes. */
-enum pass_variant { PASS_PLAIN, PASS_TEXTURED, PASS_LOBES = PASS_TEXTURED, PASS_VARIANTS };
+/* Shaders of a pass: as they are, and for materials with textures, for rough lobes or for metal. */
+enum pass_variant {
+    PASS_PLAIN,
+    PASS_TEXTURED,
+    PASS_LOBES = PASS_TEXTURED,
+    PASS_METAL = PASS_TEXTURED,
+    PASS_VARIANTS
+};
 
 struct work {
     enum work_kind kind;
