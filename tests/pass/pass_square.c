@@ -84,11 +84,26 @@ static void read_emission(struct square *s)
     free(words);
 }
 
+/* Of another material, beyond all cascades: neither the square's material nor its instance is then the first
+ * of their lists. */
+static sdfgi_material add_first(sdfgi_mesh mesh)
+{
+    static const struct sdfgi_material_desc desc = { .albedo = { 0.9f, 0.1f, 0.6f } };
+    struct sdfgi_instance_desc instance = {
+        .mesh = mesh, .transform = { .basis = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, .translation = { 10000, 0, 0 } }
+    };
+    sdfgi_instance unused;
+    REQUIRE_CMP(sdfgi_material_create(pass_context.gi, &desc, &instance.material), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_instance_create(pass_context.gi, &instance, &unused), ==, SDFGI_OK);
+    return instance.material;
+}
+
 struct square square_voxelize_instance(struct sdfgi_instance_desc *instance,
                                        const struct sdfgi_material_desc *desc)
 {
     struct square s;
     sdfgi_instance unused;
+    const sdfgi_material first = add_first(instance->mesh);
     REQUIRE_CMP(sdfgi_material_create(pass_context.gi, desc, &instance->material), ==, SDFGI_OK);
     REQUIRE_CMP(sdfgi_instance_create(pass_context.gi, instance, &unused), ==, SDFGI_OK);
     gi_test_update(&pass_context, 1);
@@ -97,6 +112,7 @@ struct square square_voxelize_instance(struct sdfgi_instance_desc *instance,
     read_emission(&s);
     REQUIRE_CMP(sdfgi_mesh_destroy(pass_context.gi, instance->mesh), ==, SDFGI_OK);
     REQUIRE_CMP(sdfgi_material_destroy(pass_context.gi, instance->material), ==, SDFGI_OK);
+    REQUIRE_CMP(sdfgi_material_destroy(pass_context.gi, first), ==, SDFGI_OK);
     return s;
 }
 
