@@ -97,6 +97,50 @@ static void grooves_are_as_at_full_resolution_where_they_send_rays(void **state)
     view_stage_close(&stage);
 }
 
+/* Rays of the grid, but for those beside the wall and at the picture's border, and those of them that stand
+ * for a part of the lobe as at full resolution. */
+struct grid_rays {
+    uint32_t all, dense;
+};
+
+static struct grid_rays grid_rays_at_half(void)
+{
+    enum {
+        GRID_FIRST = 8,
+        FIRST = SDFGI_TILES_HEADER + VIEW_STAGE_PIXELS / (SDFGI_GROUP_PIXELS * SDFGI_GROUP_PIXELS)
+    };
+    static uint32_t words[FIRST + VIEW_STAGE_PIXELS];
+    sdfgi_view *view = view_stage_view_at(&stage, SDFGI_GATHER_HALF);
+    view_stage_resolve(&stage, view, 0.1f);
+    gpu_test_buffer_read(&stage.t.gpu, view->tiles.handle, 0, sizeof words, words);
+    sdfgi_view_destroy(stage.t.gi, view);
+    struct grid_rays rays = { 0, 0 };
+    for (uint32_t i = 0; i < words[SDFGI_TILES_RAYS + 3]; i++) {
+        const uint32_t word = words[FIRST + i];
+        const uint32_t x = word & 0x7fff, y = word >> 16, end = VIEW_STAGE_SIDE - 2;
+        const bool counts = ((x | y) & 1) == 0 && x >= GRID_FIRST && x < end && y < end;
+        rays.all += counts;
+        rays.dense += counts && (word & 0x8000) != 0;
+    }
+    return rays;
+}
+
+/* Two of the three pixels between those of the grid, and not one. */
+static void squares_are_dense_where_half_of_the_others_send_rays(void **state)
+{
+    (void)state;
+    for (int dots = 0; dots <= 3; dots++) {
+        stage.dots = dots;
+        view_stage_open(&stage, 1);
+        const struct grid_rays rays = grid_rays_at_half();
+        printf("%d pixels of a square lean: %u of %u rays of the grid are dense\n", dots, rays.dense,
+               rays.all);
+        REQUIRE_CMP(rays.all, ==, 7u * 11u);
+        REQUIRE_CMP(rays.dense, ==, dots >= 2 ? rays.all : 0u);
+        view_stage_close(&stage);
+    }
+}
+
 static int finish(void **state)
 {
     (void)state;
@@ -110,6 +154,7 @@ TEST_GROUP(fewer_rays)
         cmocka_unit_test(fewer_rays_show_the_same),
         cmocka_unit_test(detail_of_each_pixel_is_as_at_full_resolution),
         cmocka_unit_test(grooves_are_as_at_full_resolution_where_they_send_rays),
+        cmocka_unit_test(squares_are_dense_where_half_of_the_others_send_rays),
     };
     return cmocka_run_group_tests_name("fewer_rays", tests, NULL, finish);
 }

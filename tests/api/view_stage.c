@@ -20,7 +20,9 @@ static void fill_picture(struct view_stage *s)
         const float u = ((float)(i % VIEW_STAGE_SIDE) + 0.5f) / VIEW_STAGE_SIDE * 2 - 1;
         const bool in_wall = fabsf(3 * u + 2) < 0.6f;
         s->depths[i] = in_wall ? 1.0f : 0.5f;
-        const bool leans = s->ridge && i % VIEW_STAGE_SIDE == s->ridge;
+        const int in_square = (i % VIEW_STAGE_SIDE & 1) + 2 * (i / VIEW_STAGE_SIDE & 1);
+        const bool is_dot = in_square > 0 && in_square <= s->dots,
+                   leans = is_dot || (s->ridge && i % VIEW_STAGE_SIDE == s->ridge);
         const float x = s->detail == VIEW_STAGE_EVEN ? 0 : slope(i % VIEW_STAGE_SIDE),
                     z = s->detail == VIEW_STAGE_COBBLES ? slope(i / VIEW_STAGE_SIDE) : 0;
         memcpy(s->normals[i], (float[]){ leans ? 1 : s->lean + x, 1, z, 0 }, sizeof s->normals[i]);
@@ -49,6 +51,7 @@ void view_stage_open(struct view_stage *s, float smoothness)
     gi_test_update(&s->t, 8);
     fill_picture(s);
     s->ridge = 0;
+    s->dots = 0;
     s->lean = 0;
     s->detail = VIEW_STAGE_EVEN;
     s->depth =

@@ -24,6 +24,7 @@ struct view_stage {
     /* Of the next picture that is opened; view_stage_open sets them to 0 again. */
     int ridge;  /* this column leans towards +x; 0: none does */
     float lean; /* of all other normals: tangent of the angle */
+    int dots;   /* of each square of 2 x 2 pixels so many lean, from the second on */
     /* Normals change from pixel to pixel along x, or along both axes. */
     enum { VIEW_STAGE_EVEN, VIEW_STAGE_GROOVES, VIEW_STAGE_COBBLES } detail;
 };
