@@ -12,9 +12,10 @@ seed=${RUN_SEED:-1}               # of the world
 out=out
 
 # What is rendered, and how well. A GPU takes all defaults, 240 frames, and walks at 30 frames a
-# second. A software driver gets all cascades and cells, but a quarter of the rays of twenty frames, in eight
-# that make a ring; light bounces once a frame. It walks from the last house on, in 37 frames, 3.3 m from one to
-# the next: at twice that, walls of the tunnel are seen before their light cells have sent a ray.
+# second. A software driver gets all cascades and cells, but an eighth of the rays that probes send in twenty
+# frames, in eight that make a ring; light bounces once a frame. It walks with twice as many, from the last house
+# on, in 37 frames, 3.3 m from one to the next: at twice that, walls of the tunnel are seen before their light
+# cells have sent a ray.
 # Its threads wait for each other a quarter of the time, so it does two things at once; the times that it
 # reports are longer for that.
 choose_quality() {
@@ -25,8 +26,9 @@ choose_quality() {
     else
         at_once=2
         size=${RUN_SIZE:-480x270} frames=${RUN_FRAMES:-10}
-        settings=${RUN_SET-sdfgi_ray_count=16 sdfgi_frames_to_converge=8}
-        walk=${RUN_WALK-$settings} steps=(--start 100 --fps 1.5 --hold 4)
+        settings=${RUN_SET-sdfgi_ray_count=8 sdfgi_frames_to_converge=8}
+        walk=${RUN_WALK-${RUN_SET-sdfgi_ray_count=16 sdfgi_frames_to_converge=8}}
+        steps=(--start 100 --fps 1.5 --hold 4)
     fi
 }
 
