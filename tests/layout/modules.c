@@ -8,12 +8,11 @@
 /* All shaders of a row of the pass table. */
 #define MODULE(id, words)         { PASS_##id, #words, sdfgi_##words, sizeof sdfgi_##words, NULL },
 #define MODULES_COMPUTE(id, file) MODULE(id, file##_comp) MODULE(id, file##_software_comp)
-#define MODULES_COMPUTE_TEXTURED(id, file)                                                                   \
-    MODULES_COMPUTE(id, file) MODULE(id, file##_textured_comp) MODULE(id, file##_textured_software_comp)
-#define MODULES_COMPUTE_LOBES(id, file)                                                                      \
-    MODULES_COMPUTE(id, file) MODULE(id, file##_lobes_comp) MODULE(id, file##_lobes_software_comp)
-#define MODULES_COMPUTE_METAL(id, file)                                                                      \
-    MODULES_COMPUTE(id, file) MODULE(id, file##_metal_comp) MODULE(id, file##_metal_software_comp)
+#define MODULES_WITH(id, file, variant)                                                                      \
+    MODULES_COMPUTE(id, file) MODULE(id, file##_##variant##_comp) MODULE(id, file##_##variant##_software_comp)
+#define MODULES_COMPUTE_TEXTURED(id, file) MODULES_WITH(id, file, textured)
+#define MODULES_COMPUTE_LOBES(id, file)    MODULES_WITH(id, file, lobes)
+#define MODULES_COMPUTE_METAL(id, file)    MODULES_WITH(id, file, metal)
 #define MODULES_RASTER_TEXTURED(id, file)                                                                    \
     MODULE(id, file##_vert) MODULE(id, file##_frag) MODULE(id, file##_textured_frag)
 

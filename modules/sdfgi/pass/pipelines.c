@@ -28,27 +28,16 @@ struct pass_shaders {
     {                                                                                                        \
         .compute = { SHADER(sdfgi_##file##_comp) }, .software = { SHADER(sdfgi_##file##_software_comp) }     \
     }
-#define SHADERS_COMPUTE_TEXTURED(file)                                                                       \
+#define SHADERS_WITH(file, variant)                                                                          \
     {                                                                                                        \
-        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_textured_comp) }, .software = {      \
+        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_##variant##_comp) }, .software = {   \
             SHADER(sdfgi_##file##_software_comp),                                                            \
-            SHADER(sdfgi_##file##_textured_software_comp)                                                    \
+            SHADER(sdfgi_##file##_##variant##_software_comp)                                                 \
         }                                                                                                    \
     }
-#define SHADERS_COMPUTE_LOBES(file)                                                                          \
-    {                                                                                                        \
-        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_lobes_comp) }, .software = {         \
-            SHADER(sdfgi_##file##_software_comp),                                                            \
-            SHADER(sdfgi_##file##_lobes_software_comp)                                                       \
-        }                                                                                                    \
-    }
-#define SHADERS_COMPUTE_METAL(file)                                                                          \
-    {                                                                                                        \
-        .compute = { SHADER(sdfgi_##file##_comp), SHADER(sdfgi_##file##_metal_comp) }, .software = {         \
-            SHADER(sdfgi_##file##_software_comp),                                                            \
-            SHADER(sdfgi_##file##_metal_software_comp)                                                       \
-        }                                                                                                    \
-    }
+#define SHADERS_COMPUTE_TEXTURED(file) SHADERS_WITH(file, textured)
+#define SHADERS_COMPUTE_LOBES(file)    SHADERS_WITH(file, lobes)
+#define SHADERS_COMPUTE_METAL(file)    SHADERS_WITH(file, metal)
 #define SHADERS_RASTER_TEXTURED(file)                                                                        \
     {                                                                                                        \
         .vertex = SHADER(sdfgi_##file##_vert), .fragment = {                                                 \
