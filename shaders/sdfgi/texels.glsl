@@ -121,11 +121,17 @@ layout(set = SDFGI_SET_WORK,
 #define sdfgi_search_at(i) sdfgi_search[i]
 #endif
 
-/* ---- What the host writes */
+/* ---- What the host writes. A light is four texels, a material seven, and an instance 16, behind the list of
+ * draws. */
 
 #ifdef SDFGI_SOFTWARE
 layout(set = SDFGI_SET_WORK,
        binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_LIGHTS) uniform usamplerBuffer sdfgi_lights_view;
+layout(set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_MATERIALS) uniform usamplerBuffer sdfgi_materials_view;
+layout(set = SDFGI_SET_WORK,
+       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_INSTANCES) uniform usamplerBuffer sdfgi_instances_view;
+#define sdfgi_draws_at(i) texelFetch(sdfgi_instances_view, int(i)).x
 
 sdfgi_light_params sdfgi_lights_at(uint i)
 {
@@ -136,13 +142,6 @@ sdfgi_light_params sdfgi_lights_at(uint i)
                               uintBitsToFloat(t[1].w), uintBitsToFloat(t[2].xyz), uintBitsToFloat(t[2].w),
                               t[3].x, t[3].y, t[3].z, t[3].w);
 }
-#else
-#define sdfgi_lights_at(i) sdfgi_lights[i]
-#endif
-
-#ifdef SDFGI_SOFTWARE
-layout(set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_MATERIALS) uniform usamplerBuffer sdfgi_materials_view;
 
 sdfgi_material_params sdfgi_materials_at(uint i)
 {
@@ -155,15 +154,6 @@ sdfgi_material_params sdfgi_materials_at(uint i)
                                  vec4[2](uintBitsToFloat(t[4]), uintBitsToFloat(t[5])), t[6].x,
                                  uintBitsToFloat(t[6].y), t[6].z, t[6].w);
 }
-#else
-#define sdfgi_materials_at(i) sdfgi_materials[i]
-#endif
-
-/* Behind the list of slots are the instances, 16 words each. */
-#ifdef SDFGI_SOFTWARE
-layout(set = SDFGI_SET_WORK,
-       binding = SDFGI_BINDING_TEXELS + SDFGI_BINDING_INSTANCES) uniform usamplerBuffer sdfgi_instances_view;
-#define sdfgi_draws_at(i) texelFetch(sdfgi_instances_view, int(i)).x
 
 sdfgi_instance_params sdfgi_instances_at(uint i)
 {
@@ -174,6 +164,8 @@ sdfgi_instance_params sdfgi_instances_at(uint i)
                                  uintBitsToFloat(t[2].xyz), t[2].w, ivec3(t[3].xyz), t[3].w);
 }
 #else
+#define sdfgi_lights_at(i)    sdfgi_lights[i]
+#define sdfgi_materials_at(i) sdfgi_materials[i]
 #define sdfgi_draws_at(i)     sdfgi_draws[i]
 #define sdfgi_instances_at(i) sdfgi_instances[i]
 #endif
