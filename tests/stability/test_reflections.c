@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Reflections of views where things end: rays that cascades hand over while the camera moves, and pictures of
- * one row (HARD_CASES rows 55 and 69). What a picture shows calls for rays (EFFECTS rows 20 to 22). */
+ * one row (HARD_CASES rows 55 and 69). */
 #include "hard_case.h"
 #include "light_scene.h"
+#include "mirror.h"
 #include "oracle_gloss.h"
 #include "require.h"
 #include "test_group.h"
@@ -13,74 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- Pictures of a mirror */
-
-struct mirror {
-    struct gi_test *t;
-    struct gpu_test_image depth, normal, roughness;
-    sdfgi_view *view;
-    struct sdfgi_resolve_desc desc;
-    uint32_t width, height;
-};
-
-/* A level surface in the plane y = -1, whose pixels cover x and z in [-`half_m`, `half_m`]. All are seen
- * along (1, -1, 0). */
-static void mirror_open_rough(struct mirror *m, struct gi_test *t, uint32_t width, uint32_t height,
-                              float half_m, const float *roughness)
-{
-    const uint32_t pixels = width * height;
-    float *depth = calloc(pixels, sizeof *depth), (*normal)[4] = calloc(pixels, sizeof *normal);
-    const struct sdfgi_view_desc view = { .width = width, .height = height };
-    const struct sdfgi_material_desc smooth = { .smoothness = 1 };
-    sdfgi_material material;
-    REQUIRE_TRUE(depth && normal);
-    for (uint32_t i = 0; i < pixels; i++) {
-        depth[i] = 0.5f;
-        normal[i][1] = 1;
-    }
-    *m = (struct mirror){ .t = t, .width = width, .height = height };
-    m->depth = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, width, height, depth);
-    m->normal = gi_test_gather_image(t, VK_FORMAT_R32G32B32A32_SFLOAT, 16, width, height, normal);
-    m->roughness = gi_test_gather_image(t, VK_FORMAT_R32_SFLOAT, 4, width, height, roughness);
-    REQUIRE_CMP((int)sdfgi_material_create(t->gi, &smooth, &material), ==, (int)SDFGI_OK);
-    REQUIRE_CMP((int)sdfgi_view_create(t->gi, &view, &m->view), ==, (int)SDFGI_OK);
-    /* A depth of 0 is a metre before the mirror, one of 1 a metre behind it. */
-    m->desc = (struct sdfgi_resolve_desc){
-        .depth = m->depth.view,
-        .normal = m->normal.view,
-        .roughness = m->roughness.view,
-        .background_depth = 1,
-        .inverse_view_projection = { half_m, 0, 0, 0, 0, 0, half_m, 0, 2, -2, 0, 0, -1, 0, 0, 1 },
-    };
-    free(depth);
-    free(normal);
-}
-
-/* The same, a mirror everywhere. */
-static void mirror_open(struct mirror *m, struct gi_test *t, uint32_t width, uint32_t height, float half_m)
-{
-    float *roughness = calloc(width * height, sizeof *roughness);
-    REQUIRE_TRUE(roughness != NULL);
-    mirror_open_rough(m, t, width, height, half_m, roughness);
-    free(roughness);
-}
-
-static void mirror_close(struct mirror *m)
-{
-    sdfgi_view_destroy(m->t->gi, m->view);
-    gpu_test_image_destroy(&m->t->gpu, &m->depth);
-    gpu_test_image_destroy(&m->t->gpu, &m->normal);
-    gpu_test_image_destroy(&m->t->gpu, &m->roughness);
-}
-
-/* Radiance in channel 1, metres in channel 3. */
-static void mirror_read(struct mirror *m, uint16_t (*texels)[4])
-{
-    gi_test_resolve(m->t, m->view, &m->desc);
-    gpu_test_image_read(&m->t->gpu, m->view->reflection.handle, VK_IMAGE_LAYOUT_GENERAL,
-                        VK_IMAGE_ASPECT_COLOR_BIT, (VkExtent3D){ m->width, m->height, 1 }, 8, texels);
-}
 
 /* ---- Cascades */
 
@@ -440,48 +373,6 @@ static void facets_of_gloss_count_by_what_they_send(void **state)
     REQUIRE_CMP(worst, <=, 0.02);
 }
 
-/* ---- What calls for rays */
-
-enum { TILE = SDFGI_GROUP_PIXELS, SURFACE_SIDE = 5 * TILE };
-
-struct tile_work {
-    uint32_t rays[3], unused, tiles[3];
-};
-static_assert(offsetof(struct tile_work, tiles) == SDFGI_TILES_TILES * sizeof(uint32_t),
-              "as in the list of tiles");
-
-/* Groups of the indirect dispatches for a surface that is rough but for some tiles in its first row. */
-static struct tile_work work_of_surface(struct gi_test *t, int smooth_tiles)
-{
-    static float roughness[SURFACE_SIDE * SURFACE_SIDE];
-    static uint16_t texels[SURFACE_SIDE * SURFACE_SIDE][4];
-    struct mirror surface;
-    struct tile_work work;
-    for (int i = 0; i < SURFACE_SIDE * SURFACE_SIDE; i++)
-        roughness[i] = i < TILE * SURFACE_SIDE && i % SURFACE_SIDE < TILE * smooth_tiles ? 0 : 1;
-    mirror_open_rough(&surface, t, SURFACE_SIDE, SURFACE_SIDE, HALF_M, roughness);
-    mirror_read(&surface, texels);
-    gpu_test_buffer_read(&t->gpu, surface.view->tiles.handle, 0, sizeof work, &work);
-    mirror_close(&surface);
-    return work;
-}
-
-/* Both passes are recorded either way, and run over what is in the list. */
-static void rays_are_sent_for_tiles_that_are_smooth(void **state)
-{
-    struct gi_test *t = *state;
-    const struct sdfgi_settings settings = light_settings(32, 0.25f);
-    gi_test_restart(t, &settings);
-    light_set_uniform_sky(t, 1);
-    gi_test_update(t, 2);
-    for (int smooth = 0; smooth < 4; smooth++) {
-        const struct tile_work work = work_of_surface(t, smooth);
-        REQUIRE_CMP(work.tiles[0], ==, (uint32_t)smooth);
-        REQUIRE_CMP(work.rays[0], ==, (uint32_t)(smooth * TILE * TILE / SDFGI_GROUP_LINEAR));
-        REQUIRE_CMP(work.rays[1] * work.rays[2] * work.tiles[1] * work.tiles[2], ==, 1u);
-    }
-}
-
 TEST_GROUP(reflections)
 {
     if (!gpu_test_available())
@@ -494,7 +385,6 @@ TEST_GROUP(reflections)
         cmocka_unit_test(a_mirror_tells_a_lamp_from_what_is_beside_it),
         cmocka_unit_test(metal_shows_in_a_mirror_what_it_reflects),
         cmocka_unit_test(facets_of_gloss_count_by_what_they_send),
-        cmocka_unit_test(rays_are_sent_for_tiles_that_are_smooth),
     };
     return cmocka_run_group_tests_name("reflections", tests, light_open, light_close);
 }
