@@ -10,7 +10,7 @@
 #include "reflect_path.glsl"
 #include "picture_reflect.glsl"
 
-layout(local_size_x = SDFGI_GROUP_LINEAR) in;
+layout(local_size_x = SDFGI_GROUP_REFLECT) in;
 
 /* Cosine between a ray and the face's normal, at least. */
 const float LEAST_RISE = 0.02;
@@ -148,7 +148,7 @@ void reflect_pixel(uint word)
 
 void main()
 {
-    const uint threads = gl_NumWorkGroups.x * uint(SDFGI_GROUP_LINEAR);
+    const uint threads = gl_NumWorkGroups.x * uint(SDFGI_GROUP_REFLECT);
     for (uint i = gl_GlobalInvocationID.x; i < sdfgi_tiles[RAYS_COUNT]; i += threads)
         reflect_pixel(sdfgi_tiles[picture_ray_word(i)]);
 }

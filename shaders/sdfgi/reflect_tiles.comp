@@ -97,7 +97,7 @@ void make_room()
     first_tile = atomicAdd(sdfgi_tiles[TILES_COUNT], tiles);
     atomicMax(sdfgi_tiles[SDFGI_TILES_TILES], min(first_tile + tiles, uint(SDFGI_MAX_GROUPS)));
     first_ray = atomicAdd(sdfgi_tiles[RAYS_COUNT], rays);
-    const uint groups = (first_ray + rays + uint(SDFGI_GROUP_LINEAR) - 1u) / uint(SDFGI_GROUP_LINEAR);
+    const uint groups = (first_ray + rays + uint(SDFGI_GROUP_REFLECT) - 1u) / uint(SDFGI_GROUP_REFLECT);
     atomicMax(sdfgi_tiles[SDFGI_TILES_RAYS], min(groups, uint(SDFGI_MAX_GROUPS)));
 }
 

@@ -132,6 +132,7 @@
 #define SDFGI_GROUP_EMITTERS    128 /* threads that list the emitters of a cascade */
 #define SDFGI_GROUP_VISITS      128 /* threads that list visits, one per word of SEEN */
 #define SDFGI_GROUP_PIXELS      8   /* 8x8: one thread per pixel */
+#define SDFGI_GROUP_REFLECT     128 /* one thread per ray of a picture */
 #define SDFGI_GROUP_TILES       16  /* pixels along a side of the square of tiles that a workgroup lists */
 
 /* Pixels along a side of the square over which the rays of a rough surface are spread. */

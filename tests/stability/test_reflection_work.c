@@ -44,7 +44,7 @@ static void rays_are_sent_for_tiles_that_are_smooth(void **state)
         const struct tile_work work = work_of_surface(t, smooth);
         const int rays = smooth * TILE * TILE;
         REQUIRE_CMP(work.tiles[0], ==, (uint32_t)smooth);
-        REQUIRE_CMP(work.rays[0], ==, (uint32_t)((rays + SDFGI_GROUP_LINEAR - 1) / SDFGI_GROUP_LINEAR));
+        REQUIRE_CMP(work.rays[0], ==, (uint32_t)((rays + SDFGI_GROUP_REFLECT - 1) / SDFGI_GROUP_REFLECT));
         REQUIRE_CMP(work.rays[1] * work.rays[2] * work.tiles[1] * work.tiles[2], ==, 1u);
     }
 }
