@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What passes over the reflections of a picture share: its images, a list of the tiles that show something
- * smooth, and one of the pixels that send a ray. A tile has 8 x 8 pixels. */
+ * What passes over the reflections of a picture share: its images, a list of the tiles that the
+ * filter takes, and one of the pixels that send a ray. A tile has 8 x 8 pixels. */
 #ifndef SDFGI_PICTURE_REFLECT_GLSL
 #define SDFGI_PICTURE_REFLECT_GLSL
 
@@ -11,6 +11,8 @@
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_FILTERED, rgba16f) uniform image2D filtered_image;
 
 const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TILES_TILES) + 3u;
+/* Roughness of mirrors at most: their lobes are narrower than a pixel. */
+const float PICTURE_MIRROR = 0.01;
 /* Roughness from which on the filter takes squares of squares in part, and wholly. */
 const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
 /* Roughness from which on every second pixel along each axis sends a ray, and every fourth. */
@@ -65,31 +67,66 @@ bool picture_is_on_grid(ivec2 pixel, int ray_step)
     return (pixel & (ray_step - 1)) == ivec2(0);
 }
 
-/* Metres from the plane of a surface to what lies at a depth of a pixel. */
-float picture_height(picture_surface s, ivec2 pixel, float depth)
+/* Roughness up to which a pixel keeps the ray that it sends itself, and none around it takes it. Such a ray
+ * must count wholly. */
+float picture_mirror_end()
+{
+    return args.ray_step == 1u ? min(PICTURE_MIRROR, sdfgi_frame.rays_blend) : -1.0;
+}
+
+/* A surface with which the pixels around `origin` are compared. A height above its plane is a quotient of two
+ * sums over a place: pixels right and down of `origin`, depth, and 1. */
+struct picture_comparison {
+    ivec2 origin;
+    vec4 height, w; /* dividend, in widths of the square that the filter looks at; divisor */
+    vec3 normal;
+    float roughness;
+    float per_lean; /* what leans by so much counts for nothing: its reciprocal */
+    float mirror_end;
+};
+
+/* A sum over a place from one over NDC, depth and 1. */
+vec4 picture_over_place(vec4 over_ndc, ivec2 origin)
+{
+    return vec4(2.0 * over_ndc.xy / vec2(args.width, args.height), over_ndc.z,
+                over_ndc.w + dot(over_ndc.xy, picture_ndc(origin)));
+}
+
+float picture_sum_at(vec4 over_place, vec2 offset, float depth)
+{
+    return over_place.z * depth + (over_place.x * offset.x + (over_place.y * offset.y + over_place.w));
+}
+
+/* `reach` is the width of the square in pixels. */
+picture_comparison picture_compare(picture_surface s, float roughness, float reach, ivec2 origin)
 {
     const mat4 to_position = picture_to_position();
-    const vec4 place = vec4(picture_ndc(pixel), depth, 1.0), plane = vec4(s.normal, -dot(s.normal, s.pos)),
+    const vec4 plane = vec4(s.normal, -dot(s.normal, s.pos)) / (reach * s.pixel_m),
                w = vec4(to_position[0].w, to_position[1].w, to_position[2].w, to_position[3].w);
-    return dot(plane * to_position, place) / dot(w, place);
+    const float alpha = roughness * roughness;
+    return picture_comparison(origin, picture_over_place(plane * to_position, origin),
+                              picture_over_place(w, origin), s.normal, roughness,
+                              1.0 / (2.0 * alpha * alpha + 1e-5), picture_mirror_end());
 }
 
 /* How much a neighbour's ray tells of a surface: nothing where it is off the surface's plane by the width of
- * the square that the filter looks at, differs in roughness by a fifth, or leans by more than the lobe is
- * wide: 2 alpha. Nothing is loaded under a condition: loads that wait for each other take most time. */
-float picture_likeness(picture_surface s, float roughness, float reach, ivec2 pixel)
+ * the square, differs in roughness by a fifth, or leans by more than the lobe is wide: 2 alpha. Nothing is
+ * loaded under a condition: loads that wait for each other take most time. */
+float picture_likeness(picture_comparison to, ivec2 pixel)
 {
     const ivec2 last = ivec2(args.width, args.height) - 1, at = clamp(pixel, ivec2(0), last);
-    const float other_roughness = picture_roughness(at);
+    const float roughness = picture_roughness(at);
     const vec3 normal = texelFetch(normal_image, at, 0).xyz;
     const float depth = texelFetch(depth_image, at, 0).r, length2 = dot(normal, normal);
     const bool counts = depth != args.background_depth && picture_is_normal(length2) && at == pixel &&
-                        picture_is_smooth(other_roughness);
-    const float off_plane = abs(picture_height(s, at, depth)) / (reach * s.pixel_m);
-    const float alpha = roughness * roughness, lean = 1.0 - dot(s.normal, normal) * inversesqrt(length2);
-    const float likeness = max(1.0 - off_plane, 0.0) *
-                           max(1.0 - 5.0 * abs(other_roughness - roughness), 0.0) *
-                           max(1.0 - lean / (2.0 * alpha * alpha + 1e-5), 0.0);
+                        picture_is_smooth(roughness) && roughness > to.mirror_end;
+    const vec2 offset = vec2(pixel - to.origin);
+    /* A reciprocal takes less than a division. */
+    const float off_plane =
+        abs(picture_sum_at(to.height, offset, depth) * (1.0 / picture_sum_at(to.w, offset, depth)));
+    const float lean = 1.0 - dot(to.normal, normal) * inversesqrt(length2);
+    const float likeness = max(1.0 - off_plane, 0.0) * max(1.0 - 5.0 * abs(roughness - to.roughness), 0.0) *
+                           max(1.0 - lean * to.per_lean, 0.0);
     return counts && off_plane < 1.0 ? likeness : 0.0;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Begins the reflections of a picture: lists the tiles in which a surface is smooth, and the pixels that send
- * a ray: those of a grid, and those that are unlike the pixels of the grid around them. A workgroup takes a
- * square of tiles, a thread a pixel of each. */
+ * Begins the reflections of a picture: lists the tiles that the filter takes, in which a surface is smooth
+ * but no mirror, and the pixels that send a ray: those of a grid, and those that are unlike the pixels of the
+ * grid around them. A workgroup takes a square of tiles, a thread a pixel of each. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../lib/on_cpu.glsl"
@@ -17,9 +17,9 @@ const float ENOUGH_LIKE = 0.4;
 const int SIDE = SDFGI_GROUP_TILES / SDFGI_GROUP_PIXELS;
 const uint TILES = uint(SIDE * SIDE);
 
-shared uint rays, first_ray;       /* of these tiles; their first place in the list */
-shared uint is_smooth, first_tile; /* a bit for each tile that shows something smooth; place of the first */
-shared uint senders[2u * TILES];   /* a bit for each pixel that sends a ray, two words a tile */
+shared uint rays, first_ray;         /* of these tiles; their first place in the list */
+shared uint is_filtered, first_tile; /* a bit for each tile that the filter takes; place of the first */
+shared uint senders[2u * TILES];     /* a bit for each pixel that sends a ray, two words a tile */
 
 /* True if a pixel sends a ray of its own. */
 bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
@@ -29,13 +29,13 @@ bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
         return true;
     const ivec2 at = pixel & (step - 1);
     const vec2 t = vec2(at) / float(step);
+    const picture_comparison to = picture_compare(s, roughness, float(SDFGI_RAYS_SIDE * step), pixel - at);
     float like = 0.0;
     for (int i = 0; i < 4; i++) {
         const ivec2 corner = ivec2(i & 1, i >> 1);
         const vec2 near = mix(1.0 - t, t, vec2(corner));
         if (near.x * near.y > 0.0)
-            like += near.x * near.y *
-                    picture_likeness(s, roughness, float(SDFGI_RAYS_SIDE * step), pixel - at + step * corner);
+            like += near.x * near.y * picture_likeness(to, pixel - at + step * corner);
     }
     return like < ENOUGH_LIKE;
 }
@@ -60,7 +60,8 @@ bool look_at(uint tile)
     float roughness;
     if (!picture_reflects(pixel, s, roughness))
         return false;
-    atomicOr(is_smooth, 1u << tile);
+    if (roughness > picture_mirror_end())
+        atomicOr(is_filtered, 1u << tile);
     if (sends_ray(pixel, s, roughness))
         return true;
     imageStore(reflection_image, pixel, vec4(0.0, 0.0, 0.0, PICTURE_NO_RAY));
@@ -91,8 +92,8 @@ void make_room()
     if (gl_WorkGroupID.xy == uvec2(0u))
         for (uint i = 1u; i <= 2u; i++)
             sdfgi_tiles[uint(SDFGI_TILES_RAYS) + i] = sdfgi_tiles[uint(SDFGI_TILES_TILES) + i] = 1u;
-    const uint tiles = uint(bitCount(is_smooth));
-    if (tiles == 0u)
+    const uint tiles = uint(bitCount(is_filtered));
+    if (tiles + rays == 0u)
         return;
     first_tile = atomicAdd(sdfgi_tiles[TILES_COUNT], tiles);
     atomicMax(sdfgi_tiles[SDFGI_TILES_TILES], min(first_tile + tiles, uint(SDFGI_MAX_GROUPS)));
@@ -103,15 +104,15 @@ void make_room()
 
 void list_tile(uint tile)
 {
-    const uint before = is_smooth & (1u << tile) - 1u;
-    if ((is_smooth >> tile & 1u) != 0u)
+    const uint before = is_filtered & (1u << tile) - 1u;
+    if ((is_filtered >> tile & 1u) != 0u)
         sdfgi_tiles[picture_tile_word(first_tile + uint(bitCount(before)))] = picture_pack(tile_at(tile));
 }
 
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        rays = is_smooth = 0u;
+        rays = is_filtered = 0u;
     if (gl_LocalInvocationIndex < 2u * TILES)
         senders[gl_LocalInvocationIndex] = 0u;
     barrier();
