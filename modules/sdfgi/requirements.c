@@ -26,7 +26,7 @@ static void check_limits(const VkPhysicalDeviceLimits *limits, struct sdfgi_requ
           RESOURCE_COUNT - 1 + 4 },
         { "maxStorageBufferRange", limits->maxStorageBufferRange, UINT64_C(64) << 20 },
         { "maxPushConstantsSize", limits->maxPushConstantsSize, 128 },
-        { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, SDFGI_GROUP_LINES },
+        { "maxComputeWorkGroupInvocations", limits->maxComputeWorkGroupInvocations, SDFGI_MOST_THREADS },
         { "maxComputeSharedMemorySize", limits->maxComputeSharedMemorySize, 16384 },
         { "maxBoundDescriptorSets", limits->maxBoundDescriptorSets, 4 },
     };

@@ -7,7 +7,7 @@
 
 #include "cell_visit.glsl"
 
-layout(local_size_x = 192) in;
+layout(local_size_x = SDFGI_MOST_THREADS) in;
 
 const uint CELLS = uint(SDFGI_VISIT_CELLS), THREADS = gl_WorkGroupSize.x;
 const uint PARTS = 32u; /* of a list of emitters, so that threads share it and few are looked through */

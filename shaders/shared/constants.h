@@ -114,7 +114,8 @@
 #define SDFGI_MAX_GROUPS 65535
 /* Workgroups along x that voxelise an instance at most: few, so that meshes in use have some along z, too. */
 #define SDFGI_VOXELIZE_WIDTH 1024
-/* Workgroup sizes. */
+/* Workgroup sizes. Devices are asked for the most threads that any has. */
+#define SDFGI_MOST_THREADS      192 /* they share the rays of SDFGI_VISIT_CELLS light cells */
 #define SDFGI_GROUP_CELLS       4  /* 4x4x4: one thread per cell */
 #define SDFGI_GROUP_LINEAR      64 /* one thread per element of a list */
 #define SDFGI_CELLS_OF_SURFACES 16 /* light cells that a workgroup lights directly */

@@ -6,6 +6,7 @@
 #include "pass/resource_rows.h"
 #include "require.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 #include <stdlib.h>
 
@@ -190,7 +191,7 @@ static void every_pass_has_a_shader_of_its_name(void **state)
 enum { ON_CPU_LAST_CONSTANT = 0 };
 
 /* Specialization constants are those of lib/on_cpu.glsl, of passes alone. */
-static void workgroups_have_a_size_and_constants_are_known(void **state)
+static void constants_are_known(void **state)
 {
     (void)state;
     for (size_t i = 0; i < module_count; i++) {
@@ -203,13 +204,26 @@ static void workgroups_have_a_size_and_constants_are_known(void **state)
             if (!is_compute || constants[k].constant_id > ON_CPU_LAST_CONSTANT)
                 require_fail(__FILE__, __LINE__, "%s: specialization constant %u", modules[i].name,
                              constants[k].constant_id);
-        if (!is_compute)
+    }
+}
+
+static void workgroups_have_no_more_threads_than_devices_are_asked_for(void **state)
+{
+    (void)state;
+    unsigned most = 0;
+    for (size_t i = 0; i < module_count; i++) {
+        const spvc_compiler spirv = modules[i].spirv;
+        unsigned threads = 1;
+        if (spvc_compiler_get_execution_model(spirv) != SpvExecutionModelGLCompute)
             continue;
         for (unsigned axis = 0; axis < 3; axis++)
-            if (spvc_compiler_get_execution_mode_argument_by_index(spirv, SpvExecutionModeLocalSize, axis) <
-                1)
-                require_fail(__FILE__, __LINE__, "%s: no workgroup size", modules[i].name);
+            threads *=
+                spvc_compiler_get_execution_mode_argument_by_index(spirv, SpvExecutionModeLocalSize, axis);
+        if (threads < 1 || threads > SDFGI_MOST_THREADS)
+            require_fail(__FILE__, __LINE__, "%s: %u threads", modules[i].name, threads);
+        most = threads > most ? threads : most;
     }
+    REQUIRE_CMP(most, ==, (unsigned)SDFGI_MOST_THREADS);
 }
 
 /* Bytes of the arguments, which are the only member of the block or an element of it; 0: there are none. */
@@ -264,7 +278,8 @@ int main(void)
         cmocka_unit_test(every_row_names_what_its_shaders_read_and_write),
         cmocka_unit_test(no_shader_reads_texels_of_what_it_writes),
         cmocka_unit_test(every_pass_has_a_shader_of_its_name),
-        cmocka_unit_test(workgroups_have_a_size_and_constants_are_known),
+        cmocka_unit_test(constants_are_known),
+        cmocka_unit_test(workgroups_have_no_more_threads_than_devices_are_asked_for),
         cmocka_unit_test(push_constants_are_the_arguments_of_the_row_and_fit_everywhere),
         cmocka_unit_test(shaders_bind_the_set_of_the_row),
     };
