@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What passes over the reflections of a picture share: its images, a list of the tiles that the
- * filter takes, and one of the pixels that send a ray. A tile has 8 x 8 pixels. */
+ * What passes over the reflections of a picture share: its images, a list of the tiles that the filter takes,
+ * and one of the pixels that send a ray. A tile has 8 x 8 pixels. */
 #ifndef SDFGI_PICTURE_REFLECT_GLSL
 #define SDFGI_PICTURE_REFLECT_GLSL
 
@@ -11,8 +11,9 @@
 layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_FILTERED, rgba16f) uniform image2D filtered_image;
 
 const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TILES_TILES) + 3u;
-/* Roughness of mirrors at most: their lobes are narrower than a pixel. */
-const float PICTURE_MIRROR = 0.01;
+/* Roughness of mirrors at most: their lobes are narrower than four pixels of 3e-6 rad, the least that the
+ * filter takes. Where views are narrower, mirrors show single rays. */
+const float PICTURE_MIRROR = 0.0025;
 /* Roughness from which on the filter takes squares of squares in part, and wholly. */
 const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
 /* Roughness from which on every second pixel along each axis sends a ray, and every fourth. */
