@@ -9,6 +9,7 @@
 #include "test_group.h"
 #include "test_memory.h"
 #include "trace_rays.comp.h"
+#include "trace_rays_software.comp.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,12 +26,23 @@ struct ray {
 
 static struct ray rays[RAYS];
 
-static void trace(struct gi_test *t)
+static void trace_with(struct gi_test *t, const uint32_t *code, size_t size)
 {
-    const struct gpu_test_shader shader = { trace_rays_comp, sizeof trace_rays_comp,
-                                            sdfgi_get_descriptor_set_layout(t->gi),
+    const struct gpu_test_shader shader = { code, size, sdfgi_get_descriptor_set_layout(t->gi),
                                             sdfgi_get_descriptor_set(t->gi) };
     gpu_test_compute(&t->gpu, &shader, RAYS, rays, sizeof rays);
+}
+
+/* In the loop for GPUs. */
+static void trace(struct gi_test *t)
+{
+    trace_with(t, trace_rays_comp, sizeof trace_rays_comp);
+}
+
+/* In the loops for software drivers, which alone have the texels that these read. */
+static void trace_in_software(struct gi_test *t)
+{
+    trace_with(t, trace_rays_software_comp, sizeof trace_rays_software_comp);
 }
 
 /* ---- Comparison */
@@ -131,6 +143,11 @@ static struct tally follow(const char *name, aim_batch *aim, uint32_t full_batch
     for (uint32_t batch = 0; batch < batches; batch++) {
         aim(batch);
         trace(&pass_context);
+        count_rays(&bits, y_scale, &tally);
+        if (!sdfgi_is_software(pass_context.gi))
+            continue;
+        aim(batch);
+        trace_in_software(&pass_context);
         count_rays(&bits, y_scale, &tally);
     }
     printf("%s: %llu of %llu rays escape, %llu graze an edge, %llu ran out of steps\n", name,
