@@ -46,8 +46,8 @@ static void bits_sort(const uint32_t *words, struct host_volume *out)
     for (uint32_t z = 0; z < n; z++)
         for (uint32_t y = 0; y < n; y++)
             for (uint32_t x = 0; x < n; x++) {
-                const uint32_t *cell = words + 2 * sdfgi_inspect_cell(&out->where, x, y, z);
-                out->bits[x + (size_t)n * (y + (size_t)n * z)] = cell[0] | (uint64_t)cell[1] << 32;
+                const uint64_t cell = sdfgi_inspect_cell(&out->where, x, y, z);
+                out->bits[x + (size_t)n * (y + (size_t)n * z)] = sdfgi_inspect_bits(&words[2 * cell]);
             }
 }
 

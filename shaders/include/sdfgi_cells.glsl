@@ -302,7 +302,7 @@ sdfgi_cells_steps sdfgi_cells_steps_at(bvec3 nearest, vec3 normal, vec3 square, 
 
 bool sdfgi_cells_is_empty(uint cascade, uvec3 texel)
 {
-    return sdfgi_bits_at(sdfgi_cascade_texel_index(cascade, texel)) == uvec2(0u);
+    return sdfgi_subvoxels(sdfgi_cascade_texel_index(cascade, texel)) == uvec2(0u);
 }
 
 /* The cells of a cage to which those lead that share a face with the place's cell, and that cell, a bit each.

@@ -110,9 +110,20 @@ uint sdfgi_albedo_block_count()
     return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));
 }
 
+/* The set sub-voxels of a cell, from its index. On GPUs most empty cells hold empty cubes instead. */
+uvec2 sdfgi_subvoxels(uint index)
+{
+    const uvec2 bits = sdfgi_bits_at(index);
+#ifdef SDFGI_SOFTWARE
+    return bits;
+#else
+    return bits.y == SDFGI_CUBES_MARK ? uvec2(0u) : bits;
+#endif
+}
+
 uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)
 {
-    return sdfgi_bits_at(sdfgi_cell_index(cascade, cell));
+    return sdfgi_subvoxels(sdfgi_cell_index(cascade, cell));
 }
 
 /* Units of a stored distance per cell width. The diagonal of a cascade, N sqrt(3) cells, fits 16 bits. */

@@ -40,12 +40,19 @@ uvec2 sdfgi_trace_box_bits(uvec3 low, uvec3 high)
 
 /* ---- Axes of a ray */
 
-/* The axis along which a ray leaves the box [low, low + size], and the parameter at which it does. */
-int sdfgi_trace_box_exit(vec3 origin, vec3 inv_dir, vec3 low, float size, out float t)
+/* The axis along which a ray leaves a box, and the parameter at which it does. `sides`: where the sides lie
+ * towards which it leads. */
+int sdfgi_trace_sides_exit(vec3 origin, vec3 inv_dir, vec3 sides, out float t)
 {
-    const vec3 far = (low + size * vec3(greaterThan(inv_dir, vec3(0.0))) - origin) * inv_dir;
+    const vec3 far = (sides - origin) * inv_dir;
     t = min(far.x, min(far.y, far.z));
     return far.x <= t ? 0 : (far.y <= t ? 1 : 2);
+}
+
+/* The same for the box [low, low + size]. */
+int sdfgi_trace_box_exit(vec3 origin, vec3 inv_dir, vec3 low, float size, out float t)
+{
+    return sdfgi_trace_sides_exit(origin, inv_dir, low + size * vec3(greaterThan(inv_dir, vec3(0.0))), t);
 }
 
 /* A component of a vector, without indexing: a vector whose index differs between threads goes through

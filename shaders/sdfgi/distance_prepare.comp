@@ -42,7 +42,7 @@ uint rows_of_run(uint y, uint z, uint run)
     uvec2 bits = uvec2(0u);
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
-        bits |= sdfgi_bits_at(first + i);
+        bits |= sdfgi_subvoxels(first + i);
     }
     const uint low = any_of_fours(bits.x), high = any_of_fours(bits.y);
     return (low & 0xffffu) | (low >> 16u) << 1u | (high & 0xffffu) << 2u | (high >> 16u) << 3u;

@@ -101,8 +101,8 @@ void load_block(uint block, out uvec2 cells[8])
 {
     const uvec3 texel = sdfgi_albedo_block_texel(block);
     for (uint i = 0u; i < 8u; i++)
-        cells[i] = sdfgi_bits_at(sdfgi_texel_index(texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u)) |
-                                 args.cascade << (3u * sdfgi_frame.resolution_log2));
+        cells[i] = sdfgi_subvoxels(sdfgi_texel_index(texel + uvec3(i & 1u, i >> 1u & 1u, i >> 2u)) |
+                                   args.cascade << (3u * sdfgi_frame.resolution_log2));
 }
 
 /* What the two sides of each axis see of an emitter, in squares of a cell's width. */

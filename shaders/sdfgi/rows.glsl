@@ -35,7 +35,7 @@ uint row_bits(uint position, uint run)
     uint row = 0u;
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
-        row |= (sdfgi_bits_at(first + i)[word] >> shift & 15u) << 4u * i;
+        row |= (sdfgi_subvoxels(first + i)[word] >> shift & 15u) << 4u * i;
     }
     return row;
 }

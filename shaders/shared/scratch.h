@@ -6,6 +6,7 @@
  *   voxelised, and, if something emits, the emissive bits of each of its cells: see accumulators.glsl.
  * - Distance search (distance_plane, _exact): planes, see occupancy.glsl.
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
+ * - Empty cubes (occupied_cells, empty_cubes): a bit per cell, a word for every 32 cells along x.
  * - Light list (light_mark, _list, _direct, _bounce, cell_mask): light blocks, rows and entries, see
  *   light_blocks.glsl.
  * - Emitters (emitter_mark, _list): their number, and from word SDFGI_SCRATCH_EMITTERS on the indices of

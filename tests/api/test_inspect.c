@@ -87,9 +87,9 @@ static void bits_are_where_the_header_says(void **state)
         for (uint32_t z = 0; z < bits.size; z++)
             for (uint32_t y = 0; y < bits.size; y++)
                 for (uint32_t x = 0; x < bits.size; x++) {
-                    const uint32_t *cell = words + 2 * sdfgi_inspect_cell(&where, x / 4, y / 4, z / 4);
+                    const uint64_t cell = sdfgi_inspect_cell(&where, x / 4, y / 4, z / 4);
                     const uint32_t bit = x % 4 + 4 * (y % 4) + 16 * (z % 4);
-                    const bool is_set = cell[bit / 32] >> bit % 32 & 1;
+                    const bool is_set = sdfgi_inspect_bits(&words[2 * cell]) >> bit & 1;
                     REQUIRE_TRUE(is_set == oracle_bits_get(&bits, x, y, z));
                     set += is_set;
                 }

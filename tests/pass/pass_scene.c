@@ -3,6 +3,7 @@
 
 #include "oracle_edt.h"
 #include "require.h"
+#include "test_memory.h"
 
 #include <math.h>
 #include <vulkan/vulkan.h>
@@ -139,6 +140,28 @@ void pass_scene_run(struct gi_test *t, const struct work_list *list)
 {
     struct recording recording = { t->gi, list };
     gpu_test_submit(&t->gpu, record_list, &recording);
+}
+
+void pass_scene_write(struct gi_test *t, enum resource resource, const void *data, uint64_t size)
+{
+    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[resource].handle, 0, size, data);
+}
+
+void pass_scene_fill(struct gi_test *t, enum resource resource, uint8_t value)
+{
+    const uint64_t size = t->gi->volume.resources->buffers[resource].size;
+    uint8_t *data = test_array_alloc(size, 1);
+    memset(data, value, size);
+    pass_scene_write(t, resource, data, size);
+    free(data);
+}
+
+void pass_scene_forget_empty_space(struct gi_test *t)
+{
+    uint64_t *bits = gi_test_subvoxels(t);
+    pass_scene_write(t, RESOURCE_BITS, bits, t->gi->volume.resources->buffers[RESOURCE_BITS].size);
+    pass_scene_fill(t, RESOURCE_DISTANCE, 0);
+    free(bits);
 }
 
 uint64_t pass_health_count(const struct gi_test *t, enum sdfgi_message code)

@@ -42,6 +42,13 @@ struct pass_distance_error pass_distance_error(struct gi_test *t, double y_scale
 /* Records a list of work and runs it, beside the frames of the context. */
 void pass_scene_run(struct gi_test *t, const struct work_list *list);
 
+/* The first `size` bytes of a buffer. */
+void pass_scene_write(struct gi_test *t, enum resource resource, const void *data, uint64_t size);
+/* All bytes of a buffer. */
+void pass_scene_fill(struct gi_test *t, enum resource resource, uint8_t value);
+/* As if every cell had something near: rays go from cell to cell. */
+void pass_scene_forget_empty_space(struct gi_test *t);
+
 /* Number that the report gives for a health code; 0 if it is not in there. */
 uint64_t pass_health_count(const struct gi_test *t, enum sdfgi_message code);
 

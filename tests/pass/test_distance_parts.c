@@ -83,33 +83,19 @@ static uint16_t *read_distances(struct gi_test *t)
     return gi_test_read(t, RESOURCE_DISTANCE, NULL);
 }
 
-static void write_buffer(struct gi_test *t, enum resource resource, const void *data, uint64_t size)
-{
-    gpu_test_buffer_write(&t->gpu, t->gi->volume.resources->buffers[resource].handle, 0, size, data);
-}
-
-static void fill_buffer(struct gi_test *t, enum resource resource, uint8_t value)
-{
-    const uint64_t size = t->gi->volume.resources->buffers[resource].size;
-    uint8_t *data = test_array_alloc(size, 1);
-    memset(data, value, size);
-    write_buffer(t, resource, data, size);
-    free(data);
-}
-
 /* Where cells are stored, as volume/params.c has it. */
 static void write_cells(struct gi_test *t, const struct world *w)
 {
     ivec3 *wrap = &t->gi->volume.state.params.cascades[0].wrap;
     *wrap = (ivec3){ (int32_t)sdfgi_floor_mod(w->origin[0], N), (int32_t)sdfgi_floor_mod(w->origin[1], N),
                      (int32_t)sdfgi_floor_mod(w->origin[2], N) };
-    write_buffer(t, RESOURCE_FRAME, &t->gi->volume.state.params, sizeof t->gi->volume.state.params);
+    pass_scene_write(t, RESOURCE_FRAME, &t->gi->volume.state.params, sizeof t->gi->volume.state.params);
     uint64_t *bits = test_array_alloc(CELLS, sizeof *bits);
     for (uint32_t z = 0; z < N; z++)
         for (uint32_t y = 0; y < N; y++)
             for (uint32_t x = 0; x < N; x++)
                 bits[gi_test_cell(t, 0, x, y, z)] = world_cell(w, x, y, z);
-    write_buffer(t, RESOURCE_BITS, bits, CELLS * sizeof *bits);
+    pass_scene_write(t, RESOURCE_BITS, bits, CELLS * sizeof *bits);
     free(bits);
 }
 
@@ -122,7 +108,7 @@ static void write_content(struct gi_test *t, const struct cell_box *changed, uin
             words[SDFGI_BOUNDS_STRIDE * b + i] = (uint32_t)(SDFGI_BOUNDS_ORIGIN - changed[b].low[i]);
             words[SDFGI_BOUNDS_STRIDE * b + 3 + i] = (uint32_t)(SDFGI_BOUNDS_ORIGIN + changed[b].high[i]);
         }
-    write_buffer(t, RESOURCE_BOUNDS, words, sizeof words);
+    pass_scene_write(t, RESOURCE_BOUNDS, words, sizeof words);
 }
 
 /* A part of a change: layers of blocks along x. Without boxes all is dirty. */
@@ -157,7 +143,7 @@ static void make_part(struct gi_test *t, struct part part)
 {
     static struct frame frame;
     plan_part(&part, &frame);
-    fill_buffer(t, RESOURCE_SCRATCH, 0xa5);
+    pass_scene_fill(t, RESOURCE_SCRATCH, 0xa5);
     pass_scene_run(t, &frame.work);
 }
 
@@ -172,7 +158,7 @@ static uint32_t make_parts(struct gi_test *t, const struct cell_box *changed, ui
 {
     static const uint32_t layers[] = { 3, 1, 12 };
     uint32_t first = 0;
-    fill_buffer(t, RESOURCE_COUNTERS, 0);
+    pass_scene_fill(t, RESOURCE_COUNTERS, 0);
     write_content(t, changed, dirty_count);
     for (uint32_t i = 0; i < 3; first += layers[i++])
         make_part(t, (struct part){ first, layers[i], changed, dirty_count });
@@ -247,7 +233,7 @@ static void spoil_changed(struct gi_test *t, const struct cell_box *changed, uin
                                (int64_t[]){ changed[b].high[0], changed[b].high[1], changed[b].high[2] }))
                         stored[gi_test_cell(t, 0, (uint32_t)x, (uint32_t)y, (uint32_t)z)] =
                             (uint16_t)(b & 1 ? 0 : hash((uint64_t)(x + N * y)));
-    write_buffer(t, RESOURCE_DISTANCE, stored, CELLS * sizeof *stored);
+    pass_scene_write(t, RESOURCE_DISTANCE, stored, CELLS * sizeof *stored);
     free(stored);
 }
 
@@ -296,7 +282,7 @@ static void require_parts_equal_whole(struct gi_test *t, const struct world *w,
     spoil_changed(t, changed, count);
     const uint32_t searched = make_parts(t, changed, count);
     uint16_t *parts = read_distances(t);
-    fill_buffer(t, RESOURCE_DISTANCE, 0x5a);
+    pass_scene_fill(t, RESOURCE_DISTANCE, 0x5a);
     make_whole(t);
     uint16_t *whole = read_distances(t);
     printf("%s: %.1f %% searched\n", what, 100.0 * searched / CELLS);
@@ -367,7 +353,7 @@ static void fill_with_dust(struct gi_test *t)
     uint64_t *bits = test_array_alloc(CELLS, sizeof *bits);
     for (uint32_t i = 0; i < CELLS; i++)
         bits[i] = UINT64_C(1) << hash(i) % 64;
-    write_buffer(t, RESOURCE_BITS, bits, CELLS * sizeof *bits);
+    pass_scene_write(t, RESOURCE_BITS, bits, CELLS * sizeof *bits);
     free(bits);
 }
 
@@ -394,7 +380,7 @@ static void blocks_that_no_change_reaches_are_left_alone(void **state)
     fill_with_dust(&pass_context);
     make_whole(&pass_context);
     uint16_t *before = read_distances(&pass_context);
-    fill_buffer(&pass_context, RESOURCE_BITS, 0);
+    pass_scene_fill(&pass_context, RESOURCE_BITS, 0);
     const uint32_t searched = make_parts(&pass_context, &small_box, 1);
     uint16_t *after = read_distances(&pass_context);
     uint32_t gone = 0;

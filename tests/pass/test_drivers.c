@@ -83,10 +83,15 @@ static void hard_57_stages_of_integers_are_as_recorded(void **state)
     (void)state;
     uint32_t differ = 0;
     for (int i = 0; i < STAGES; i++) {
+        const enum resource resource = recorded[i].resource;
         uint64_t size;
-        uint8_t *data = gi_test_read(&pass_context, recorded[i].resource, &size);
+        uint8_t *data = gi_test_read(&pass_context, resource, &size);
+        if (resource == RESOURCE_BITS) { /* without the empty cubes, which GPUs alone make */
+            free(data);
+            data = (uint8_t *)gi_test_subvoxels(&pass_context);
+        }
         const uint32_t hash = hash_of(data, size);
-        printf("%s: 0x%08x\n", sdfgi_resource_row(recorded[i].resource)->name, hash);
+        printf("%s: 0x%08x\n", sdfgi_resource_row(resource)->name, hash);
         differ += hash != recorded[i].hash;
         free(data);
     }

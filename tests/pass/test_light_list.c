@@ -36,7 +36,7 @@ static bool is_light_cell(const struct gi_test *t, const uint64_t *bits, const u
 /* Texel indices; returns how many. */
 static uint32_t expected_list(struct gi_test *t, uint32_t list[static CELLS])
 {
-    uint64_t *bits = gi_test_read(t, RESOURCE_BITS, NULL);
+    uint64_t *bits = gi_test_subvoxels(t);
     uint32_t count = 0;
     for (uint32_t i = 0; i < CELLS; i++) {
         const uint32_t block = i / 64, bit = i % 64, side = N / 4;

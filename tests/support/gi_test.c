@@ -5,6 +5,7 @@
 #include "shared_pipelines.h"
 #include "test_memory.h"
 
+#include <sdfgi/inspect.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -317,10 +318,21 @@ float gi_test_half(uint16_t half)
     return half & 0x8000 ? -value : value;
 }
 
+uint64_t *gi_test_subvoxels(struct gi_test *t)
+{
+    uint64_t size;
+    uint64_t *cells = gi_test_read(t, RESOURCE_BITS, &size);
+    for (uint64_t i = 0; i < size / sizeof *cells; i++) {
+        const uint32_t words[2] = { (uint32_t)cells[i], (uint32_t)(cells[i] >> 32) };
+        cells[i] = sdfgi_inspect_bits(words);
+    }
+    return cells;
+}
+
 struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade)
 {
     const uint32_t n = t->gi->settings.resolution;
-    uint64_t *cells = gi_test_read(t, RESOURCE_BITS, NULL);
+    uint64_t *cells = gi_test_subvoxels(t);
     struct oracle_bits bits = oracle_bits_create(4 * n);
     for (uint32_t z = 0; z < n; z++)
         for (uint32_t y = 0; y < n; y++)

@@ -69,6 +69,8 @@ uint64_t gi_test_hash(const void *bytes, uint64_t size);
 float gi_test_half(uint16_t half);
 /* Solid bits of a cascade in cell space, whatever texels they are stored at. */
 struct oracle_bits gi_test_bits(struct gi_test *t, uint32_t cascade);
+/* Those of all cascades, 64 for each cell as it is stored; the caller frees them. */
+uint64_t *gi_test_subvoxels(struct gi_test *t);
 /* World space to sub-voxels of a cascade. */
 struct oracle_grid gi_test_grid(const struct gi_test *t, uint32_t cascade);
 /* Index of a local cell in volumes with one element per cell. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "layered_vulkan.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include <vulkan/vulkan.h>
@@ -16,10 +17,20 @@ static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice de
     return below_layer(device, name);
 }
 
+/* A software driver passes for a GPU: the library then runs its shaders for GPUs. */
+static VKAPI_ATTR void VKAPI_CALL properties_of_gpu(VkPhysicalDevice device,
+                                                    VkPhysicalDeviceProperties *properties)
+{
+    vkGetPhysicalDeviceProperties(device, properties);
+    properties->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+}
+
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance, const char *name)
 {
     if (strcmp(name, "vkGetDeviceProcAddr") == 0)
         return (PFN_vkVoidFunction)get_device_proc_addr;
+    if (strcmp(name, "vkGetPhysicalDeviceProperties") == 0 && getenv("SDFGI_TEST_AS_GPU"))
+        return (PFN_vkVoidFunction)properties_of_gpu;
     return vkGetInstanceProcAddr(instance, name);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A loader for the library in which functions of a test stand for some of the device's. */
+ * A loader for the library in which functions of a test stand for some of the device's. With
+ * SDFGI_TEST_AS_GPU in the environment it tells of no software driver. */
 #ifndef TEST_LAYERED_VULKAN_H
 #define TEST_LAYERED_VULKAN_H
 

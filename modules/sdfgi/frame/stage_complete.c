@@ -124,8 +124,10 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
     const bool completes = sdfgi_cascade_completes(&stage->frame->next.cascades.at[c]);
     const struct plan_target target = { .cascade = c };
     const union work_args mask = { .cascade = { c } };
-    if (completes)
+    if (completes) {
+        sdfgi_stage_add_phase(stage, PHASE_CUBES, &target);
         list_emitters(stage, c);
+    }
     clear_list(stage);
 
     const uint32_t first = sdfgi_stage_begin_group(stage);

@@ -27,8 +27,7 @@ SDFGI_API enum sdfgi_result sdfgi_inspect_get_cascade(const sdfgi *gi, uint32_t 
                                                       struct sdfgi_inspect_cascade *out);
 
 enum sdfgi_volume {
-    SDFGI_VOLUME_BITS, /* per cell, 2 words: bit x + 4 y + 16 z of the 64 tells whether sub-voxel (x, y, z) is
-                          set */
+    SDFGI_VOLUME_BITS,     /* per cell, 2 words: sdfgi_inspect_bits */
     SDFGI_VOLUME_ALBEDO,   /* per block, 2 words; this and the next two: sdfgi_inspect_decode_block */
     SDFGI_VOLUME_EMISSION, /* per block, 2 words */
     SDFGI_VOLUME_NORMALS,  /* per block, 1 word */
@@ -64,6 +63,15 @@ static inline uint64_t sdfgi_inspect_block(const struct sdfgi_inspect_cascade *c
     const uint64_t tx = ((uint64_t)c->origin_cells[0] + x) >> 1, ty = ((uint64_t)c->origin_cells[1] + y) >> 1,
                    tz = ((uint64_t)c->origin_cells[2] + z) >> 1;
     return (tx & mask) + n * ((ty & mask) + n * (tz & mask));
+}
+
+/* What a cell of SDFGI_VOLUME_BITS holds, from its two words: bit x + 4 y + 16 z tells whether sub-voxel
+ * (x, y, z) is set. Empty cells may have words that are not 0: GPUs keep there how far rays may go at once.
+ */
+static inline uint64_t sdfgi_inspect_bits(const uint32_t *cell)
+{
+    const uint32_t marks_empty_cell = 0xa5a55a5au;
+    return cell[1] == marks_empty_cell ? 0 : cell[0] | (uint64_t)cell[1] << 32;
 }
 
 /* Axes are counted +x -x +y -y +z -z. */
