@@ -50,10 +50,12 @@
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(BITS), R(SCRATCH))                                            \
     X(FLOOD_DISTANCE, COMPUTE, flood_distance, CELLS, FLOOD, OWN, CREATED,                                   \
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(SCRATCH), R(DISTANCE))                                        \
-    X(OCCUPIED_CELLS, COMPUTE, occupied_cells, CELLS, CUBES, CUBES, CREATED,                                 \
+    X(OCCUPIED_CELLS, COMPUTE, occupied_cells, CELLS, BOXES, BOXES, CREATED,                                 \
       BLOCKS, cascade, SDFGI_GROUP_LINEAR, NONE, R(BITS), R(SCRATCH))                                        \
-    X(EMPTY_CUBES, COMPUTE, empty_cubes, CELLS, CUBES, CUBES, CREATED,                                       \
-      BLOCKS, cascade, 4 * SDFGI_CUBES_ROWS * SDFGI_CUBES_ROWS, NONE, R(SCRATCH), R(BITS))                   \
+    X(EMPTY_CUBES, COMPUTE, empty_cubes, CELLS, BOXES, BOXES, CREATED,                                       \
+      CUBES, cascade, 1, NONE, 0, R(SCRATCH))                                                                \
+    X(EMPTY_BOXES, COMPUTE, empty_boxes, CELLS, BOXES, BOXES, CREATED,                                       \
+      BLOCKS, cascade, SDFGI_GROUP_BOXES / 2, NONE, R(SCRATCH), R(BITS))                                     \
     X(EMITTER_MARK, COMPUTE, emitter_mark, BLOCKS, EMITTERS, EMITTERS, CREATED,                              \
       BLOCKS, cascade, SDFGI_GROUP_LINEAR, NONE, R(EMITTERS), R(EMISSION) | R(SCRATCH))                      \
     X(EMITTER_LIST, COMPUTE, emitter_list, BLOCKS, EMITTERS, EMITTERS, CREATED,                              \

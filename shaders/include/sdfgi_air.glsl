@@ -56,14 +56,14 @@ vec4 sdfgi_air_mean_of_probe(uint probe_index)
 vec3 sdfgi_air_find_room(uint cascade, vec3 pos)
 {
     ivec3 cell = ivec3(floor(pos));
-    if (sdfgi_free_radius(cascade, pos) > SDFGI_AIR_ROOM || sdfgi_cell_bits(cascade, cell) != uvec2(0u))
+    if (sdfgi_free_radius(cascade, pos) > SDFGI_AIR_ROOM || !sdfgi_cell_is_empty(cascade, cell))
         return pos;
     for (uint i = 0u; i < 3u * SDFGI_AIR_STEPS; i++) {
         const ivec3 unit = sdfgi_axis_direction(2u * (i % 3u));
         const float ahead = sdfgi_cell_distance(cascade, cell + unit),
                     behind = sdfgi_cell_distance(cascade, cell - unit);
         const ivec3 next = cell + unit * int(sign(ahead - behind));
-        if (sdfgi_cell_bits(cascade, next) == uvec2(0u))
+        if (sdfgi_cell_is_empty(cascade, next))
             cell = next;
     }
     return vec3(cell) + 0.5;

@@ -231,13 +231,12 @@ struct sdfgi_cells_place {
 
 /* A place near a point, if that is in the same cell, or in an empty one beyond an open face; or else as far
  * as the point's cell goes. `bits` and `open` are of the point's cell. */
-sdfgi_cells_place sdfgi_cells_move(vec3 from, uvec2 bits, uint open, vec3 to, uvec2 to_bits)
+sdfgi_cells_place sdfgi_cells_move(vec3 from, uvec2 bits, uint open, vec3 to, bool to_empty)
 {
     const vec3 cell = floor(from), way = floor(to) - cell;
     const float steps = dot(abs(way), vec3(1.0));
     const uvec3 sides = uvec3(greaterThan(way, vec3(0.0))) | uvec3(lessThan(way, vec3(0.0))) << 1u;
-    const bool beyond =
-        steps == 1.0 && to_bits == uvec2(0u) && ((sides.x | sides.y << 2u | sides.z << 4u) & open) != 0u;
+    const bool beyond = steps == 1.0 && to_empty && ((sides.x | sides.y << 2u | sides.z << 4u) & open) != 0u;
     return sdfgi_cells_place(steps == 0.0 || beyond ? to : clamp(to, cell, cell + (1.0 - SDFGI_CELLS_INSIDE)),
                              beyond ? SDFGI_CELLS_ALL_FACES : open, bits != uvec2(0u) && !beyond);
 }
@@ -302,7 +301,7 @@ sdfgi_cells_steps sdfgi_cells_steps_at(bvec3 nearest, vec3 normal, vec3 square, 
 
 bool sdfgi_cells_is_empty(uint cascade, uvec3 texel)
 {
-    return sdfgi_subvoxels(sdfgi_cascade_texel_index(cascade, texel)) == uvec2(0u);
+    return sdfgi_is_empty(sdfgi_cascade_texel_index(cascade, texel));
 }
 
 /* The cells of a cage to which those lead that share a face with the place's cell, and that cell, a bit each.
@@ -444,27 +443,26 @@ vec4 sdfgi_cells_read(uint cascade, sdfgi_cells_place place, vec3 normal, bool a
  * of the place. `in_air`: no set sub-voxel is in the point's cell, as places before have found. */
 vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, int i, inout bool in_air)
 {
-    const vec3 low = vec3(sdfgi_frame.cascades[cascade].valid_low) + 1.5,
-               high = vec3(sdfgi_frame.cascades[cascade].valid_high) - 1.5;
+    const vec3 low = sdfgi_frame.cascades[cascade].places_low,
+               high = sdfgi_frame.cascades[cascade].places_high;
     const vec3 off = sdfgi_cells_from_metric(sdfgi_frame.normal_bias * normal),
                surface = clamp(pos, low, high), middle = clamp(pos + SDFGI_CELLS_MIDDLE * off, low, high);
     const float place = in_air ? 0.0 : float(max(i, 0));
     const vec3 towards = SDFGI_CELLS_TOWARDS_EYE * place * place * eye;
     vec3 at = clamp(pos + sdfgi_cells_from_metric(towards) + (place + 1.0) * (SDFGI_CELLS_OFF_SURFACE * off),
                     low, high);
-    const uvec2 surface_bits = sdfgi_cell_bits(cascade, ivec3(floor(surface))),
-                middle_bits = sdfgi_cell_bits(cascade, ivec3(floor(middle)));
+    const bool middle_empty = sdfgi_cell_is_empty(cascade, ivec3(floor(middle)));
     uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-    in_air = surface_bits == uvec2(0u);
+    in_air = sdfgi_cell_is_empty(cascade, ivec3(floor(surface)));
     if (in_air && bits != uvec2(0u)) {
         at = surface;
-        bits = surface_bits;
+        bits = uvec2(0u);
     }
     bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
     sdfgi_cells_place read = sdfgi_cells_place(at, SDFGI_CELLS_ALL_FACES, false);
     if (found && i < 0 && !in_air) {
         const uint open = bits == uvec2(0u) ? SDFGI_CELLS_ALL_FACES : sdfgi_cells_open_faces(bits, at);
-        read = sdfgi_cells_move(at, bits, open, middle, middle_bits);
+        read = sdfgi_cells_move(at, bits, open, middle, middle_empty);
         if (read.in_solid)
             sdfgi_cells_stand_astride(bits, normal, read);
     } else if (found) {

@@ -55,7 +55,7 @@ vec3 sdfgi_lookup_position(vec3 position)
 vec3 sdfgi_lookup_eye(uint cascade, vec3 to_eye)
 {
     const float reach_m = length(to_eye) / SDFGI_CELLS_REACH;
-    return to_eye / max(reach_m, sdfgi_frame.cascades[cascade].cell_m);
+    return to_eye * (1.0 / max(reach_m, sdfgi_frame.cascades[cascade].cell_m));
 }
 
 /* Light times exposure and weight in rgb, and its weight in a, of one cascade. */

@@ -87,7 +87,7 @@ uint sdfgi_probes_seen(uint cascade, ivec3 cage, vec3 pos, float free)
 
 bool sdfgi_is_in_empty_cell(uint cascade, vec3 pos)
 {
-    return sdfgi_cell_bits(cascade, sdfgi_valid_cell(cascade, pos)) == uvec2(0u);
+    return sdfgi_cell_is_empty(cascade, sdfgi_valid_cell(cascade, pos));
 }
 
 /* The place with the most room around it, of six that a position sees: within the free sphere around it, or,

@@ -8,6 +8,7 @@
 #define SDFGI_SPACE_GLSL
 
 #include "sdfgi_resources.glsl"
+#include "sdfgi_boxes.glsl"
 
 int sdfgi_space_resolution()
 {
@@ -28,7 +29,7 @@ vec3 sdfgi_metric_from_cells(vec3 v)
 
 vec3 sdfgi_cells_from_metric(vec3 v)
 {
-    return vec3(v.x, v.y / sdfgi_space_y_scale(), v.z);
+    return vec3(v.x, v.y * (1.0 / sdfgi_space_y_scale()), v.z);
 }
 
 /* A direction without a component that is 0: each can be divided by. */
@@ -110,20 +111,36 @@ uint sdfgi_albedo_block_count()
     return 1u << (3u * (sdfgi_frame.resolution_log2 - 1u));
 }
 
-/* The set sub-voxels of a cell, from its index. On GPUs most empty cells hold empty cubes instead. */
+/* The set sub-voxels of a cell, from its index. */
 uvec2 sdfgi_subvoxels(uint index)
 {
     const uvec2 bits = sdfgi_bits_at(index);
 #ifdef SDFGI_SOFTWARE
     return bits;
 #else
-    return bits.y == SDFGI_CUBES_MARK ? uvec2(0u) : bits;
+    return sdfgi_has_boxes(bits) ? uvec2(0u) : bits;
+#endif
+}
+
+/* True if there are none. */
+bool sdfgi_is_empty(uint index)
+{
+    const uvec2 bits = sdfgi_bits_at(index);
+#ifdef SDFGI_SOFTWARE
+    return bits == uvec2(0u);
+#else
+    return sdfgi_has_boxes(bits) || (bits.x | bits.y) == 0u;
 #endif
 }
 
 uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)
 {
     return sdfgi_subvoxels(sdfgi_cell_index(cascade, cell));
+}
+
+bool sdfgi_cell_is_empty(uint cascade, ivec3 cell)
+{
+    return sdfgi_is_empty(sdfgi_cell_index(cascade, cell));
 }
 
 /* Units of a stored distance per cell width. The diagonal of a cascade, N sqrt(3) cells, fits 16 bits. */
@@ -168,8 +185,8 @@ vec3 sdfgi_first_from_cascade(uint cascade, vec3 pos_cascade)
 /* To cell space of cascade 0 from metres relative to the host's origin. */
 vec3 sdfgi_first_from_position(vec3 position)
 {
-    return sdfgi_cells_from_metric((position - sdfgi_frame.cascades[0].origin_rel) /
-                                   sdfgi_frame.cascades[0].cell_m);
+    return sdfgi_cells_from_metric((position - sdfgi_frame.cascades[0].origin_rel) *
+                                   (1.0 / sdfgi_frame.cascades[0].cell_m));
 }
 
 vec3 sdfgi_position_from_cascade(uint cascade, vec3 pos_cascade)

@@ -38,7 +38,7 @@ sdfgi_trace_hit sdfgi_trace_result(sdfgi_trace_query query, sdfgi_trace_state ra
 
 bool sdfgi_trace_is_empty(uint cascade, ivec3 cell)
 {
-    return sdfgi_cell_is_valid(cascade, cell) && sdfgi_cell_bits(cascade, cell) == uvec2(0u);
+    return sdfgi_cell_is_valid(cascade, cell) && sdfgi_cell_is_empty(cascade, cell);
 }
 
 /* The path of a ray through the cascade in which it ended. */
@@ -111,7 +111,7 @@ bool sdfgi_trace_light_cell(uint cascade, sdfgi_trace_path path, int first_axis,
     const ivec3 hit = cell;
     float t;
     for (int i = 0; i < SDFGI_TRACE_STEP_CAP && sdfgi_trace_step_back(cascade, path, cell, t); i++)
-        if (sdfgi_cell_bits(cascade, cell + path.base) == uvec2(0u))
+        if (sdfgi_cell_is_empty(cascade, cell + path.base))
             return true;
     cell = hit;
     return sdfgi_trace_light_cell_beside(cascade, path, first_axis, cell);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The march from cell to cell and from cascade to cascade. The occupancy bits alone decide what a ray hits:
  * in cells that have some, it walks from sub-voxel to sub-voxel. What is empty it crosses in few steps: GPUs
- * by the cubes of empty cells that begin where the ray is, software drivers by distances (Hart 1996, "Sphere
+ * by the empty boxes that begin where the ray is, software drivers by distances (Hart 1996, "Sphere
  * tracing"). Distances are read at cell centres and never interpolated, so a ray cannot slip through a wall,
  * however thin. */
 #ifndef SDFGI_TRACE_MARCH_GLSL
@@ -120,15 +120,8 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 
 #else
 
-/* Cells along a side of the empty cube that begins at an empty cell and leads the way of the ray. */
-int sdfgi_trace_cube(uint cubes, bvec3 forward)
-{
-    const int shift = (forward.x ? 0 : 4) | (forward.y ? 0 : 8) | (forward.z ? 0 : 16);
-    return int(bitfieldExtract(cubes, shift, 4));
-}
-
-/* The cell in which a ray is when it has left a cube that begins at its cell. Rounding must not lead it past
- * the edges of the cube. */
+/* The cell in which a ray is when it has left a box that begins at its cell. Rounding must not lead it past
+ * the edges of the box. */
 ivec3 sdfgi_trace_cell_after(ivec3 sides, bvec3 forward, sdfgi_trace_state ray)
 {
     const ivec3 last = sides - ivec3(forward), beyond = sides - ivec3(not(forward)),
@@ -138,13 +131,14 @@ ivec3 sdfgi_trace_cell_after(ivec3 sides, bvec3 forward, sdfgi_trace_state ray)
                  ray.axis == 2 ? beyond.z : cell.z);
 }
 
-/* Arithmetic is what GPUs spend most time on. So a cell with sub-voxels is crossed like a cube of one cell:
- * all threads of a subgroup do the same then, but for the walk. An empty cell that holds no cubes yet is
+/* Arithmetic is what GPUs spend most time on. So a cell with sub-voxels is crossed like a box of one cell:
+ * all threads of a subgroup do the same then, but for the walk. An empty cell that holds no boxes yet is
  * crossed alone, as well. */
 uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
     const bvec3 forward = greaterThan(ray.dir, vec3(0.0));
-    const int longest = int(min(query.longest_step, float(SDFGI_LARGEST_CUBE)));
+    const bool is_limited = query.longest_step < float(SDFGI_BOX_REACH);
+    const int longest = int(min(query.longest_step, float(SDFGI_BOX_REACH)));
     for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
         ray.steps++;
         if (sdfgi_trace_is_at_border(ray)) {
@@ -154,13 +148,15 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
             continue;
         }
         const uvec2 bits = sdfgi_bits_at(sdfgi_trace_cell_index(ray.volume, ray.cell));
-        const bool has_cubes = bits.y == SDFGI_CUBES_MARK;
-        const int side = has_cubes ? min(sdfgi_trace_cube(bits.x, forward), longest) : 1;
-        const ivec3 sides = ray.cell + mix(ivec3(1 - side), ivec3(side), forward);
+        const bool has_boxes = sdfgi_has_boxes(bits);
+        ivec3 box = sdfgi_box_sides(has_boxes ? bits : SDFGI_BOXES_OF_CELL, forward);
+        if (is_limited)
+            box = min(box, longest);
+        const ivec3 sides = ray.cell + mix(1 - box, box, forward);
         float t_exit;
         const int exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
         t_exit = max(ray.t, t_exit);
-        if (!has_cubes && sdfgi_trace_meets_subvoxel(bits, t_exit, ray))
+        if (!has_boxes && sdfgi_trace_meets_subvoxel(bits, t_exit, ray))
             return sdfgi_trace_length(ray) >= query.range ? SDFGI_TRACE_MISS : SDFGI_TRACE_HIT;
         ray.axis = exit_axis;
         ray.t = min(t_exit, ray.border);

@@ -1,74 +1,35 @@
 /* SPDX-License-Identifier: MIT
- * The largest cube of empty cells that begins at an empty cell, for each of the eight ways in which a ray may
- * lead: the chessboard distance per octant of Es and Isler 2007, "Accelerated regular grid traversals using
- * extended anisotropic chessboard distance fields on a parallel stream processor". What lies beyond the
- * cascade counts as empty: no step leads there. An empty cell holds them in the place of its sub-voxels, four
- * bits for each octant, numbered by a bit for each axis along which it leads down.
- *
- * A workgroup has a word of 32 cells along x in each of SDFGI_CUBES_ROWS^2 rows. Round k knows of all cells
- * from which on a cube of k cells along a side is not empty, a bit each. A larger cube is not empty where
- * one of the eight smaller ones in its corners is not. Each cell counts the rounds in which its cubes were
- * empty; counters of 32 cells are four words, one per digit. */
+ * From which cells on cubes of 1 to SDFGI_BOX_SIZES cells along a side are not empty: cubes.glsl. A workgroup
+ * has a tile: a word of 32 cells along x in each of SDFGI_CUBES_ROWS^2 rows. A larger cube is not empty where
+ * one of the eight smaller ones in its corners is not. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#define SDFGI_WRITES_BITS
+#define SDFGI_WRITES_SCRATCH
 #include "pass.glsl"
-#include "workgroup.glsl"
+#include "cubes.glsl"
 
 layout(local_size_x = SDFGI_GROUP_CUBES) in;
 SDFGI_PUSH(sdfgi_cascade_args);
 
 const int ROWS = SDFGI_CUBES_ROWS;
-const int REACH = SDFGI_LARGEST_CUBE - 1;     /* cells around the rows that cubes may touch */
-const int SIDE = ROWS + 2 * REACH;            /* rows of the region along y, and along z */
-const int NEXT_Y = 3, NEXT_Z = NEXT_Y * SIDE; /* a row has its word, and the words before and after it */
+const int SIDE = ROWS + SDFGI_BOX_SIZES - 1;  /* rows that cubes of the tile touch along y, and along z */
+const int NEXT_Y = 2, NEXT_Z = NEXT_Y * SIDE; /* a row has its word, and the one after it */
 const int WORDS = NEXT_Z * SIDE;
 const int PER_THREAD = (WORDS - 1) / SDFGI_GROUP_CUBES + 1;
-const uint OCTANTS = 8u, DIGITS = 4u;
-/* A thread counts for an octant in several rows. */
-const uint THREADS_PER_OCTANT = uint(SDFGI_GROUP_CUBES) / OCTANTS;
-const uint ROWS_PER_THREAD = uint(ROWS * ROWS) / THREADS_PER_OCTANT;
 
-/* The rounds write what is beyond their reach, and read zeros behind the end. In the end it holds counters: a
- * word per row, octant and digit. */
+/* Rounds read zeros behind the end, and what they make beyond their reach is not stored. */
 shared uint region[WORDS + NEXT_Z + NEXT_Y + 1];
-shared bool any_occupied;
 
-uvec3 first_cell()
-{
-    const uint words = sdfgi_frame.resolution / 32u, rows = sdfgi_frame.resolution / uint(ROWS),
-               n = workgroup_index();
-    return uvec3(32u, ROWS, ROWS) * uvec3(n % words, n / words % rows, n / words / rows);
-}
-
-/* The word of the region at `i`: 0 beyond the cascade. */
+/* The word of the region at `i`. */
 uint load_word(int i, ivec3 first)
 {
-    const ivec3 cell = first + ivec3(32 * (i % NEXT_Y - 1), i / NEXT_Y % SIDE - REACH, i / NEXT_Z - REACH);
-    if (!sdfgi_cell_is_inside(cell))
-        return 0u;
-    return sdfgi_scratch_at(sdfgi_texel_index(uvec3(cell)) >> 5u);
+    const ivec3 cell = first + ivec3(32 * (i % NEXT_Y), i / NEXT_Y % SIDE, i / NEXT_Z);
+    return i < WORDS && sdfgi_cell_is_inside(cell) ? sdfgi_scratch_at(sdfgi_texel_index(uvec3(cell)) >> 5u)
+                                                   : 0u;
 }
 
-/* False if the whole region is empty. */
-bool load_region(ivec3 first)
-{
-    const int lane = int(gl_LocalInvocationIndex);
-    if (lane == 0)
-        any_occupied = false;
-    barrier();
-    for (int i = lane; i < region.length(); i += SDFGI_GROUP_CUBES) {
-        const uint word = i < WORDS ? load_word(i, first) : 0u;
-        region[i] = word;
-        if (word != 0u)
-            any_occupied = true;
-    }
-    barrier();
-    return any_occupied;
-}
-
-/* From cubes to those that are one cell larger. */
+/* To cubes that are one cell larger. */
 void enlarge_cubes()
 {
     const int lane = int(gl_LocalInvocationIndex);
@@ -90,70 +51,23 @@ void enlarge_cubes()
     barrier();
 }
 
-/* A bit for each of the 32 cells of a row whose cube in an octant is not empty. `reach`: cells from a cube's
- * first to its last. */
-uint row_occupied(uint row, uint octant, int reach)
+void store_cubes(int size, ivec3 first)
 {
-    const int y = int(row) % ROWS + REACH - ((octant & 2u) != 0u ? reach : 0),
-              z = int(row) / ROWS + REACH - ((octant & 4u) != 0u ? reach : 0),
-              i = NEXT_Z * z + NEXT_Y * y + 1;
-    if ((octant & 1u) == 0u || reach == 0)
-        return region[i];
-    return region[i] << reach | region[i - 1] >> (32 - reach);
-}
-
-/* Adds 1 to the counters of cells. */
-void count_cells(uint cells, inout uint digits[DIGITS])
-{
-    [[unroll]] for (uint d = 0u; d < DIGITS; d++)
-    {
-        const uint carry = digits[d] & cells;
-        digits[d] ^= cells;
-        cells = carry;
-    }
-}
-
-/* Stores the counters of the eight octants of each cell. All are 0 where the cell is occupied. */
-void store_cubes(uvec3 first)
-{
-    for (uint n = gl_LocalInvocationIndex; n < uint(32 * ROWS * ROWS); n += uint(SDFGI_GROUP_CUBES)) {
-        const uint row = n / 32u, x = n % 32u;
-        uint cubes = 0u;
-        for (uint k = 0u; k < OCTANTS * DIGITS; k++)
-            cubes |= (region[OCTANTS * DIGITS * row + k] >> x & 1u) << k;
-        const uvec3 cell = first + uvec3(x, row % uint(ROWS), row / uint(ROWS));
-        if (cubes != 0u)
-            sdfgi_bits[sdfgi_cell_index(args.cascade, ivec3(cell))] = uvec2(cubes, SDFGI_CUBES_MARK);
+    for (int i = int(gl_LocalInvocationIndex); i < ROWS * ROWS; i += SDFGI_GROUP_CUBES) {
+        const ivec2 row = ivec2(i % ROWS, i / ROWS);
+        sdfgi_scratch[cubes_word(size, first + ivec3(0, row))] = region[NEXT_Y * row.x + NEXT_Z * row.y];
     }
 }
 
 void main()
 {
-    const uint lane = gl_LocalInvocationIndex, octant = lane / THREADS_PER_OCTANT;
-    const uvec3 first = first_cell();
-    const bool any = load_region(ivec3(first));
-    uint digits[ROWS_PER_THREAD][DIGITS];
-    [[unroll]] for (uint k = 0u; k < ROWS_PER_THREAD; k++)
-    {
-        for (uint d = 0u; d < DIGITS; d++)
-            digits[k][d] = any ? 0u : 0xffffffffu;
-    }
-    for (int reach = 0; any && reach <= REACH; reach++) {
-        if (reach > 0)
-            enlarge_cubes();
-        [[unroll]] for (uint k = 0u; k < ROWS_PER_THREAD; k++)
-        {
-            const uint row = lane % THREADS_PER_OCTANT + THREADS_PER_OCTANT * k;
-            count_cells(~row_occupied(row, octant, reach), digits[k]);
-        }
-    }
+    const ivec3 first = (ivec3(gl_WorkGroupID) - 1) * CUBES_TILE;
+    for (int i = int(gl_LocalInvocationIndex); i < region.length(); i += SDFGI_GROUP_CUBES)
+        region[i] = load_word(i, first);
     barrier();
-    [[unroll]] for (uint k = 0u; k < ROWS_PER_THREAD; k++)
-    {
-        const uint row = lane % THREADS_PER_OCTANT + THREADS_PER_OCTANT * k;
-        for (uint d = 0u; d < DIGITS; d++)
-            region[OCTANTS * DIGITS * row + DIGITS * octant + d] = digits[k][d];
+    store_cubes(1, first);
+    for (int size = 2; size <= SDFGI_BOX_SIZES; size++) {
+        enlarge_cubes();
+        store_cubes(size, first);
     }
-    barrier();
-    store_cubes(first);
 }

@@ -105,7 +105,7 @@ ivec3 light_cell_from_index(uint cascade, uint index)
 bool light_cell_faces(uint cascade, ivec3 cell, uint axis)
 {
     const ivec3 behind = cell - sdfgi_axis_direction(axis);
-    return sdfgi_cell_is_valid(cascade, behind) && sdfgi_cell_bits(cascade, behind) != uvec2(0u);
+    return sdfgi_cell_is_valid(cascade, behind) && !sdfgi_cell_is_empty(cascade, behind);
 }
 
 /* A bit per axis along which a surface faces. */

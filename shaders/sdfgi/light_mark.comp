@@ -176,7 +176,7 @@ const float FARTHEST = 1.6;
 /* Of a cell that is not beyond FARTHEST. The bits of most cells are not read. */
 bool is_light_cell(ivec3 cell)
 {
-    return sdfgi_cell_bits(args.cascade, cell) == uvec2(0u) && light_cell_facing(args.cascade, cell) != 0u;
+    return sdfgi_cell_is_empty(args.cascade, cell) && light_cell_facing(args.cascade, cell) != 0u;
 }
 
 /* Notes which light cells a dirty block had in the previous list: they may keep their light. */

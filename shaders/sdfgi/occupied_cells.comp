@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Which cells of a cascade hold a set sub-voxel: a bit each, from which empty_cubes finds cubes of empty
- * cells. A thread looks at eight cells along x, and four threads share a word. */
+ * Which cells of a cascade hold a set sub-voxel: a bit each, from which empty_cubes finds empty
+ * cubes. A thread looks at eight cells along x, and four threads share a word. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -22,7 +22,7 @@ uint occupied_run(uint first_cell)
     uint bits = 0u;
     [[unroll]] for (uint i = 0u; i < 8u; i++)
     {
-        bits |= uint(sdfgi_subvoxels(first + i) != uvec2(0u)) << i;
+        bits |= uint(!sdfgi_is_empty(first + i)) << i;
     }
     return bits;
 }

@@ -37,7 +37,7 @@ const uint PLACE_BITS = SDFGI_PROBE_DEAD | SDFGI_PROBE_MOVED | 0x7fffu;
 
 bool cell_empty(ivec3 cell)
 {
-    return !sdfgi_cell_is_inside(cell) || sdfgi_cell_bits(args.cascade, cell) == uvec2(0u);
+    return !sdfgi_cell_is_inside(cell) || sdfgi_cell_is_empty(args.cascade, cell);
 }
 
 ivec3 candidate_offset(uint i)
@@ -50,7 +50,7 @@ ivec3 candidate_offset(uint i)
 int candidate_score(ivec3 corner, uint i)
 {
     const ivec3 offset = candidate_offset(i), cell = corner + offset;
-    if (i >= CANDIDATES || !sdfgi_cell_is_inside(cell) || sdfgi_cell_bits(args.cascade, cell) != uvec2(0u))
+    if (i >= CANDIDATES || !sdfgi_cell_is_inside(cell) || !sdfgi_cell_is_empty(args.cascade, cell))
         return NO_ROOM;
     const float moved = length(sdfgi_metric_from_cells(vec3(offset) + 0.5));
     const float score = min(sdfgi_cell_distance(args.cascade, cell), ENOUGH_ROOM) - MOVE_COST * moved -

@@ -34,7 +34,7 @@ void main()
         args.low + ivec3(row % size.x * 8u | i & 7u, row / size.x % size.y * 4u, row / (size.x * size.y));
     int held = 0;
     for (int k = 0; k < 4; k++)
-        held |= int(sdfgi_cell_bits(args.cascade, first + ivec3(0, k, 0)) != uvec2(0u)) << k;
+        held |= int(!sdfgi_cell_is_empty(args.cascade, first + ivec3(0, k, 0))) << k;
     if (args.bounds_axis >= 0)
         add_removed(first, held);
     for (int k = 0; k < 4; k++)

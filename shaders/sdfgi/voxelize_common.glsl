@@ -414,8 +414,8 @@ void store_bit(uint cell, uint bit)
             atomicOr(sdfgi_bits[cell].x, word_bit);
     } else if ((sdfgi_bits_at(cell).y & word_bit) == 0u) {
         const uint bits = atomicOr(sdfgi_bits[cell].y, word_bit) | word_bit;
-        if ((bits & SDFGI_CUBES_MARK) == SDFGI_CUBES_MARK)
-            atomicOr(sdfgi_bits[cell].y, SDFGI_CUBES_MARK_OTHER);
+        if ((bits & SDFGI_BOXES_MARK) == SDFGI_BOXES_MARK)
+            atomicOr(sdfgi_bits[cell].y, SDFGI_BOXES_MARK_OTHER);
     }
 #endif
 }

@@ -23,12 +23,6 @@
 #define SDFGI_HASH_PERIOD 64
 /* Cells: the longest distance that is stored. A multiple of 8. */
 #define SDFGI_DISTANCE_REACH 16
-/* Cells along a side of the largest empty cube that is stored: four bits. */
-#define SDFGI_LARGEST_CUBE 15
-/* Second word of an empty cell whose first word holds its empty cubes. As sub-voxels it would be chequered; a
- * cell that has all of these has that of the other bit as well, and is not taken for empty. */
-#define SDFGI_CUBES_MARK       0xa5a55a5au
-#define SDFGI_CUBES_MARK_OTHER 1u
 
 /* Irradiance atlas: each probe has an octahedral map with so many texels along a side and in all. The
  * outermost texels lie on the edges of the map. */
@@ -130,8 +124,8 @@
 #define SDFGI_GROUP_SURFACES    (6 * SDFGI_CELLS_OF_SURFACES) /* one thread per axis of a light cell */
 #define SDFGI_GROUP_LINES       128 /* threads that share SDFGI_LINES lines of cells, or a layer */
 #define SDFGI_LINES             8   /* lines of cells per workgroup */
-#define SDFGI_GROUP_CUBES       128 /* threads that find the empty cubes of SDFGI_CUBES_ROWS^2 rows */
-#define SDFGI_CUBES_ROWS        8   /* rows of 32 cells along y, and along z */
+#define SDFGI_GROUP_CUBES       128 /* threads that find the empty cubes of a tile: shared/boxes.h */
+#define SDFGI_GROUP_BOXES       128 /* threads that choose the empty boxes of as many words and octants */
 #define SDFGI_GROUP_COLUMNS     32  /* columns of cells per workgroup */
 #define SDFGI_GROUP_TRIANGLE    64  /* threads that share as many triangles */
 #define SDFGI_GROUP_PROBE       32  /* threads that share one probe */

@@ -38,6 +38,11 @@ struct sdfgi_cascade_params {
     uint padding_4;
     vec3 blend_high;
     uint padding_5;
+    /* Where lookups read light cells: places [low, high], around which all cells are in the valid region. */
+    vec3 places_low;
+    uint padding_9;
+    vec3 places_high;
+    uint padding_10;
     ivec3 kept_low;  /* cells [low, high) that were valid before this frame */
     int bounds_axis; /* axis across which dirty_bounds.glsl cuts its strips; -1: this change has no bounds */
     ivec3 kept_high;
@@ -52,7 +57,7 @@ struct sdfgi_cascade_params {
      * these lie outside [0, resolution). */
     SDFGI_STRUCT(sdfgi_dirty_box) dirty[SDFGI_MAX_CHANGES];
 };
-SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 208 + 32 * SDFGI_MAX_CHANGES);
+SDFGI_ASSERT_SIZE(sdfgi_cascade_params, 240 + 32 * SDFGI_MAX_CHANGES);
 
 struct sdfgi_frame_params {
     SDFGI_STRUCT(sdfgi_cascade_params) cascades[SDFGI_MAX_CASCADES];
@@ -105,7 +110,7 @@ struct sdfgi_frame_params {
     SDFGI_STRUCT(sdfgi_dirty_box) edited_emitters[SDFGI_EDITED_BOXES];
 };
 SDFGI_ASSERT_SIZE(sdfgi_frame_params,
-                  SDFGI_MAX_CASCADES *(208 + 32 * SDFGI_MAX_CHANGES) + 21 * 16 + 64 * SDFGI_EDITED_BOXES);
+                  SDFGI_MAX_CASCADES *(240 + 32 * SDFGI_MAX_CHANGES) + 21 * 16 + 64 * SDFGI_EDITED_BOXES);
 
 struct sdfgi_light_params {
     vec3 position;  /* metres relative to the host's origin */

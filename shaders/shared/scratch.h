@@ -6,7 +6,8 @@
  *   voxelised, and, if something emits, the emissive bits of each of its cells: see accumulators.glsl.
  * - Distance search (distance_plane, _exact): planes, see occupancy.glsl.
  * - Flood (flood_seed, _step, _distance): two halves of a pointer per cell.
- * - Empty cubes (occupied_cells, empty_cubes): a bit per cell, a word for every 32 cells along x.
+ * - Empty boxes (occupied_cells, empty_cubes, empty_boxes): a bit per cell, a word for every 32 cells along
+ *   x; then the same for cubes of each size, see cubes.glsl.
  * - Light list (light_mark, _list, _direct, _bounce, cell_mask): light blocks, rows and entries, see
  *   light_blocks.glsl.
  * - Emitters (emitter_mark, _list): their number, and from word SDFGI_SCRATCH_EMITTERS on the indices of
@@ -16,6 +17,7 @@
 #define SDFGI_SHARED_SCRATCH_H
 
 #include "types.h"
+#include "boxes.h"
 #include "constants.h"
 
 /* Cells of the largest part that is voxelised at once. */
@@ -42,6 +44,18 @@ SDFGI_FUNCTION uint sdfgi_scratch_distance_end(uint bits)
 SDFGI_FUNCTION uint sdfgi_scratch_flood_end(uint bits)
 {
     return 2u << (3u * bits);
+}
+
+/* Empty boxes: occupied cells from word 0, then cubes of 1 to SDFGI_BOX_SIZES cells along a side. */
+SDFGI_FUNCTION uint sdfgi_scratch_cubes(uint bits, uint size)
+{
+    const uint rows = (1u << bits) + SDFGI_CUBES_ROWS, words = (1u << bits) / 32u + 1u;
+    return (1u << (3u * bits - 5u)) + (size - 1u) * words * rows * rows;
+}
+
+SDFGI_FUNCTION uint sdfgi_scratch_cubes_end(uint bits)
+{
+    return sdfgi_scratch_cubes(bits, SDFGI_BOX_SIZES + 1u);
 }
 
 #define SDFGI_SCRATCH_EMITTERS 4

@@ -35,6 +35,10 @@
     X(sdfgi_cascade_params, padding_4)                                                                       \
     X(sdfgi_cascade_params, blend_high)                                                                      \
     X(sdfgi_cascade_params, padding_5)                                                                       \
+    X(sdfgi_cascade_params, places_low)                                                                      \
+    X(sdfgi_cascade_params, padding_9)                                                                       \
+    X(sdfgi_cascade_params, places_high)                                                                     \
+    X(sdfgi_cascade_params, padding_10)                                                                      \
     X(sdfgi_cascade_params, kept_low)                                                                        \
     X(sdfgi_cascade_params, bounds_axis)                                                                     \
     X(sdfgi_cascade_params, kept_high)                                                                       \

@@ -69,6 +69,7 @@ static uint64_t scratch_size(const struct extent *e)
         sdfgi_scratch_part_words(sdfgi_scratch_part_cells(bits), e->emits),
         sdfgi_scratch_distance_end(bits),
         sdfgi_scratch_flood_end(bits),
+        sdfgi_scratch_cubes_end(bits),
         sdfgi_scratch_light_end(bits, (uint32_t)e->light_cells, e->low_light),
         e->probes * e->cascades * sdfgi_extent_probe_rays(e),
     };

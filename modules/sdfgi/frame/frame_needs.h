@@ -29,7 +29,7 @@ struct situation {
     bool shows;          /* probes show in this frame what they have gathered */
     bool converged;
     bool raster, flood, occlusion, masks; /* methods that the settings choose */
-    bool software;                        /* rays go by distances, and by no cubes */
+    bool software;                        /* rays go by distances, and by no boxes */
 };
 
 struct situation_needs {

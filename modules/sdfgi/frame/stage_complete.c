@@ -125,7 +125,7 @@ static void complete_cascade(const struct plan_stage *stage, uint32_t c)
     const struct plan_target target = { .cascade = c };
     const union work_args mask = { .cascade = { c } };
     if (completes) {
-        sdfgi_stage_add_phase(stage, PHASE_CUBES, &target);
+        sdfgi_stage_add_phase(stage, PHASE_BOXES, &target);
         list_emitters(stage, c);
     }
     clear_list(stage);

@@ -96,11 +96,12 @@ static void fill_domain(const struct plan_stage *stage, const struct plan_target
         work->units = stage->input->counters[SDFGI_COUNTER_LIGHT_CELLS + target->cascade];
         break;
     case DOMAIN_CELLS:
+    case DOMAIN_CUBES:
         work->units = e->cells;
         break;
     case DOMAIN_BLOCKS:
     case DOMAIN_CASCADE:
-        work->units = e->blocks;
+        work->units = row->unit == UNIT_CELLS ? e->cells : e->blocks;
         break;
     case DOMAIN_INSTANCES:
     case DOMAIN_TILE_LIST: /* the recorder counts triangles */

@@ -29,7 +29,7 @@ enum need {
     NEED_EMITTERS,
     NEED_EXACT,
     NEED_FLOOD,
-    NEED_CUBES,
+    NEED_BOXES,
     NEED_OCCLUSION,
     NEED_MASKS,
     NEED_DIRECT,
@@ -53,7 +53,7 @@ enum need {
 enum pass_phase {
     PHASE_VOXELS,    /* for each box whose voxels are due */
     PHASE_DISTANCES, /* for each range of layers whose distances are due */
-    PHASE_CUBES,     /* for each cascade that a change completes, before all else */
+    PHASE_BOXES,     /* for each cascade that a change completes, before all else */
     PHASE_EMITTERS,  /* for each cascade that a change completes, before its light list is written */
     PHASE_MARK,      /* for each cascade whose light list is written; beside PLACE */
     PHASE_PLACE,     /* for each cascade that a change completes */

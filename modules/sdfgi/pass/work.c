@@ -2,6 +2,7 @@
 #include "work.h"
 
 #include "pass_rows.h"
+#include "shaders/shared/boxes.h"
 #include "shaders/shared/threads.h"
 
 #include <assert.h>
@@ -105,6 +106,8 @@ struct work_groups sdfgi_work_groups(const struct work *work, const struct exten
         return (struct work_groups){ n / group, n / group, n / group };
     case DOMAIN_BLOCKS:
         return in_rows(groups_for(e->blocks, group));
+    case DOMAIN_CUBES:
+        return (struct work_groups){ n / 32 + 1, n / SDFGI_CUBES_ROWS + 1, n / SDFGI_CUBES_ROWS + 1 };
     case DOMAIN_CASCADE:
         return (struct work_groups){ 1, 1, 1 };
     case DOMAIN_DISTANCE_ROWS:

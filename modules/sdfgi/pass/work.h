@@ -28,6 +28,7 @@ enum domain {
     DOMAIN_BOX,           /* cells of a box */
     DOMAIN_CELLS,         /* all cells of a cascade */
     DOMAIN_BLOCKS,        /* all albedo blocks of a cascade */
+    DOMAIN_CUBES,         /* tiles of a cascade and before it: shaders/sdfgi/cubes.glsl */
     DOMAIN_CASCADE,       /* a cascade, for one workgroup */
     DOMAIN_DISTANCE_ROWS, /* columns of cells, if asked for, and the light blocks of `count` layers along x */
     DOMAIN_DISTANCE_LAYERS,  /* layers of sub-voxels, for cells [4 first, 4 (first + count)) along x */

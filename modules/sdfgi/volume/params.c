@@ -19,6 +19,14 @@ static vec3 point_of(const double at[3])
     return (vec3){ (float)at[0], (float)at[1], (float)at[2] };
 }
 
+/* Cells from a place to the farthest that is interpolated around it. */
+#define PLACE_MARGIN 1.5f
+
+static vec3 place_of(const int32_t cell[3], float margin)
+{
+    return (vec3){ (float)cell[0] + margin, (float)cell[1] + margin, (float)cell[2] + margin };
+}
+
 /* What shaders may read of a cascade, and what becomes complete in this frame. */
 static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_params *p)
 {
@@ -31,6 +39,8 @@ static void fill_change(const struct cascade *cascade, struct sdfgi_cascade_para
     p->dirty_count = (int32_t)count;
     p->blend_low = point_of(cascade->blend_low);
     p->blend_high = point_of(cascade->blend_high);
+    p->places_low = place_of(cascade->valid.low, PLACE_MARGIN);
+    p->places_high = place_of(cascade->valid.high, -PLACE_MARGIN);
     p->kept_low = cell_of(kept->low);
     p->kept_high = cell_of(kept->high);
     p->bounds_axis = sdfgi_change_bounds_axis(change);

@@ -70,8 +70,8 @@ static inline uint64_t sdfgi_inspect_block(const struct sdfgi_inspect_cascade *c
  */
 static inline uint64_t sdfgi_inspect_bits(const uint32_t *cell)
 {
-    const uint32_t marks_empty_cell = 0xa5a55a5au;
-    return cell[1] == marks_empty_cell ? 0 : cell[0] | (uint64_t)cell[1] << 32;
+    const uint32_t marks_empty_cell = 0xa5a5u;
+    return cell[1] >> 16 == marks_empty_cell ? 0 : cell[0] | (uint64_t)cell[1] << 32;
 }
 
 /* Axes are counted +x -x +y -y +z -z. */

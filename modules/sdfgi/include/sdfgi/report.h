@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { SDFGI_MAX_PASSES = 40 };
+enum { SDFGI_MAX_PASSES = 48 };
 
 struct sdfgi_pass_report {
     const char *name;    /* static; shader, label and timer have the same */
