@@ -50,11 +50,11 @@
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(BITS), R(SCRATCH))                                            \
     X(FLOOD_DISTANCE, COMPUTE, flood_distance, CELLS, FLOOD, OWN, CREATED,                                   \
       CELLS, flood, SDFGI_GROUP_CELLS, NONE, R(SCRATCH), R(DISTANCE))                                        \
-    X(OCCUPIED_CELLS, COMPUTE, occupied_cells, CELLS, BOXES, BOXES, CREATED,                                 \
+    X(OCCUPIED_CELLS, COMPUTE, occupied_cells, CELLS, COMPLETE, BOXES, CREATED,                              \
       BLOCKS, cascade, SDFGI_GROUP_LINEAR, NONE, R(BITS), R(SCRATCH))                                        \
-    X(EMPTY_CUBES, COMPUTE, empty_cubes, CELLS, BOXES, BOXES, CREATED,                                       \
+    X(EMPTY_CUBES, COMPUTE, empty_cubes, CELLS, COMPLETE, BOXES, CREATED,                                    \
       CUBES, cascade, 1, NONE, 0, R(SCRATCH))                                                                \
-    X(EMPTY_BOXES, COMPUTE, empty_boxes, CELLS, BOXES, BOXES, CREATED,                                       \
+    X(EMPTY_BOXES, COMPUTE, empty_boxes, CELLS, COMPLETE, BOXES, CREATED,                                    \
       BLOCKS, cascade, SDFGI_GROUP_BOXES / 2, NONE, R(SCRATCH), R(BITS))                                     \
     X(EMITTER_MARK, COMPUTE, emitter_mark, BLOCKS, EMITTERS, EMITTERS, CREATED,                              \
       BLOCKS, cascade, SDFGI_GROUP_LINEAR, NONE, R(EMITTERS), R(EMISSION) | R(SCRATCH))                      \
@@ -73,12 +73,12 @@
       LIGHT_CELLS, light_direct, SDFGI_CELLS_OF_SURFACES, NONE, R(BITS) | R(DISTANCE) | R(LIGHTS) |          \
       R(ALBEDO) | R(NORMALS) | R(SCRATCH) | R(INDIRECT) | R(LIGHT_CELLS), R(DIRECT) | R(COUNTERS))           \
     X(CELL_MASK, COMPUTE, cell_mask, LIGHT_CELLS, MASKS, OWN, CREATED,                                       \
-      LIGHT_CELLS, cascade, SDFGI_GROUP_LINEAR / 8, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)     \
+      LIGHT_CELLS, cascade, SDFGI_GROUP_LINEAR / 8, NONE, R(BITS) | R(PROBES) | R(SCRATCH)                   \
       | R(INDIRECT), R(MASKS))                                                                               \
     X(OCCLUSION_TRACE, COMPUTE, occlusion_trace, RAYS, OCCLUSION, SEED, CREATED,                             \
-      PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE) | R(PROBES), R(OCCLUSION))                             \
+      PROBES, cascade, 1, NONE, R(BITS) | R(PROBES), R(OCCLUSION))                                           \
     X(PROBE_SEED, COMPUTE, probe_seed, PROBES, SEED, SEED, CREATED,                                          \
-      PROBES, cascade, 1, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS)     \
+      PROBES, cascade, 1, NONE, R(BITS) | R(PROBES) | R(IRRADIANCE), R(SUMS) | R(PREVIOUS)                   \
       | R(IRRADIANCE))                                                                                       \
     X(LIGHT_RESCALE, COMPUTE, light_rescale, LIGHT_CELLS, RESCALE, OWN, CREATED,                             \
       STORED_LIGHT, light_rescale, SDFGI_GROUP_LINEAR, NONE, 0, R(LIGHT) | R(DIRECT) | R(SURFACES) |         \
@@ -96,7 +96,7 @@
     X(VISIT_LIST, COMPUTE, visit_list, LIGHT_CELLS, CELLS, OWN, CREATED,                                     \
       SEEN_WORDS, visit_list, SDFGI_GROUP_VISITS, NONE, 0, R(SEEN))                                          \
     X(PROBE_TRACE, COMPUTE, probe_trace, RAYS, RAYS, OWN, CREATED,                                           \
-      ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(DISTANCE) | R(PROBES) | R(SCRATCH)               \
+      ALL_RAYS, none, SDFGI_GROUP_LINEAR, NONE, R(BITS) | R(PROBES) | R(SCRATCH)                             \
       | R(INDIRECT) | R(EMITTERS), R(RAYS))                                                                  \
     X(CELL_GATHER, COMPUTE_LOBES, cell_gather, RAYS, CELLS, OWN, CREATED,                                    \
       ALL_LIGHT_CELLS, cell_gather, SDFGI_VISIT_CELLS, NONE, R(BITS) | R(DISTANCE) | R(LIGHT) | R(ALBEDO)    \

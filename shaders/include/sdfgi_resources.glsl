@@ -75,8 +75,8 @@ layout(std140, set = SDFGI_SET, binding = SDFGI_BINDING_FRAME) uniform sdfgi_fra
 #define SDFGI_FIRST 0u
 #endif
 
-/* Occupancy bits: 64 per cell, bit x + 4 y + 16 z per sub-voxel; .x holds z = 0, 1 and .y holds z = 2, 3. On
- * GPUs an empty cell may hold its empty boxes instead (shared/boxes.h): see sdfgi_subvoxels. */
+/* Occupancy bits: 64 per cell, bit x + 4 y + 16 z per sub-voxel; .x holds z = 0, 1 and .y holds z = 2, 3. An
+ * empty cell may hold its empty boxes instead (shared/boxes.h): see sdfgi_subvoxels. */
 layout(std430, set = SDFGI_SET, binding = SDFGI_BINDING_BITS) SDFGI_ACCESS_BITS buffer sdfgi_bits_buffer
 {
     uvec2 sdfgi_bits[];

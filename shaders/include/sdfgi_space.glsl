@@ -115,22 +115,14 @@ uint sdfgi_albedo_block_count()
 uvec2 sdfgi_subvoxels(uint index)
 {
     const uvec2 bits = sdfgi_bits_at(index);
-#ifdef SDFGI_SOFTWARE
-    return bits;
-#else
     return sdfgi_has_boxes(bits) ? uvec2(0u) : bits;
-#endif
 }
 
 /* True if there are none. */
 bool sdfgi_is_empty(uint index)
 {
     const uvec2 bits = sdfgi_bits_at(index);
-#ifdef SDFGI_SOFTWARE
-    return bits == uvec2(0u);
-#else
     return sdfgi_has_boxes(bits) || (bits.x | bits.y) == 0u;
-#endif
 }
 
 uvec2 sdfgi_cell_bits(uint cascade, ivec3 cell)

@@ -105,7 +105,7 @@ bool sdfgi_trace_light_cell_beside(uint cascade, sdfgi_trace_path path, int firs
 
 /* Replaces the occupied cell of a hit by its light cell: the first empty cell that the ray passed, going back
  * from the hit. It shares a face with an occupied cell, and lies on the ray's side of a wall, however thin. A
- * step of the distance field may have crossed it, so the march cannot simply keep the last empty cell. */
+ * step through a box may have crossed it, so the march cannot simply keep the last empty cell. */
 bool sdfgi_trace_light_cell(uint cascade, sdfgi_trace_path path, int first_axis, inout ivec3 cell)
 {
     const ivec3 hit = cell;

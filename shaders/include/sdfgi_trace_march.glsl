@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * The march from cell to cell and from cascade to cascade. The occupancy bits alone decide what a ray hits:
- * in cells that have some, it walks from sub-voxel to sub-voxel. What is empty it crosses in few steps: GPUs
- * by the empty boxes that begin where the ray is, software drivers by distances (Hart 1996, "Sphere
- * tracing"). Distances are read at cell centres and never interpolated, so a ray cannot slip through a wall,
- * however thin. */
+ * The march from box to box and from cascade to cascade. The occupancy bits alone decide what a ray hits: in
+ * cells that have some, it walks from sub-voxel to sub-voxel. What is empty it crosses in few steps, by the
+ * empty boxes that begin where it is: shared/boxes.h. So a ray cannot slip through a wall, however thin. */
 #ifndef SDFGI_TRACE_MARCH_GLSL
 #define SDFGI_TRACE_MARCH_GLSL
 
@@ -33,58 +31,64 @@ bool sdfgi_trace_meets_subvoxel(uvec2 subvoxels, float t_exit, inout sdfgi_trace
            sdfgi_trace_walk_subvoxels(bits, ray.cell, ray.origin, ray.dir, ray.inv_dir, ray.t, ray.axis);
 }
 
-#ifdef SDFGI_SOFTWARE
+/* Which way a ray leads, and how many cells a step may cross at most. */
+struct sdfgi_trace_way {
+    bvec3 forward;
+    int longest;
+    bool is_limited; /* boxes may be longer */
+};
 
-/* A cell with a greater stored distance has no sub-voxel of its own: sqrt(3) 3 / 8, rounded up. */
-#define SDFGI_TRACE_OCCUPIED_DISTANCE 0.65
-/* Walking through a cell is cheaper than a step of the distance field that is shorter than this. */
-#define SDFGI_TRACE_MIN_STEP 0.5
-
-/* How far a ray may go on: to where it leaves the ball around its cell's centre that holds no sub-voxel, as
- * `distance` tells for that centre. 0 if the ray is outside of the ball. */
-float sdfgi_trace_free_length(sdfgi_trace_state ray, float distance)
+sdfgi_trace_way sdfgi_trace_way_of(sdfgi_trace_query query, sdfgi_trace_state ray)
 {
-    const vec3 from_centre = sdfgi_metric_from_cells(ray.origin + ray.dir * ray.t - vec3(ray.cell) - 0.5);
-    const float radius = max(distance - SDFGI_TRACE_MARGIN, 0.0),
-                room = radius * radius - dot(from_centre, from_centre),
-                along = dot(from_centre, sdfgi_metric_from_cells(ray.dir));
-    return room > 0.0 ? sqrt(along * along + room) - along : 0.0;
+    return sdfgi_trace_way(greaterThan(ray.dir, vec3(0.0)),
+                           int(min(query.longest_step, float(SDFGI_BOX_REACH))),
+                           query.longest_step < float(SDFGI_BOX_REACH));
 }
 
-/* Walks through a cell, which is stored at `index`. Returns true at a set sub-voxel; otherwise the ray stands
- * where it leaves the cell. */
-bool sdfgi_trace_cross_cell(uint index, inout sdfgi_trace_state ray)
+/* Where the sides lie by which a ray leaves the box that begins at its cell. A cell with sub-voxels, or
+ * without boxes of its own, is a box. */
+ivec3 sdfgi_trace_box(uvec2 bits, sdfgi_trace_way way, ivec3 cell)
 {
-    float t_exit;
-    const int exit_axis = sdfgi_trace_box_exit(ray.origin, ray.inv_dir, vec3(ray.cell), 1.0, t_exit);
-    t_exit = max(ray.t, t_exit);
-    if (sdfgi_trace_meets_subvoxel(sdfgi_subvoxels(index), t_exit, ray))
-        return true;
+    ivec3 box = sdfgi_box_sides(sdfgi_has_boxes(bits) ? bits : SDFGI_BOXES_OF_CELL, way.forward);
+    if (way.is_limited)
+        box = min(box, way.longest);
+    return cell + mix(1 - box, box, way.forward);
+}
+
+/* Goes on to where a ray leaves a box with these sides. Rounding must not lead it past the edges of the box.
+ */
+void sdfgi_trace_leave_box(ivec3 sides, int exit_axis, float t_exit, bvec3 forward,
+                           inout sdfgi_trace_state ray)
+{
     ray.axis = exit_axis;
-    ray.t = t_exit;
-    return false;
+    ray.t = min(t_exit, ray.border);
+    const ivec3 last = sides - ivec3(forward), beyond = sides - ivec3(not(forward)),
+                cell = clamp(ivec3(floor(ray.origin + ray.dir * ray.t)), min(ray.cell, last),
+                             max(ray.cell, last));
+    ray.cell = ivec3(exit_axis == 0 ? beyond.x : cell.x, exit_axis == 1 ? beyond.y : cell.y,
+                     exit_axis == 2 ? beyond.z : cell.z);
 }
 
-/* Goes on to where the ray leaves its cell. */
-void sdfgi_trace_leave_cell(ivec3 signs, inout sdfgi_trace_state ray)
+/* A ray that has met a sub-voxel may have gone farther than its range by then. */
+uint sdfgi_trace_end(sdfgi_trace_query query, sdfgi_trace_state ray)
 {
-    float t_exit;
-    ray.axis = sdfgi_trace_box_exit(ray.origin, ray.inv_dir, vec3(ray.cell), 1.0, t_exit);
-    ray.t = max(ray.t, t_exit);
-    ray.cell += sdfgi_trace_offset(signs, ray.axis);
+    return sdfgi_trace_length(ray) >= query.range ? SDFGI_TRACE_MISS : SDFGI_TRACE_HIT;
 }
+
+#ifdef SDFGI_SOFTWARE
 
 /* Software drivers run what is under a condition for every thread. The walk through a cell and the way into
  * the next cascade, which few steps take, have loops of their own around that over steps: threads wait for
- * one another, and take them together. */
+ * one another, and take them together. Steps and results are those of the loop for GPUs, which take longer in
+ * this form. */
 uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
-    const ivec3 signs = sdfgi_trace_signs(ray.dir);
+    const sdfgi_trace_way way = sdfgi_trace_way_of(query, ray);
     uint end = SDFGI_TRACE_CAPPED;
     bool goes_on, walks;
     do {
         do {
-            uint index = 0u;
+            uvec2 bits = uvec2(0u);
             goes_on = walks = false;
             while (ray.steps < SDFGI_TRACE_STEP_CAP) {
                 ray.steps++;
@@ -93,24 +97,26 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
                     end = goes_on ? end : SDFGI_TRACE_MISS;
                     break;
                 }
-                index = sdfgi_trace_cell_index(ray.volume, ray.cell);
-                const float distance = sdfgi_stored_distance(index);
-                const float step_length = min(sdfgi_trace_free_length(ray, distance), query.longest_step);
-                const bool leaps = step_length > SDFGI_TRACE_MIN_STEP;
-                walks = !leaps && distance < SDFGI_TRACE_OCCUPIED_DISTANCE;
+                bits = sdfgi_bits_at(sdfgi_trace_cell_index(ray.volume, ray.cell));
+                walks = !sdfgi_has_boxes(bits) && (bits.x | bits.y) != 0u;
                 if (walks)
                     break;
-                if (leaps)
-                    sdfgi_trace_leap(step_length, ray);
+                const ivec3 sides = sdfgi_trace_box(bits, way, ray.cell);
+                float t_exit;
+                const int exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
+                sdfgi_trace_leave_box(sides, exit_axis, max(ray.t, t_exit), way.forward, ray);
+            }
+            if (walks) {
+                const ivec3 sides = ray.cell + ivec3(way.forward);
+                float t_exit;
+                const int exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
+                t_exit = max(ray.t, t_exit);
+                walks = !sdfgi_trace_meets_subvoxel(bits, t_exit, ray);
+                if (walks)
+                    sdfgi_trace_leave_box(sides, exit_axis, t_exit, way.forward, ray);
                 else
-                    sdfgi_trace_leave_cell(signs, ray);
+                    end = sdfgi_trace_end(query, ray);
             }
-            if (walks && sdfgi_trace_cross_cell(index, ray)) {
-                end = sdfgi_trace_length(ray) >= query.range ? SDFGI_TRACE_MISS : SDFGI_TRACE_HIT;
-                walks = false;
-            }
-            if (walks)
-                ray.cell += sdfgi_trace_offset(signs, ray.axis);
         } while (walks);
         if (goes_on)
             sdfgi_trace_enter_coarser(query, ray);
@@ -120,25 +126,11 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 
 #else
 
-/* The cell in which a ray is when it has left a box that begins at its cell. Rounding must not lead it past
- * the edges of the box. */
-ivec3 sdfgi_trace_cell_after(ivec3 sides, bvec3 forward, sdfgi_trace_state ray)
-{
-    const ivec3 last = sides - ivec3(forward), beyond = sides - ivec3(not(forward)),
-                cell = clamp(ivec3(floor(ray.origin + ray.dir * ray.t)), min(ray.cell, last),
-                             max(ray.cell, last));
-    return ivec3(ray.axis == 0 ? beyond.x : cell.x, ray.axis == 1 ? beyond.y : cell.y,
-                 ray.axis == 2 ? beyond.z : cell.z);
-}
-
 /* Arithmetic is what GPUs spend most time on. So a cell with sub-voxels is crossed like a box of one cell:
- * all threads of a subgroup do the same then, but for the walk. An empty cell that holds no boxes yet is
- * crossed alone, as well. */
+ * all threads of a subgroup do the same then, but for the walk. */
 uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
 {
-    const bvec3 forward = greaterThan(ray.dir, vec3(0.0));
-    const bool is_limited = query.longest_step < float(SDFGI_BOX_REACH);
-    const int longest = int(min(query.longest_step, float(SDFGI_BOX_REACH)));
+    const sdfgi_trace_way way = sdfgi_trace_way_of(query, ray);
     for (int i = 0; i < SDFGI_TRACE_STEP_CAP; i++) {
         ray.steps++;
         if (sdfgi_trace_is_at_border(ray)) {
@@ -148,19 +140,13 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
             continue;
         }
         const uvec2 bits = sdfgi_bits_at(sdfgi_trace_cell_index(ray.volume, ray.cell));
-        const bool has_boxes = sdfgi_has_boxes(bits);
-        ivec3 box = sdfgi_box_sides(has_boxes ? bits : SDFGI_BOXES_OF_CELL, forward);
-        if (is_limited)
-            box = min(box, longest);
-        const ivec3 sides = ray.cell + mix(1 - box, box, forward);
+        const ivec3 sides = sdfgi_trace_box(bits, way, ray.cell);
         float t_exit;
         const int exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
         t_exit = max(ray.t, t_exit);
-        if (!has_boxes && sdfgi_trace_meets_subvoxel(bits, t_exit, ray))
-            return sdfgi_trace_length(ray) >= query.range ? SDFGI_TRACE_MISS : SDFGI_TRACE_HIT;
-        ray.axis = exit_axis;
-        ray.t = min(t_exit, ray.border);
-        ray.cell = sdfgi_trace_cell_after(sides, forward, ray);
+        if (!sdfgi_has_boxes(bits) && sdfgi_trace_meets_subvoxel(bits, t_exit, ray))
+            return sdfgi_trace_end(query, ray);
+        sdfgi_trace_leave_box(sides, exit_axis, t_exit, way.forward, ray);
     }
     return SDFGI_TRACE_CAPPED;
 }

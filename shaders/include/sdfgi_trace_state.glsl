@@ -88,8 +88,7 @@ void sdfgi_trace_enter_cascade(uint cascade, ivec3 base, vec3 origin, float rang
     ray.border = sdfgi_cell_is_valid(cascade, ray.cell + base) ? border : 0.0;
 }
 
-/* Distances do not include what lies beyond the cascade, so no step leads further than the border. Rounding
- * could put a place just before the border beyond it. */
+/* No step leads further than the border. Rounding could put a place just before the border beyond it. */
 void sdfgi_trace_leap(float step_length, inout sdfgi_trace_state ray)
 {
     const float t = ray.t + step_length;

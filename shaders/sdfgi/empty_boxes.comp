@@ -145,19 +145,57 @@ boxes best_boxes(ivec3 first, uint octant)
     return best;
 }
 
-/* A cell's words, from the digits of its octants: 0 in both if it is occupied. */
-uvec2 cell_words(uint word, uint cell)
+/* Transposes a square of eight rows of eight bits (Warren 2012, "Hacker's Delight", 7-3). */
+uvec2 transposed(uvec2 rows)
 {
-    uvec2 words = uvec2(0u);
-    for (uint octant = 0u; octant < OCTANTS; octant++) {
-        uint digits = 0u;
-        [[unroll]] for (uint d = 0u; d < DIGITS; d++)
-        {
-            digits |= (chosen[(word * OCTANTS + octant) * DIGITS + d] >> cell & 1u) << d;
-        }
-        words |= uvec2(digits & 15u, digits >> 4u) << uvec2(4u, 2u) * octant;
+    uvec2 swap = (rows ^ rows >> 7u) & 0x00aa00aau;
+    rows ^= swap ^ swap << 7u;
+    swap = (rows ^ rows >> 14u) & 0x0000ccccu;
+    rows ^= swap ^ swap << 14u;
+    swap.x = (rows.x ^ rows.y << 4u) & 0xf0f0f0f0u;
+    return rows ^ uvec2(swap.x, swap.x >> 4u);
+}
+
+/* A byte for each of eight cells: digits [first, first + count) of 8 / count octants, from `octant` on. */
+uvec2 bytes_of_cells(uint word, uint cell, uint octant, uint first, uint count)
+{
+    uvec2 rows = uvec2(0u);
+    [[unroll]] for (uint i = 0u; i < 8u; i++)
+    {
+        const uint digits = chosen[(word * OCTANTS + octant + i / count) * DIGITS + first + i % count];
+        rows[i / 4u] |= (digits >> cell & 255u) << 8u * (i % 4u);
     }
-    return words;
+    return transposed(rows);
+}
+
+/* Stores the boxes of eight cells, which lie side by side, because cascades scroll by as many. Octants of
+ * occupied cells have no digits. */
+void store_boxes(uint word, uint cell)
+{
+    uvec2 sizes[4], wide[2];
+    [[unroll]] for (uint i = 0u; i < 4u; i++)
+    {
+        sizes[i] = bytes_of_cells(word, cell, 2u * i, 0u, 4u);
+    }
+    [[unroll]] for (uint i = 0u; i < 2u; i++)
+    {
+        wide[i] = bytes_of_cells(word, cell, 4u * i, 4u, 2u);
+    }
+    const uint index = sdfgi_cell_index(args.cascade, word_cell(word) + ivec3(cell, 0, 0));
+    [[unroll]] for (uint i = 0u; i < 8u; i++)
+    {
+        uvec2 words = uvec2(0u, SDFGI_BOXES_MARK);
+        [[unroll]] for (uint k = 0u; k < 4u; k++)
+        {
+            words.x |= (sizes[k][i / 4u] >> 8u * (i % 4u) & 255u) << 8u * k;
+        }
+        [[unroll]] for (uint k = 0u; k < 2u; k++)
+        {
+            words.y |= (wide[k][i / 4u] >> 8u * (i % 4u) & 255u) << 8u * k;
+        }
+        if (words.x != 0u)
+            sdfgi_bits[index + i] = words;
+    }
 }
 
 void main()
@@ -170,10 +208,6 @@ void main()
         chosen[lane * DIGITS + SIZE_DIGITS + d] = best.wide[d];
     }
     barrier();
-    for (uint n = lane; n < 32u * WORDS; n += uint(SDFGI_GROUP_BOXES)) {
-        const uvec2 words = cell_words(n / 32u, n % 32u);
-        if (words.x != 0u)
-            sdfgi_bits[sdfgi_cell_index(args.cascade, word_cell(n / 32u) + ivec3(n % 32u, 0, 0))] =
-                uvec2(words.x, words.y | SDFGI_BOXES_MARK);
-    }
+    if (lane < 4u * WORDS)
+        store_boxes(lane / 4u, 8u * (lane % 4u));
 }

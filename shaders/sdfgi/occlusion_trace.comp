@@ -18,8 +18,7 @@ SDFGI_PUSH(sdfgi_cascade_args);
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
 /* A ray takes the same steps as before if no dirty box is within this distance of it, in cells: the diagonal
- * of the largest box that it crosses at once. That is more than distances reach: the longest step and its
- * margin, and twice the distance from a ray to the centre of its cell. */
+ * of the largest box that it crosses at once. */
 const float RAY_MARGIN = 1.7321 * SDFGI_TRACE_STABLE_STEP;
 /* Cells: farthest that a probe stands from its corner. */
 const float MOST_MOVED = 4.0;

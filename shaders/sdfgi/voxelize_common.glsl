@@ -401,21 +401,28 @@ void store_emitter(triangle t, ivec3 cell, uint bit)
     } while (++n < 3);
 }
 
+/* Sub-voxels of a cell's second word must not look like the mark of empty boxes: one more is set then.
+ * `bits`: those that the word has had since. */
+void keep_from_mark(uint cell, uint bits)
+{
+    if ((bits & SDFGI_BOXES_MARK) == SDFGI_BOXES_MARK)
+        atomicOr(sdfgi_bits[cell].y, SDFGI_BOXES_MARK_OTHER);
+}
+
 /* On a GPU a test spares the atomic, because many triangles may share a sub-voxel and their atomics would
  * wait for one another (HARD_CASES row 17). On a CPU each test and each branch takes as long as an atomic. */
 void store_bit(uint cell, uint bit)
 {
     const uint word_bit = 1u << (bit & 31u);
 #ifdef SDFGI_SOFTWARE
-    atomicOr(sdfgi_bits[cell][bit >> 5u], word_bit);
+    const uint bits = atomicOr(sdfgi_bits[cell][bit >> 5u], word_bit) | word_bit;
+    keep_from_mark(cell, bit < 32u ? 0u : bits);
 #else
     if (bit < 32u) {
         if ((sdfgi_bits_at(cell).x & word_bit) == 0u)
             atomicOr(sdfgi_bits[cell].x, word_bit);
     } else if ((sdfgi_bits_at(cell).y & word_bit) == 0u) {
-        const uint bits = atomicOr(sdfgi_bits[cell].y, word_bit) | word_bit;
-        if ((bits & SDFGI_BOXES_MARK) == SDFGI_BOXES_MARK)
-            atomicOr(sdfgi_bits[cell].y, SDFGI_BOXES_MARK_OTHER);
+        keep_from_mark(cell, atomicOr(sdfgi_bits[cell].y, word_bit) | word_bit);
     }
 #endif
 }

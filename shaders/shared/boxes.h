@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Empty boxes: for each octant, one that begins at an empty cell and leads into that octant, by which rays on
- * GPUs cross empty space. A box has a side of `size` cells, or twice as many, along each axis. It extends the
+ * Empty boxes: for each octant, one that begins at an empty cell and leads into that octant, by which rays
+ * cross empty space. A box has a side of `size` cells, or twice as many, along each axis. It extends the
  * chessboard distance per octant of Es and Isler 2007, "Accelerated regular grid traversals using extended
  * anisotropic chessboard distance fields on a parallel stream processor": their boxes are cubes.
  *

@@ -120,16 +120,19 @@ static double steps_of(struct gi_test *t, const double eye[static 3], int axis)
     return pow(512, debug_value_of(debug_look(t, SDFGI_DEBUG_STEPS, eye, axis)));
 }
 
-/* 2 m of air take a few steps of the field, and the cells before the wall one each. A ray that grazes the
- * floor walks from cell to cell: 16 of cascade 0 and 8 of cascade 1. */
-static void steps_are_few_in_air_and_many_beside_a_surface(void **state)
+/* 2 m of air take a few steps, and so does the air beside the floor. A ray within the floor walks from cell
+ * to cell, below the sub-voxels that each has: 16 of cascade 0 and 8 of cascade 1. */
+static void steps_are_few_in_air_and_many_beside_subvoxels(void **state)
 {
-    const double grazing[3] = { 0, -1.45, 3 };
-    const double straight = steps_of(*state, origin, 0), beside = steps_of(*state, grazing, 1);
+    const double grazing[3] = { 0, -1.45, 3 }, below[3] = { 0, -1.65, 3 };
+    const double straight = steps_of(*state, origin, 0), beside = steps_of(*state, grazing, 1),
+                 within = steps_of(*state, below, 1);
     REQUIRE_CMP(straight, >=, 2.0);
     REQUIRE_CMP(straight, <=, 8.0);
-    REQUIRE_CMP(beside, >=, 20.0);
-    REQUIRE_CMP(beside, <=, 48.0);
+    REQUIRE_CMP(beside, >=, 2.0);
+    REQUIRE_CMP(beside, <=, 8.0);
+    REQUIRE_CMP(within, >=, 20.0);
+    REQUIRE_CMP(within, <=, 48.0);
 }
 
 static void albedo_is_that_of_the_material(void **state)
@@ -192,7 +195,7 @@ TEST_GROUP(debug_views)
         cmocka_unit_test(distance_is_that_of_the_surface),
         cmocka_unit_test(the_slice_shows_distances_and_solid_bits),
         cmocka_unit_test(cascades_have_colours_of_their_own),
-        cmocka_unit_test(steps_are_few_in_air_and_many_beside_a_surface),
+        cmocka_unit_test(steps_are_few_in_air_and_many_beside_subvoxels),
         cmocka_unit_test(albedo_is_that_of_the_material),
         cmocka_unit_test(thin_walls_show_the_colour_of_the_side_that_is_seen),
         cmocka_unit_test(emission_is_shown_at_the_exposure),

@@ -110,14 +110,8 @@ static int compare(const struct module *module, const struct touches *touches)
     return wrong;
 }
 
-static bool is_for_software(const struct module *module)
-{
-    return strstr(module->name, "_software") != NULL;
-}
-
 /* A compute shader is a pipeline, and so is a fragment shader with its pass's vertex shader. A row names what
- * its shaders for rough lobes and for metal touch, too. GPUs need not touch all that software drivers do:
- * their rays read no distances. */
+ * its shaders for rough lobes and for metal touch, too. */
 static int compare_pipeline(const struct module *module)
 {
     const enum pass_kind kind = sdfgi_pass_row(module->pass)->kind;
@@ -125,8 +119,7 @@ static int compare_pipeline(const struct module *module)
     struct touches touches = { { 0 } };
     add_touches(&touches, module);
     for (size_t i = 0; i < module_count; i++)
-        if (modules[i].pass == module->pass && (is_union || is_vertex(&modules[i]) ||
-                                                (!is_for_software(module) && is_for_software(&modules[i]))))
+        if (modules[i].pass == module->pass && (is_union || is_vertex(&modules[i])))
             add_touches(&touches, &modules[i]);
     return compare(module, &touches);
 }

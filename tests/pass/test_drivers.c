@@ -86,7 +86,7 @@ static void hard_57_stages_of_integers_are_as_recorded(void **state)
         const enum resource resource = recorded[i].resource;
         uint64_t size;
         uint8_t *data = gi_test_read(&pass_context, resource, &size);
-        if (resource == RESOURCE_BITS) { /* without the empty cubes, which GPUs alone make */
+        if (resource == RESOURCE_BITS) { /* without empty boxes */
             free(data);
             data = (uint8_t *)gi_test_subvoxels(&pass_context);
         }

@@ -52,11 +52,6 @@ static bool needs_flood(const struct situation *s)
     return s->distances_due && s->flood;
 }
 
-static bool needs_boxes(const struct situation *s)
-{
-    return s->completes && !s->software;
-}
-
 static bool needs_occlusion(const struct situation *s)
 {
     return s->completes && s->occlusion;
@@ -141,8 +136,6 @@ static const struct need_row needs[NEED_COUNT] = {
                      "sdfgi_sdf_method is flood, or no distances are due" },
     [NEED_FLOOD] = { needs_flood, "a change calls for distances and sdfgi_sdf_method is flood",
                      "sdfgi_sdf_method is exact, or no distances are due" },
-    [NEED_BOXES] = { needs_boxes, "a change completes: rays cross its empty boxes",
-                     "no change of a cascade completes in this frame, or the device is a CPU" },
     [NEED_OCCLUSION] = { needs_occlusion, "a change completes, and lookups read depths around probes",
                          "lookups read no depths around probes, or no change completes in this frame" },
     [NEED_MASKS] = { needs_masks, "light cells are listed, and their visibility bits are read",

@@ -29,7 +29,6 @@ struct situation {
     bool shows;          /* probes show in this frame what they have gathered */
     bool converged;
     bool raster, flood, occlusion, masks; /* methods that the settings choose */
-    bool software;                        /* rays go by distances, and by no boxes */
 };
 
 struct situation_needs {

@@ -89,7 +89,6 @@ static void plan_scroll(struct frame *frame, const struct frame_input *input)
     frame->situation.voxels_due = sdfgi_scroll_plan_has(&frame->scroll, PIECE_VOXELS);
     frame->situation.distances_due = sdfgi_scroll_plan_has(&frame->scroll, PIECE_DISTANCES);
     frame->situation.completes = sdfgi_cascades_complete(&next->cascades);
-    frame->situation.software = input->software;
 }
 
 static bool scroll_completes(const struct frame *frame)

@@ -29,7 +29,6 @@ enum need {
     NEED_EMITTERS,
     NEED_EXACT,
     NEED_FLOOD,
-    NEED_BOXES,
     NEED_OCCLUSION,
     NEED_MASKS,
     NEED_DIRECT,

@@ -66,8 +66,7 @@ static inline uint64_t sdfgi_inspect_block(const struct sdfgi_inspect_cascade *c
 }
 
 /* What a cell of SDFGI_VOLUME_BITS holds, from its two words: bit x + 4 y + 16 z tells whether sub-voxel
- * (x, y, z) is set. Empty cells may have words that are not 0: GPUs keep there how far rays may go at once.
- */
+ * (x, y, z) is set. Empty cells may have words that are not 0, which tell how far rays may go at once. */
 static inline uint64_t sdfgi_inspect_bits(const uint32_t *cell)
 {
     const uint32_t marks_empty_cell = 0xa5a5u;
