@@ -89,6 +89,9 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
     do {
         do {
             uvec2 bits = uvec2(0u);
+            ivec3 sides = ivec3(0);
+            int exit_axis = 0;
+            float t_exit = 0.0;
             goes_on = walks = false;
             while (ray.steps < SDFGI_TRACE_STEP_CAP) {
                 ray.steps++;
@@ -98,25 +101,20 @@ uint sdfgi_trace_march(sdfgi_trace_query query, inout sdfgi_trace_state ray)
                     break;
                 }
                 bits = sdfgi_bits_at(sdfgi_trace_cell_index(ray.volume, ray.cell));
+                sides = sdfgi_trace_box(bits, way, ray.cell);
+                exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
+                t_exit = max(ray.t, t_exit);
                 walks = !sdfgi_has_boxes(bits) && (bits.x | bits.y) != 0u;
                 if (walks)
                     break;
-                const ivec3 sides = sdfgi_trace_box(bits, way, ray.cell);
-                float t_exit;
-                const int exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
-                sdfgi_trace_leave_box(sides, exit_axis, max(ray.t, t_exit), way.forward, ray);
+                sdfgi_trace_leave_box(sides, exit_axis, t_exit, way.forward, ray);
             }
-            if (walks) {
-                const ivec3 sides = ray.cell + ivec3(way.forward);
-                float t_exit;
-                const int exit_axis = sdfgi_trace_sides_exit(ray.origin, ray.inv_dir, vec3(sides), t_exit);
-                t_exit = max(ray.t, t_exit);
-                walks = !sdfgi_trace_meets_subvoxel(bits, t_exit, ray);
-                if (walks)
-                    sdfgi_trace_leave_box(sides, exit_axis, t_exit, way.forward, ray);
-                else
-                    end = sdfgi_trace_end(query, ray);
+            if (walks && sdfgi_trace_meets_subvoxel(bits, t_exit, ray)) {
+                end = sdfgi_trace_end(query, ray);
+                walks = false;
             }
+            if (walks)
+                sdfgi_trace_leave_box(sides, exit_axis, t_exit, way.forward, ray);
         } while (walks);
         if (goes_on)
             sdfgi_trace_enter_coarser(query, ray);

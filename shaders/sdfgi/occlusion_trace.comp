@@ -18,7 +18,8 @@ SDFGI_PUSH(sdfgi_cascade_args);
 const int N = SDFGI_OCCLUSION_TEXELS;
 const uint TEXELS = uint(N * N);
 /* A ray takes the same steps as before if no dirty box is within this distance of it, in cells: the diagonal
- * of the largest box that it crosses at once. */
+ * of the longest step. Whether that is free depends on no cell beyond it; where it is not, boxes have sides
+ * of four cells at most, and none of their cells is so far from the first. */
 const float RAY_MARGIN = 1.7321 * SDFGI_TRACE_STABLE_STEP;
 /* Cells: farthest that a probe stands from its corner. */
 const float MOST_MOVED = 4.0;

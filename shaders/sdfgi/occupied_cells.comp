@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Which cells of a cascade hold a set sub-voxel: a bit each, from which empty_cubes finds empty
- * cubes. A thread looks at eight cells along x, and four threads share a word. */
+ * Which cells of a cascade hold a set sub-voxel: a bit each, from which empty_cubes finds empty cubes. A
+ * thread looks at eight cells along x, and four threads share a word. */
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
