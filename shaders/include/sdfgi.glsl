@@ -25,8 +25,8 @@ vec3 sdfgi_irradiance(vec3 position, vec3 normal, vec3 to_eye)
         return vec3(0.0);
     const float to_watts = 3.14159265 * sdfgi_frame.exposure_inverse * sdfgi_frame.energy;
     const vec3 unit = sdfgi_lookup_unit(normal);
-    const sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, sdfgi_lookup_position(position),
-                                                        unit, sdfgi_lookup_to_eye(to_eye, unit));
+    const sdfgi_lookup_query query = sdfgi_lookup_query(
+        SDFGI_LOOKUP_SURFACE, 0u, sdfgi_lookup_position(position), unit, sdfgi_lookup_to_eye(to_eye, unit));
     return to_watts * sdfgi_lookup(query).rgb;
 }
 

@@ -21,10 +21,11 @@ float sdfgi_lookup_cascade_weight(uint cascade, vec3 pos)
 
 /* What is looked up at a point. */
 struct sdfgi_lookup_query {
-    uint what;   /* SDFGI_LOOKUP_* */
-    vec3 pos;    /* in cell space of cascade 0 */
-    vec3 normal; /* of the surface at the point */
-    vec3 to_eye; /* to the viewer, in metres */
+    uint what;    /* SDFGI_LOOKUP_* */
+    uint cascade; /* the finest one that may answer */
+    vec3 pos;     /* in cell space of cascade 0 */
+    vec3 normal;  /* of the surface at the point */
+    vec3 to_eye;  /* to the viewer, in metres */
 };
 
 const uint SDFGI_LOOKUP_SURFACE = 0u; /* irradiance over pi of a surface: light cells answer, else probes */
@@ -71,20 +72,20 @@ vec4 sdfgi_lookup_cascade(uint cascade, vec3 pos, sdfgi_lookup_query query)
 }
 
 /* Light times exposure, of all cascades and of what lies beyond them, in rgb; 1 in a, or 0 where nothing is
- * known. */
+ * known. Light that leaves a surface is that of one cascade: where two hand over, a ray of each hits one. */
 vec4 sdfgi_lookup(sdfgi_lookup_query query)
 {
     vec3 result = vec3(0.0);
     float rest = 1.0;    /* weight that the cascades so far have left */
     float outside = 1.0; /* weight of what lies beyond the last cascade */
-    uint c = 0u;
+    uint c = query.cascade;
     /* In a round, the next cascade around the point answers, which may be another one for other threads. */
     for (;;) {
         vec3 pos = query.pos;
         float weight = 0.0;
         for (; c < sdfgi_frame.cascade_count && weight <= 0.0; c++) {
             pos = sdfgi_cascade_from_first(c, query.pos);
-            weight = sdfgi_lookup_cascade_weight(c, pos);
+            weight = query.what == SDFGI_LOOKUP_LEAVING ? 1.0 : sdfgi_lookup_cascade_weight(c, pos);
         }
         if (weight <= 0.0)
             break;

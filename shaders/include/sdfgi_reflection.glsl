@@ -34,13 +34,13 @@ sdfgi_surface_light sdfgi_lighting(vec3 position, vec3 normal, vec3 to_eye, floa
     const float size = abs(roughness), rough_or_1 = size < 1.0 ? size : 1.0;
     const vec3 dir = sdfgi_reflection_direction(unit, eye, rough_or_1);
     const float share = sdfgi_reflection_ray_share(rough_or_1);
-    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
+    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
     if (share > 0.0)
         ray = sdfgi_reflection_trace(pos, unit, dir);
     vec3 rough = vec3(0.0), light = ray.light;
     float answers = 1.0; /* of the lobe, over that to even light */
-    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, pos, unit, eye);
+    sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_SURFACE, 0u, pos, unit, eye);
     float weight = 1.0;
     /* The surface first, then what the ray hit. One loop, so that drivers compile the lookup once. */
     for (uint i = 0u; i < 3u && weight > 0.0; i++) {

@@ -23,7 +23,7 @@
 /* A surface that a ray hit. */
 struct sdfgi_reflection_hit {
     vec3 pos; /* just below the surface, in cell space of cascade 0 */
-    uint axis;
+    uint cascade, axis;
     float distance_m;
     float weight;
 };
@@ -101,7 +101,7 @@ void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at,
 {
     const vec3 below = at - 0.01 * vec3(sdfgi_axis_direction(hit.axis));
     const sdfgi_reflection_hit surface =
-        sdfgi_reflection_hit(sdfgi_first_from_cascade(cascade, below), hit.axis, distance_m, weight);
+        sdfgi_reflection_hit(sdfgi_first_from_cascade(cascade, below), cascade, hit.axis, distance_m, weight);
     if (ray.first.weight <= 0.0)
         ray.first = surface;
     else if (ray.second.weight < weight)
@@ -114,7 +114,7 @@ void sdfgi_reflection_add(inout sdfgi_reflection_ray ray, uint cascade, vec3 at,
  * counts by its weight at what it hit: nothing jumps while cascades move. */
 sdfgi_reflection_ray sdfgi_reflection_trace(vec3 pos_first, vec3 normal, vec3 dir)
 {
-    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0.0, 0.0);
+    const sdfgi_reflection_hit none = sdfgi_reflection_hit(vec3(0.0), 0u, 0u, 0.0, 0.0);
     sdfgi_reflection_ray ray = sdfgi_reflection_ray(none, none, vec3(0.0), 0.0);
     sdfgi_reflection_rest rest = sdfgi_reflection_begin();
     while (sdfgi_reflection_goes_on(rest)) {
@@ -156,8 +156,8 @@ float sdfgi_reflection_ray_share(float roughness)
  * what tells it. */
 sdfgi_lookup_query sdfgi_reflection_leaving(sdfgi_reflection_hit hit, vec3 dir)
 {
-    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.pos, vec3(sdfgi_axis_direction(hit.axis)),
-                              -dir * hit.distance_m);
+    return sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, hit.cascade, hit.pos,
+                              vec3(sdfgi_axis_direction(hit.axis)), -dir * hit.distance_m);
 }
 
 #endif

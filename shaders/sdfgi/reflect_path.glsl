@@ -8,19 +8,20 @@
 #include "metal.glsl"
 #include "../include/sdfgi_reflection_rays.glsl"
 
-/* Albedo in the upper bits of a word: ten a channel, but nine of blue. */
-const vec3 ALBEDO_STEPS = vec3(1023.0, 1023.0, 511.0);
-const uint ALBEDO_WHITE = ~7u;
+/* Albedo in the upper bits of a word: nine a channel, but eight of blue. */
+const vec3 ALBEDO_STEPS = vec3(511.0, 511.0, 255.0);
+const uvec3 ALBEDO_SHIFTS = uvec3(6u, 15u, 24u);
+const uint ALBEDO_WHITE = ~63u;
 
 uint albedo_pack(vec3 albedo)
 {
-    const uvec3 steps = uvec3(clamp(albedo, 0.0, 1.0) * ALBEDO_STEPS + 0.5) << uvec3(3u, 13u, 23u);
+    const uvec3 steps = uvec3(clamp(albedo, 0.0, 1.0) * ALBEDO_STEPS + 0.5) << ALBEDO_SHIFTS;
     return steps.x | steps.y | steps.z;
 }
 
 vec3 albedo_unpack(uint word)
 {
-    return vec3(uvec3(word) >> uvec3(3u, 13u, 23u) & uvec3(ALBEDO_STEPS)) / ALBEDO_STEPS;
+    return vec3(uvec3(word) >> ALBEDO_SHIFTS & uvec3(ALBEDO_STEPS)) / ALBEDO_STEPS;
 }
 
 /* Just below a surface that was hit at `at`. */
@@ -48,18 +49,19 @@ vec3 end_emission(vec3 at, sdfgi_trace_hit hit, uint block)
 struct reflect_end {
     vec3 pos;         /* in cell space of cascade 0 */
     uvec2 way_share;  /* half floats: from the ray's beginning, see end_way; and the share of the light */
-    uint albedo_axis; /* albedo of metal on the way, and the axis of the face */
+    uint albedo_face; /* albedo of metal on the way; three bits each: the cascade, and the axis of the face */
 };
 
 /* Cell widths of cascade 0: no way needs to be longer. Beyond SDFGI_CELLS_REACH of any cascade only its
  * direction counts. */
 const float LONGEST_WAY = 1000.0;
 
-reflect_end end_pack(vec3 pos, vec3 way, float share, uint albedo, uint axis)
+reflect_end end_pack(vec3 pos, vec3 way, float share, uint albedo, sdfgi_trace_hit hit)
 {
     const float longest_m = LONGEST_WAY * sdfgi_frame.cascades[0].cell_m;
     const vec3 near = way * (LONGEST_WAY / max(length(way), longest_m));
-    return reflect_end(pos, uvec2(packHalf2x16(near.xy), packHalf2x16(vec2(near.z, share))), axis | albedo);
+    return reflect_end(pos, uvec2(packHalf2x16(near.xy), packHalf2x16(vec2(near.z, share))),
+                       albedo | hit.cascade << 3u | hit.axis);
 }
 
 /* In metres. */
@@ -160,9 +162,9 @@ void add_hit(reflect_ray ray, sdfgi_trace_hit hit, bool beyond, float off_m, flo
     if (!beyond && is_metal(block))
         add_metal(reflect_metal(block, hit.axis, off_m, length_m, share), found);
     else
-        add_end(end_pack(sdfgi_first_from_cascade(hit.cascade, at), ray.dir * length_m, share, ray.albedo,
-                         hit.axis),
-                found);
+        add_end(
+            end_pack(sdfgi_first_from_cascade(hit.cascade, at), ray.dir * length_m, share, ray.albedo, hit),
+            found);
 }
 
 /* Sends a ray from a surface point, as sdfgi_reflection_trace does, and then on from metal. One loop, so that
@@ -209,9 +211,10 @@ vec3 reflect_light(reflect_found found)
     vec3 light = found.light;
     reflect_end end = found.first;
     for (uint i = 0u; i < 2u && end_share(end) > 0.0; i++) {
-        const vec3 normal = vec3(sdfgi_axis_direction(end.albedo_axis & 7u));
-        light += end_share(end) * albedo_unpack(end.albedo_axis) *
-                 sdfgi_lookup(sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, end.pos, normal, -end_way(end))).rgb;
+        const vec3 normal = vec3(sdfgi_axis_direction(end.albedo_face & 7u));
+        const sdfgi_lookup_query query = sdfgi_lookup_query(SDFGI_LOOKUP_LEAVING, end.albedo_face >> 3u & 7u,
+                                                            end.pos, normal, -end_way(end));
+        light += end_share(end) * albedo_unpack(end.albedo_face) * sdfgi_lookup(query).rgb;
         end = found.second;
     }
     return light;
