@@ -46,6 +46,9 @@
 /* Added to each weight, so that a cell that is alone counts although the point lies on the edge of its
  * reach. */
 #define SDFGI_CELLS_LEAST_WEIGHT 1e-4
+/* How much light counts that leaves no surface: where surfaces of a light cell face along other axes alone,
+ * their mean stands for it. It tells where nothing else does. */
+#define SDFGI_CELLS_STAND_IN 1e-5
 
 /* ---- The list of light cells */
 
@@ -100,7 +103,7 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, float weight, uint 
 #endif
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING) {
-        const float counts = arriving == SDFGI_SURFACE_NONE ? 0.0 : weight;
+        const float counts = arriving == SDFGI_SURFACE_NONE ? SDFGI_CELLS_STAND_IN * weight : weight;
         return vec4(sdfgi_rgbe_decode_weighted(sdfgi_light_at(index), counts), counts);
     }
 #endif
@@ -112,19 +115,6 @@ vec4 sdfgi_cell_surface(uint cascade, uint entry, uint axis, float weight, uint 
 float sdfgi_cells_share_around(float along)
 {
     return max(along + 0.5, 0.0);
-}
-
-/* Light of a light cell for a surface that is smaller than a cell, times weight, in rgb; its weight in a.
- * The surface faces along none of its cell's axes: those around it stand for it, those that face away
- * excepted. */
-vec4 sdfgi_cell_around(uint cascade, uint entry, vec3 normal, uint what)
-{
-    vec4 sum = vec4(0.0);
-    for (uint axis = SDFGI_FIRST; axis < 6u; axis++) {
-        const float along = sdfgi_trace_component(normal, int(axis >> 1u)) * ((axis & 1u) == 0u ? 1.0 : -1.0);
-        sum += sdfgi_cell_surface(cascade, entry, axis, sdfgi_cells_share_around(along), what);
-    }
-    return sum;
 }
 
 /* ---- The point from which a surface point reads */
@@ -417,15 +407,6 @@ vec4 sdfgi_cells_leaving(uint cascade, vec3 at, vec3 normal)
     return sum;
 }
 
-/* The same at a thing smaller than a cell: of all surfaces of the point's cell. */
-vec4 sdfgi_cells_leaving_around(uint cascade, vec3 at, vec3 normal)
-{
-    uint entry;
-    return sdfgi_cell_entry(cascade, ivec3(floor(at)), entry)
-               ? sdfgi_cell_around(cascade, entry, normal, SDFGI_CELLS_LEAVING)
-               : vec4(0.0);
-}
-
 #endif
 
 /* What a lookup reads around a place. `around`: from all surfaces that do not face away. */
@@ -433,8 +414,7 @@ vec4 sdfgi_cells_read(uint cascade, sdfgi_cells_place place, vec3 normal, bool a
 {
 #ifdef SDFGI_REFLECTIONS
     if (what == SDFGI_CELLS_LEAVING)
-        return around ? sdfgi_cells_leaving_around(cascade, place.at, normal)
-                      : sdfgi_cells_leaving(cascade, place.at, normal);
+        return sdfgi_cells_leaving(cascade, place.at, normal);
 #endif
     return sdfgi_cells_interpolate(cascade, place, normal, around, what);
 }
@@ -453,14 +433,16 @@ vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, i
                     low, high);
     const bool middle_empty = sdfgi_cell_is_empty(cascade, ivec3(floor(middle)));
     uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-    in_air = sdfgi_cell_is_empty(cascade, ivec3(floor(surface)));
+    /* What a ray has hit is not in the air, and is tried at no place that moves: drivers leave both out. */
+    const bool was_hit = what == SDFGI_CELLS_LEAVING;
+    in_air = !was_hit && sdfgi_cell_is_empty(cascade, ivec3(floor(surface)));
     if (in_air && bits != uvec2(0u)) {
         at = surface;
         bits = uvec2(0u);
     }
     bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
     sdfgi_cells_place read = sdfgi_cells_place(at, SDFGI_CELLS_ALL_FACES, false);
-    if (found && i < 0 && !in_air) {
+    if (!was_hit && found && i < 0 && !in_air) {
         const uint open = bits == uvec2(0u) ? SDFGI_CELLS_ALL_FACES : sdfgi_cells_open_faces(bits, at);
         read = sdfgi_cells_move(at, bits, open, middle, middle_empty);
         if (read.in_solid)

@@ -101,14 +101,26 @@ vec3 shown_light(vec3 stored)
     return debug_tone(stored * (sdfgi_frame.exposure_inverse * args.exposure));
 }
 
+/* Irradiance times weight, in rgb, and its weight in a, for a surface that is smaller than a cell and faces
+ * along none of its cell's axes: those around it stand for it, those that face away excepted. */
+vec4 light_around(uint cascade, uint entry, vec3 normal)
+{
+    vec4 sum = vec4(0.0);
+    for (uint axis = SDFGI_FIRST; axis < 6u; axis++) {
+        const float along = sdfgi_trace_component(normal, int(axis >> 1u)) * ((axis & 1u) == 0u ? 1.0 : -1.0);
+        sum +=
+            sdfgi_cell_surface(cascade, entry, axis, sdfgi_cells_share_around(along), SDFGI_CELLS_ARRIVING);
+    }
+    return sum;
+}
+
 /* Irradiance over pi times exposure of the surface that was hit, and 1 in a; 0 if none is known. */
 vec4 arriving_light(surface_hit hit)
 {
     const vec4 facing = sdfgi_cell_surface(hit.cascade, hit.entry, hit.axis, 1.0, SDFGI_CELLS_ARRIVING);
     if (facing.a > 0.0)
         return facing;
-    const vec4 around =
-        sdfgi_cell_around(hit.cascade, hit.entry, vec3(sdfgi_axis_direction(hit.axis)), SDFGI_CELLS_ARRIVING);
+    const vec4 around = light_around(hit.cascade, hit.entry, vec3(sdfgi_axis_direction(hit.axis)));
     return around.a > 0.0 ? vec4(around.rgb / around.a, 1.0) : vec4(0.0);
 }
 
