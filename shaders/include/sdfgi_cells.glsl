@@ -433,14 +433,15 @@ vec4 sdfgi_cells_try(uint cascade, vec3 pos, vec3 normal, vec3 eye, uint what, i
                     low, high);
     const bool middle_empty = sdfgi_cell_is_empty(cascade, ivec3(floor(middle)));
     uvec2 bits = sdfgi_cell_bits(cascade, ivec3(floor(at)));
-    /* What a ray has hit is not in the air, and is tried at no place that moves: drivers leave both out. */
+    /* What a ray has hit is not in the air, and is tried at no place that moves, nor near one in a set
+     * sub-voxel: drivers leave that out. */
     const bool was_hit = what == SDFGI_CELLS_LEAVING;
     in_air = !was_hit && sdfgi_cell_is_empty(cascade, ivec3(floor(surface)));
     if (in_air && bits != uvec2(0u)) {
         at = surface;
         bits = uvec2(0u);
     }
-    bool found = sdfgi_cells_unset(cascade, normal, eye, at, bits);
+    bool found = was_hit ? !sdfgi_cells_is_set(bits, at) : sdfgi_cells_unset(cascade, normal, eye, at, bits);
     sdfgi_cells_place read = sdfgi_cells_place(at, SDFGI_CELLS_ALL_FACES, false);
     if (!was_hit && found && i < 0 && !in_air) {
         const uint open = bits == uvec2(0u) ? SDFGI_CELLS_ALL_FACES : sdfgi_cells_open_faces(bits, at);

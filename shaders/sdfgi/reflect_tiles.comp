@@ -17,9 +17,10 @@ const float ENOUGH_LIKE = 0.4;
 const int SIDE = SDFGI_GROUP_TILES / SDFGI_GROUP_PIXELS;
 const uint TILES = uint(SIDE * SIDE);
 
-shared uint rays, first_ray;         /* of these tiles; their first place in the list */
 shared uint is_filtered, first_tile; /* a bit for each tile that the filter takes; place of the first */
 shared uint senders[2u * TILES];     /* a bit for each pixel that sends a ray, two words a tile */
+shared uint first_ray;               /* place of the first of these rays */
+shared uint rays_before[2u * TILES]; /* how many of them are in words before each */
 
 /* True if a pixel sends a ray of its own. */
 bool sends_ray(ivec2 pixel, picture_surface s, float roughness)
@@ -86,9 +87,19 @@ uint density(uint tile)
     return args.ray_step > 1u && dense ? PICTURE_DENSE : 0u;
 }
 
+/* How many rays the words before one have. */
+uint count_rays_before(uint word)
+{
+    uint sum = 0u;
+    for (uint i = 0u; i < word; i++)
+        sum += uint(bitCount(senders[i]));
+    return sum;
+}
+
 /* Makes room for the tiles and their rays. */
 void make_room()
 {
+    const uint rays = count_rays_before(2u * TILES);
     if (gl_WorkGroupID.xy == uvec2(0u))
         for (uint i = 1u; i <= 2u; i++)
             sdfgi_tiles[uint(SDFGI_TILES_RAYS) + i] = sdfgi_tiles[uint(SDFGI_TILES_TILES) + i] = 1u;
@@ -109,28 +120,36 @@ void list_tile(uint tile)
         sdfgi_tiles[picture_tile_word(first_tile + uint(bitCount(before)))] = picture_pack(tile_at(tile));
 }
 
+/* Lists the ray of this thread's pixel of a tile, if it sends one. Rays are in the order of their pixels:
+ * those of a subgroup go similar ways. */
+void list_ray(uint tile)
+{
+    const uint i = gl_LocalInvocationIndex, word = 2u * tile + (i >> 5u), bit = 1u << (i & 31u),
+               sending = senders[word];
+    if ((sending & bit) != 0u)
+        sdfgi_tiles[picture_ray_word(first_ray + rays_before[word] + uint(bitCount(sending & bit - 1u)))] =
+            picture_pack(pixel_of(tile)) | density(tile);
+}
+
 void main()
 {
-    if (gl_LocalInvocationIndex == 0u)
-        rays = is_filtered = 0u;
-    if (gl_LocalInvocationIndex < 2u * TILES)
-        senders[gl_LocalInvocationIndex] = 0u;
+    const uint i = gl_LocalInvocationIndex;
+    if (i == 0u)
+        is_filtered = 0u;
+    if (i < 2u * TILES)
+        senders[i] = 0u;
     barrier();
-    uint ray[TILES], sends = 0u; /* a bit per tile */
     for (uint tile = 0u; tile < TILES; tile++)
-        if (look_at(tile)) {
-            ray[tile] = atomicAdd(rays, 1u);
-            sends |= 1u << tile;
+        if (look_at(tile))
             note_sender(tile);
-        }
     barrier();
-    if (gl_LocalInvocationIndex == 0u)
+    if (i == 0u)
         make_room();
+    if (i < 2u * TILES)
+        rays_before[i] = count_rays_before(i);
     barrier();
-    if (gl_LocalInvocationIndex < TILES)
-        list_tile(gl_LocalInvocationIndex);
+    if (i < TILES)
+        list_tile(i);
     for (uint tile = 0u; tile < TILES; tile++)
-        if ((sends >> tile & 1u) != 0u)
-            sdfgi_tiles[picture_ray_word(first_ray + ray[tile])] =
-                picture_pack(pixel_of(tile)) | density(tile);
+        list_ray(tile);
 }
