@@ -149,17 +149,22 @@ static bool pipeline_build(struct host_device *device, const struct pipeline_des
                       "creating a graphics pipeline");
 }
 
-/* Constants of all shaders: lib/on_cpu.glsl. */
-static VkSpecializationInfo constants_of(const VkBool32 *on_cpu)
+/* Rays over the lobe of what is blended, such as glass: few pixels show it. */
+enum { BLENDED_LOBE_RAYS = 16 };
+
+/* Constants of shaders: `on_cpu` of lib/on_cpu.glsl, and `lobe_rays` of forward.frag. */
+static VkSpecializationInfo constants_of(const uint32_t *values)
 {
-    static const VkSpecializationMapEntry entry = { .constantID = 0, .size = sizeof(VkBool32) };
-    return (VkSpecializationInfo){ 1, &entry, sizeof *on_cpu, on_cpu };
+    static const VkSpecializationMapEntry entries[] = { { 0, 0, sizeof *values },
+                                                        { 1, sizeof *values, sizeof *values } };
+    return (VkSpecializationInfo){ HOST_COUNT(entries), entries, HOST_COUNT(entries) * sizeof *values,
+                                   values };
 }
 
 static bool pipeline_create(struct host_device *device, const struct pipeline_desc *desc, VkPipeline *out)
 {
-    const VkBool32 on_cpu = device->info.is_cpu;
-    const VkSpecializationInfo constants = constants_of(&on_cpu);
+    const uint32_t values[] = { device->info.is_cpu, desc->blend ? BLENDED_LOBE_RAYS : 1 };
+    const VkSpecializationInfo constants = constants_of(values);
     VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE;
     bool ok = module_create(device, desc->vertex, &vertex) &&
               (!desc->fragment.words || module_create(device, desc->fragment, &fragment));
@@ -441,8 +446,8 @@ bool host_pipeline_tonemap_create(struct host_device *device, const struct host_
 bool host_pipeline_compute_create(struct host_device *device, struct host_code code, VkPipelineLayout layout,
                                   VkPipeline *out)
 {
-    const VkBool32 on_cpu = device->info.is_cpu;
-    const VkSpecializationInfo constants = constants_of(&on_cpu);
+    const uint32_t values[] = { device->info.is_cpu, 1 };
+    const VkSpecializationInfo constants = constants_of(values);
     VkShaderModule module = VK_NULL_HANDLE;
     if (!module_create(device, code, &module))
         return false;

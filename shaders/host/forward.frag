@@ -16,6 +16,10 @@
 #ifdef HOST_GI
 #define SDFGI_SET HOST_SET_GI
 #ifdef HOST_RAYS
+layout(constant_id = 1) const uint lobe_rays = 1u;
+#define SDFGI_REFLECTION_RAYS lobe_rays
+/* Neighbouring pixels take other directions of a lobe. */
+#define SDFGI_REFLECTION_SHIFT bitfieldReverse(uint(gl_FragCoord.x) & 3u | (uint(gl_FragCoord.y) & 3u) << 2u)
 #include "sdfgi_reflection.glsl"
 #else
 #include "sdfgi.glsl"

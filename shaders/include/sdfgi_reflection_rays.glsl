@@ -11,6 +11,7 @@
 #include "sdfgi.glsl"
 #include "sdfgi_emission.glsl"
 #include "sdfgi_trace.glsl"
+#include "../lib/ggx.glsl"
 
 /* Cell widths along the normal from a surface to where its rays start: beyond its own sub-voxels, whose
  * diagonal is sqrt(3) / 4. */
@@ -151,6 +152,45 @@ float sdfgi_reflection_ray_share(float roughness)
 {
     return 1.0 - smoothstep(sdfgi_frame.rays_blend, sdfgi_frame.rays_end, roughness);
 }
+
+/* ---- Over a lobe */
+
+/* Roughness from which on lobes are wide in part, and wholly. */
+const vec2 SDFGI_REFLECTION_WIDE_LOBES = vec2(0.15, 0.3);
+/* The share of a narrow lobe to which rays keep, from its middle on. In the tail one ray of many meets a
+ * lamp, and few rays would show it as a dot. */
+const float SDFGI_REFLECTION_NARROW_SHARE = 0.9;
+/* Facets of smoother surfaces count as those of a mirror, which face one way: the fits are not as exact. */
+const float SDFGI_REFLECTION_MIRROR_ALPHA = 0.0025;
+
+/* What a facet of the surface reflects towards the viewer; it may lie below the surface. `point` in the unit
+ * square chooses the facet. */
+vec3 sdfgi_reflection_of_facet(vec3 normal, vec3 to_eye, float roughness, vec2 point)
+{
+    const float wide = smoothstep(SDFGI_REFLECTION_WIDE_LOBES.x, SDFGI_REFLECTION_WIDE_LOBES.y, roughness);
+    return sdfgi_ggx_reflected(normal, to_eye, roughness * roughness,
+                               point * vec2(1.0, mix(SDFGI_REFLECTION_NARROW_SHARE, 1.0, wide)));
+}
+
+/* How much the facet of a dielectric that sends light from `dir` to the viewer reflects, over the mean of the
+ * lobe, which is what hosts multiply reflections by. At a small angle water mirrors lamps far off better than
+ * the sky above, and facets that lean hide each other: `is_hidden` says that they hide all of it. What metal
+ * reflects depends little on the angle. */
+float sdfgi_reflection_facet_share(vec3 normal, vec3 to_eye, float roughness, vec3 dir, bool is_hidden)
+{
+    const vec3 eye = normalize(to_eye);
+    const float alpha = roughness * roughness, n_v = clamp(dot(normal, eye), 0.01, 1.0),
+                n_l = clamp(dot(normal, dir), 0.001, 1.0),
+                of_facet = sqrt(clamp(0.5 + 0.5 * dot(eye, dir), 0.0, 1.0));
+    const float sent = sdfgi_ggx_dielectric(sdfgi_ggx_fresnel_weight(of_facet)) *
+                       sdfgi_ggx_unhidden(n_v, n_l, alpha),
+                mean = sdfgi_ggx_dielectric(sdfgi_ggx_mean_fresnel_weight(n_v, alpha)) *
+                       (1.0 - sdfgi_ggx_lost(n_v, alpha));
+    const float share = is_hidden ? 0.0 : sent / mean * sdfgi_ggx_kept(n_v, alpha);
+    return mix(1.0, share, min(alpha / SDFGI_REFLECTION_MIRROR_ALPHA, 1.0));
+}
+
+/* ---- What they meet */
 
 /* The query for the light that leaves a surface that a ray hit. Metal counts as diffuse: hosts do not bind
  * what tells it. */

@@ -14,8 +14,6 @@ const uint RAYS_COUNT = uint(SDFGI_TILES_RAYS) + 3u, TILES_COUNT = uint(SDFGI_TI
 /* Roughness of mirrors at most: their lobes are narrower than four pixels of 3e-6 rad, the least that the
  * filter takes. Where views are narrower, mirrors show single rays. */
 const float PICTURE_MIRROR = 0.0025;
-/* Roughness from which on the filter takes squares of squares in part, and wholly. */
-const vec2 PICTURE_WIDE_LOBES = vec2(0.15, 0.3);
 /* Roughness from which on every second pixel along each axis sends a ray, and every fourth. */
 const vec2 PICTURE_SPARSE_RAYS = vec2(0.55, 0.64);
 

@@ -17,7 +17,7 @@ layout(set = SDFGI_SET_VIEW, binding = SDFGI_BINDING_VIEW_DIFFUSE,
 
 /* Per run, roughness below which a pixel's own value is as good, and from which on neighbours count wholly.
  */
-const vec2 FIRST = vec2(0.01, 0.03), SECOND = PICTURE_WIDE_LOBES;
+const vec2 FIRST = vec2(0.01, 0.03), SECOND = SDFGI_REFLECTION_WIDE_LOBES;
 /* The same of the second run, by the width of the lobe over that of the square of squares. */
 const vec2 LOBE = vec2(0.25, 1.0);
 

@@ -18,12 +18,6 @@ const float LEAST_RISE = 0.02;
 const float DEEPEST = 0.15;
 /* Of the square of the way to a neighbouring pixel: that of the bend of a surface, at least, at an edge. */
 const float EVEN = 0.1;
-/* The share of a narrow lobe to which rays keep, from its middle on. In the tail one ray of many meets a
- * lamp, and a square of few rays would show it as a dot. */
-const float NARROW_SHARE = 0.9;
-
-/* Facets of smoother surfaces count as those of a mirror, which face one way: the fits are not as exact. */
-const float MIRROR_ALPHA = 0.0025;
 
 /* Cells: so far behind what a pixel shows is what was voxelised there. */
 const float BEHIND = 0.25;
@@ -35,14 +29,6 @@ vec2 pattern_point(ivec2 pixel)
     const uvec2 side = uvec2(SDFGI_RAYS_SIDE), at = uvec2(pixel) % side, square = uvec2(pixel) / side % side;
     const uint shift = bitfieldReverse(square.x + side.x * square.y);
     return sdfgi_random_r2(at.x + side.x * at.y, shift >> 4u);
-}
-
-/* What a facet of the pixel's surface reflects; it may lie below the surface. */
-vec3 facet_direction(vec2 point, picture_surface s, float roughness)
-{
-    const float wide = smoothstep(PICTURE_WIDE_LOBES.x, PICTURE_WIDE_LOBES.y, roughness);
-    return sdfgi_ggx_reflected(s.normal, s.to_eye, roughness * roughness,
-                               point * vec2(1.0, mix(NARROW_SHARE, 1.0, wide)));
 }
 
 /* True if the surface of a pixel is metal: the host says so, or the voxels do. */
@@ -59,24 +45,12 @@ bool shows_metal(ivec2 pixel, picture_surface s)
     return false;
 }
 
-/* How much the facet that sends light from `dir` to the viewer reflects, over the mean of the lobe, which is
- * what hosts multiply reflections by. At a small angle water mirrors lamps far off better than the sky above,
- * and facets that lean hide each other: `is_hidden` says that they hide all of it. What metal reflects
- * depends little on the angle. */
+/* See sdfgi_reflection_facet_share. */
 float facet_share(ivec2 pixel, picture_surface s, float roughness, vec3 dir, bool is_hidden)
 {
-    if (shows_metal(pixel, s))
-        return 1.0;
-    const vec3 eye = normalize(s.to_eye);
-    const float alpha = roughness * roughness, n_v = clamp(dot(s.normal, eye), 0.01, 1.0),
-                n_l = clamp(dot(s.normal, dir), 0.001, 1.0),
-                of_facet = sqrt(clamp(0.5 + 0.5 * dot(eye, dir), 0.0, 1.0));
-    const float sent = sdfgi_ggx_dielectric(sdfgi_ggx_fresnel_weight(of_facet)) *
-                       sdfgi_ggx_unhidden(n_v, n_l, alpha),
-                mean = sdfgi_ggx_dielectric(sdfgi_ggx_mean_fresnel_weight(n_v, alpha)) *
-                       (1.0 - sdfgi_ggx_lost(n_v, alpha));
-    const float share = is_hidden ? 0.0 : sent / mean * sdfgi_ggx_kept(n_v, alpha);
-    return mix(1.0, share, min(alpha / MIRROR_ALPHA, 1.0));
+    return shows_metal(pixel, s)
+               ? 1.0
+               : sdfgi_reflection_facet_share(s.normal, s.to_eye, roughness, dir, is_hidden);
 }
 
 /* From a point to the surface of another pixel; far away if there is none. */
@@ -136,7 +110,8 @@ void reflect_pixel(uint word)
     const bool is_dense = (word & PICTURE_DENSE) != 0u || !picture_is_on_grid(pixel, ray_step);
     const vec2 point = pattern_point(pixel / (is_dense ? picture_dense_step(roughness) : ray_step));
     bool even;
-    const vec3 face = face_normal(pixel, s, even), of_facet = facet_direction(point, s, roughness),
+    const vec3 face = face_normal(pixel, s, even),
+               of_facet = sdfgi_reflection_of_facet(s.normal, s.to_eye, roughness, point),
                of_lobe = sdfgi_ggx_above(of_facet, s.normal), dir = off_face(of_lobe, face);
     const float share = (even ? open_share(of_lobe, face) : 1.0) *
                         facet_share(pixel, s, roughness, dir, dot(of_facet, s.normal) <= 0.0);

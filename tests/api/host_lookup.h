@@ -9,7 +9,7 @@ enum { HOST_LOOKUP_ANSWERS = 5 };
 
 /* As host_lookup.comp has it. */
 struct host_lookup {
-    float position[3], roughness, normal[4], to_eye[4];
+    float position[3], roughness, normal[3], rays, to_eye[4];
     float answers[HOST_LOOKUP_ANSWERS][4]; /* two irradiances, a reflection, and the light of the air twice */
 };
 

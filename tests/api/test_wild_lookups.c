@@ -51,7 +51,8 @@ static void fill(struct host_lookup *lookup, uint32_t index)
     static const float normal[3] = { 0, 1, 0 }, to_eye[3] = { 0.5f, 1, 0.3f };
     const uint32_t vector = index % WILD_VECTORS, which = index / WILD_VECTORS % 4,
                    place = index / WILD_VECTORS / 4 % PLACES;
-    *lookup = (struct host_lookup){ .roughness = index & 1 ? 0 : wild_values[index / 2 % WILD] };
+    *lookup = (struct host_lookup){ .roughness = index & 1 ? 0 : wild_values[index / 2 % WILD],
+                                    .rays = (float)(index % 3) };
     memcpy(lookup->position, positions[place], sizeof lookup->position);
     memcpy(lookup->normal, normal, sizeof normal);
     memcpy(lookup->to_eye, to_eye, sizeof to_eye);
