@@ -155,7 +155,8 @@ float sdfgi_reflection_ray_share(float roughness)
 
 /* ---- Over a lobe */
 
-/* Roughness from which on lobes are wide in part, and wholly. */
+/* Roughness from which on lobes are wide in part, and wholly: a view's filter takes squares of squares then.
+ */
 const vec2 SDFGI_REFLECTION_WIDE_LOBES = vec2(0.15, 0.3);
 /* The share of a narrow lobe to which rays keep, from its middle on. In the tail one ray of many meets a
  * lamp, and few rays would show it as a dot. */

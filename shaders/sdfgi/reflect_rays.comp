@@ -45,7 +45,7 @@ bool shows_metal(ivec2 pixel, picture_surface s)
     return false;
 }
 
-/* See sdfgi_reflection_facet_share. */
+/* How much the facet counts that sends light from `dir`: by the angle, unless it is one of metal. */
 float facet_share(ivec2 pixel, picture_surface s, float roughness, vec3 dir, bool is_hidden)
 {
     return shows_metal(pixel, s)

@@ -341,8 +341,8 @@ static void shaders_of_hosts_answer_as_pictures_do(void **state)
 }
 
 /* Many rays over a lobe bring what a view makes of the rays of neighbouring pixels. They take the mean of
- * what a block emits, part of which is below the floor here, and a view has 256 directions. One ray, along
- * the middle of the lobe, does not meet the wall that stands beside what is seen from above. */
+ * what a block's side emits, and a view does not: that is 4 to 9 % here. One ray, along the middle of the
+ * lobe, does not meet the wall that stands beside what is seen from above. */
 static void rays_over_the_lobe_bring_what_pictures_show(void **state)
 {
     (void)state;
@@ -353,7 +353,7 @@ static void rays_over_the_lobe_bring_what_pictures_show(void **state)
         const float side = i % 2 ? 0 : -1;
         const double one = forward_over_picture(view, roughness[i / 2], side, 1).mean,
                      many = forward_over_picture(view, roughness[i / 2], side, 64).mean;
-        REQUIRE_CMP(fabs(many - 1), <=, 0.12);
+        REQUIRE_CMP(fabs(many - 1), <=, 0.1);
         REQUIRE_TRUE(side < 0 || one < 0.01);
     }
     part = &whole;
